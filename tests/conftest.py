@@ -1,0 +1,28 @@
+"""Enforces array shapes in every test, and finds the real data where it is present."""
+
+from pathlib import Path
+
+import pytest
+from beartype import BeartypeConf
+from jaxtyping import install_import_hook
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def checked(function_or_class):
+    """Check annotations with beartype, a whole number being fine where a float is asked for."""
+    from beartype import beartype
+
+    return beartype(conf=BeartypeConf(is_pep484_tower=True))(function_or_class)
+
+
+install_import_hook(["workbench.geometry", "workbench.algorithms", "workbench.data"], "tests.conftest.checked")
+
+
+@pytest.fixture(scope="session")
+def shared_data() -> Path:
+    """The folder of real data beside the project."""
+    folder = ROOT.parent / "shared" / "data"
+    if not folder.is_dir():
+        pytest.skip("real data (../shared/data) is not beside the project")
+    return folder

@@ -1,0 +1,1 @@
+"""Methods with steps: every one is a generator of frozen states."""

@@ -1,0 +1,1 @@
+"""Seeded synthetic data, and readers for files that people bring."""

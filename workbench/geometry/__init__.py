@@ -1,0 +1,1 @@
+"""Closed-form maths on arrays: no state, no steps, no display."""
