@@ -1,0 +1,282 @@
+"""Knobs: what a Params field says of itself, from which panels, command flags and links are generated.
+
+A Params class is a frozen dataclass whose fields are `Annotated[type, Knob(...)]`. Types: `float`, `int`, `bool`,
+`Literal[...]` of strings, `tuple` of a fixed number of floats or ints, `Path | None`.
+"""
+
+import dataclasses
+import functools
+import json
+import math
+import types
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+
+from workbench.errors import InputError
+
+P = TypeVar("P")
+
+
+@dataclass(frozen=True)
+class Gizmo:
+    """The field is also set by a handle in the scene.
+
+    The field is a tuple of floats: 3 are a position in metres, 6 a position and a rotation vector (radians), in the world.
+    """
+
+    size: float = 0.5
+
+
+@dataclass(frozen=True)
+class Pick:
+    """The field is also set by a click on the primitive at `path`.
+
+    The field is an int (the index of the nearest point or vertex), or a tuple of ints (the last so many clicks); on a
+    Picture a pair of ints is the pixel (u, v), column first.
+    """
+
+    path: str
+
+
+@dataclass(frozen=True)
+class Knob:
+    """How one input of a lesson is shown and set.
+
+    Args:
+        hint: One line that says what it does to the run.
+        low, high: The ends of the range, included; of every entry for tuples. Required for numbers.
+        unit: Written behind the value: `m`, `deg`, `px`. Degrees are converted in the first lines of `run`.
+        step: The slider's step; None picks a fine one.
+        label: The words on the control; None makes them from the field's name.
+        by: A Gizmo or a Pick where the scene sets it too.
+    """
+
+    hint: str
+    low: float | None = None
+    high: float | None = None
+    unit: str = ""
+    step: float | None = None
+    label: str | None = None
+    by: Gizmo | Pick | None = None
+
+
+Kind = Literal["float", "int", "bool", "choice", "floats", "ints", "path"]
+
+
+@dataclass(frozen=True)
+class Field:
+    """One field of a Params class, read: its name, kind, default, choices or length, and its knob."""
+
+    name: str
+    kind: Kind
+    default: Any
+    knob: Knob
+    choices: tuple[str, ...] = ()
+    length: int = 0
+
+    @property
+    def label(self) -> str:
+        """The words on the control."""
+        return self.knob.label or self.name.replace("_", " ").capitalize()
+
+    @property
+    def step(self) -> float:
+        """The slider's step."""
+        if self.knob.step is not None:
+            return self.knob.step
+        if self.kind in ("int", "ints"):
+            return 1
+        span = (self.knob.high or 0.0) - (self.knob.low or 0.0)
+        return 10.0 ** math.floor(math.log10(span / 99.0)) if span > 0 else 0.01
+
+    @property
+    def sensitive(self) -> bool:
+        """Whether a value from a browser must not be taken: it names a file of the machine that serves."""
+        return self.kind == "path"
+
+    def clean(self, value: Any, *, clamp: bool = False) -> Any:
+        """Return `value` as the field's type and inside its range.
+
+        Args:
+            value: Anything: from a browser, a link, a recording or a command line; text is parsed.
+            clamp: Move a number that is out of range to the nearer end instead of refusing it.
+
+        Raises:
+            InputError: One line that names the field, the value and what is allowed.
+        """
+        try:
+            return self._clean(value, clamp)
+        except InputError:
+            raise
+        except (TypeError, ValueError, OverflowError):
+            raise InputError(f"{self.name} = {_shown(value)}: {self._allowed()}") from None
+
+    def _clean(self, value: Any, clamp: bool) -> Any:
+        if self.kind == "path":
+            return None if value in (None, "", "None") else Path(value)
+        if self.kind == "bool":
+            if isinstance(value, str):
+                value = {"true": True, "1": True, "false": False, "0": False}[value.lower()] if value.lower() in (
+                    "true", "1", "false", "0") else value  # fmt: skip
+            if not isinstance(value, (bool, int)) or value not in (0, 1):
+                raise ValueError
+            return bool(value)
+        if self.kind == "choice":
+            if value not in self.choices:
+                raise ValueError
+            return value
+        if self.kind in ("floats", "ints"):
+            parts = value.split(",") if isinstance(value, str) else list(value)
+            if len(parts) != self.length:
+                raise ValueError
+            return tuple(self._number(part, self.kind == "ints", clamp) for part in parts)
+        return self._number(value, self.kind == "int", clamp)
+
+    def _number(self, value: Any, whole: bool, clamp: bool) -> float | int:
+        if isinstance(value, bool):
+            raise ValueError
+        number = float(value)
+        if not math.isfinite(number) or (whole and number != round(number) and not clamp):
+            raise ValueError
+        low, high = self.knob.low, self.knob.high
+        if clamp:
+            number = min(max(number, low if low is not None else number), high if high is not None else number)
+        elif (low is not None and number < low) or (high is not None and number > high):
+            raise ValueError
+        return round(number) if whole else number
+
+    def _allowed(self) -> str:
+        if self.kind == "bool":
+            return "true or false"
+        if self.kind == "choice":
+            return "one of " + ", ".join(self.choices)
+        unit = f" {self.knob.unit}" if self.knob.unit else ""
+        what = "a whole number" if self.kind in ("int", "ints") else "a number"
+        if self.kind in ("ints", "floats"):
+            what = f"{self.length} comma-separated numbers, each {what}"
+        return f"{what} from {_shown(self.knob.low)} to {_shown(self.knob.high)}{unit}"
+
+
+@functools.lru_cache(maxsize=128)
+def fields_of(params: type) -> tuple[Field, ...]:
+    """Read a Params class into its fields.
+
+    Raises:
+        TypeError: If the class is not a frozen dataclass of annotated fields with defaults; says which field and why.
+    """
+    if not dataclasses.is_dataclass(params) or not params.__dataclass_params__.frozen:  # type: ignore[attr-defined]
+        raise TypeError(f"{params.__name__} must be a frozen dataclass")
+    hints = get_type_hints(params, include_extras=True)
+    return tuple(_read(params, field, hints[field.name]) for field in dataclasses.fields(params))
+
+
+def _read(owner: type, field: dataclasses.Field, hint: Any) -> Field:
+    where = f"{owner.__name__}.{field.name}"
+    if get_origin(hint) is not Annotated:
+        raise TypeError(f"{where}: write Annotated[type, Knob(...)]")
+    declared, *extras = get_args(hint)
+    knob = next((extra for extra in extras if isinstance(extra, Knob)), None)
+    if knob is None:
+        raise TypeError(f"{where}: has no Knob")
+    if field.default is dataclasses.MISSING:
+        raise TypeError(f"{where}: needs a default")
+    kind, choices, length = _kind(where, declared)
+    if kind in ("float", "int", "floats", "ints") and (knob.low is None or knob.high is None or knob.low >= knob.high):
+        raise TypeError(f"{where}: a number needs Knob(hint, low, high) with low < high")
+    return Field(field.name, kind, field.default, knob, choices, length)
+
+
+def _kind(where: str, declared: Any) -> tuple[Kind, tuple[str, ...], int]:
+    simple: dict[Any, Kind] = {float: "float", int: "int", bool: "bool"}
+    if declared in simple:
+        return simple[declared], (), 0
+    origin, args = get_origin(declared), get_args(declared)
+    if origin is Literal and all(isinstance(arg, str) for arg in args):
+        return "choice", args, 0
+    if origin is tuple and args and set(args) <= {int}:
+        return "ints", (), len(args)
+    if origin is tuple and args and set(args) <= {float}:
+        return "floats", (), len(args)
+    if origin in (Union, types.UnionType) and set(args) == {Path, type(None)}:
+        return "path", (), 0
+    raise TypeError(
+        f"{where}: {declared} is none of float, int, bool, Literal of strings, tuple of numbers, Path | None"
+    )
+
+
+def make(params: type[P], values: Mapping[str, Any], *, base: P | None = None, clamp: bool = False) -> P:
+    """Return Params from loose values (a link, JSON, a browser), every one checked.
+
+    Args:
+        params: The Params class.
+        values: Field name to value; names that are missing keep the base's value.
+        base: What is changed; None means the defaults.
+        clamp: Move numbers that are out of range to the nearer end.
+
+    Raises:
+        InputError: On an unknown name or a value of the wrong kind or out of range.
+    """
+    fields = {field.name: field for field in fields_of(params)}
+    unknown = [name for name in values if name not in fields]
+    if unknown:
+        raise InputError(f"unknown parameter {unknown[0]!r}: this lesson has {', '.join(fields)}")
+    cleaned = {name: fields[name].clean(value, clamp=clamp) for name, value in values.items()}
+    try:
+        return dataclasses.replace(base if base is not None else params(), **cleaned)  # type: ignore[type-var]
+    except InputError:
+        raise
+    except ValueError as error:
+        raise InputError(str(error)) from None
+
+
+def check(params: Any) -> Any:
+    """Return the params when every field is inside its range; raise InputError with one line when one is not."""
+    return make(type(params), {field.name: getattr(params, field.name) for field in fields_of(type(params))})
+
+
+def to_json(params: Any) -> str:
+    """Return Params as JSON text, fields in order; paths become text."""
+    plain = {f.name: _plain(getattr(params, f.name)) for f in fields_of(type(params))}
+    return json.dumps(plain)
+
+
+def from_json(params: type[P], text: str) -> P:
+    """Return Params from `to_json`'s text.
+
+    Raises:
+        InputError: If the text is not a JSON object of this lesson's parameters.
+    """
+    try:
+        values = json.loads(text)
+    except ValueError:
+        values = None
+    if not isinstance(values, dict):
+        raise InputError("the parameters are not a JSON object")
+    return make(params, values)
+
+
+def changed(params: Any, base: Any = None) -> dict[str, str]:
+    """Return the fields that differ from the base (or the defaults), as the text a link or command line takes."""
+    base = type(params)() if base is None else base
+    return {
+        f.name: _text(getattr(params, f.name))
+        for f in fields_of(type(params))
+        if getattr(params, f.name) != getattr(base, f.name)
+    }
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, tuple):
+        return ",".join(_text(part) for part in value)
+    return f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else str(value)
+
+
+def _plain(value: Any) -> Any:
+    return str(value) if isinstance(value, Path) else list(value) if isinstance(value, tuple) else value
+
+
+def _shown(value: Any) -> str:
+    text = f"{value:g}" if isinstance(value, float) else repr(value)
+    return text if len(text) <= 40 else text[:39] + "…"

@@ -1,0 +1,189 @@
+"""A lesson: a page, Params, `run`, `draw`, presets and questions, as one value; and the catalogue of all lessons."""
+
+import functools
+import importlib
+import importlib.metadata
+import importlib.util
+import pkgutil
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import ModuleType
+from typing import Any, Generic, TypeVar
+
+from workbench.errors import InputError
+from workbench.knobs import check, fields_of
+from workbench.scene import Scene
+
+P = TypeVar("P")
+S = TypeVar("S")
+
+
+@dataclass(frozen=True)
+class View:
+    """How the scene is first seen: the eye, what it looks at, metres; +Z is up unless `up` says otherwise.
+
+    `grid` is the spacing of the ground grid in metres at height `grid_height`; None draws none. `flat` lessons live in
+    the plane z = 0 and are seen from above.
+    """
+
+    eye: tuple[float, float, float] = (2.0, -2.0, 1.5)
+    target: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    up: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    grid: float | None = 0.5
+    grid_height: float = 0.0
+    fov_degrees: float = 45.0
+
+
+@dataclass(frozen=True)
+class Preset(Generic[P]):
+    """A named set of params: what to look for, and why it happens, in one line.
+
+    `step` is where it opens: an index, negative counts from the end; None opens at the lesson's first step worth seeing.
+    """
+
+    name: str
+    title: str
+    line: str
+    params: P
+    step: int | None = None
+
+
+@dataclass(frozen=True)
+class Question(Generic[P, S]):
+    """Predict before reveal: a question whose right answer is read off a run.
+
+    Args:
+        name: Its key in a browser's memory.
+        text: The question.
+        choices: The possible answers; empty means a number is asked for.
+        answer: Reads the right answer off the run's states: an index into choices, or a number.
+        why: The sentence shown after answering, computed from the same states.
+        params: The run that answers it.
+        unit, tolerance: For numbers: the unit asked for, and how far off still counts as right.
+        step: Where the revealed run opens; None is its last step.
+    """
+
+    name: str
+    text: str
+    answer: Callable[[Sequence[S]], float]
+    why: Callable[[Sequence[S]], str]
+    params: P
+    choices: tuple[str, ...] = ()
+    unit: str = ""
+    tolerance: float = 0.0
+    step: int | None = None
+
+
+@dataclass(frozen=True)
+class Lesson(Generic[P, S]):
+    """One topic, whole.
+
+    Args:
+        name: Its folder's name and its name in links and commands.
+        title, summary: The heading, and one line for the course page.
+        page: Path of page.md.
+        params: The Params class; `params()` is the default run.
+        run: Yields states; takes params and, by keyword, the functions an exercise may replace.
+        draw: What one state looks like.
+        order: The place in the course.
+        first_step: Where the default run opens (negative counts from the end).
+    """
+
+    name: str
+    title: str
+    summary: str
+    page: Path
+    params: type[P]
+    run: Callable[..., Iterator[S]]
+    draw: Callable[[S], Scene]
+    order: int
+    view: View = field(default_factory=View)
+    presets: tuple[Preset[P], ...] = ()
+    questions: tuple[Question[P, S], ...] = ()
+    exercises: tuple[Any, ...] = ()
+    first_step: int = 0
+
+    def __post_init__(self) -> None:
+        fields_of(self.params)
+        names = [preset.name for preset in self.presets] + [question.name for question in self.questions]
+        if len(set(names)) != len(names):
+            raise ValueError(f"lesson {self.name}: two presets or questions share a name")
+
+    def preset(self, name: str) -> Preset[P]:
+        """Return a preset by name.
+
+        Raises:
+            InputError: If there is none; lists those there are.
+        """
+        for preset in self.presets:
+            if preset.name == name:
+                return preset
+        known = ", ".join(preset.name for preset in self.presets) or "none"
+        raise InputError(f"lesson {self.name} has no preset {name!r}; it has: {known}")
+
+    def check(self, params: P) -> P:
+        """Return params when they are this lesson's and in range; raise InputError otherwise."""
+        if not isinstance(params, self.params):
+            raise InputError(f"lesson {self.name} takes {self.params.__name__}, not {type(params).__name__}")
+        return check(params)
+
+
+@functools.cache
+def catalog() -> Mapping[str, Lesson]:
+    """Return all lessons by name, in course order: those of the `lessons` package, then of installed third parties.
+
+    A third party registers a lesson under the entry-point group `workbench.lessons`, as `name = "module:lesson"`.
+    """
+    found: list[Lesson] = []
+    lessons = importlib.import_module("lessons")
+    for info in pkgutil.iter_modules(lessons.__path__, "lessons."):
+        if info.ispkg:
+            found.append(_lesson_in(importlib.import_module(f"{info.name}.lesson")))
+    for entry in importlib.metadata.entry_points(group="workbench.lessons"):
+        found.append(entry.load())
+    by_name: dict[str, Lesson] = {}
+    for lesson in sorted(found, key=lambda lesson: (lesson.order, lesson.name)):
+        if lesson.name in by_name:
+            raise ValueError(f"two lessons are named {lesson.name!r}")
+        by_name[lesson.name] = lesson
+    return by_name
+
+
+def find(name: str) -> Lesson:
+    """Return a lesson by its name in the catalogue, or from a path to a single file that defines `lesson`.
+
+    Raises:
+        InputError: If there is no such lesson or the file cannot be used.
+    """
+    if name.endswith(".py"):
+        return _from_file(Path(name))
+    lessons = catalog()
+    if name not in lessons:
+        raise InputError(f"no lesson is named {name!r}; there are: {', '.join(lessons)}")
+    return lessons[name]
+
+
+def _from_file(path: Path) -> Lesson:
+    if not path.is_file():
+        raise InputError(f"{path}: no such file")
+    spec = importlib.util.spec_from_file_location(f"lesson_file_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise InputError(f"{path}: not a Python file")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    try:
+        spec.loader.exec_module(module)
+        return _lesson_in(module)
+    except InputError:
+        raise
+    except Exception as error:
+        raise InputError(f"{path}: {type(error).__name__}: {error}") from error
+
+
+def _lesson_in(module: ModuleType) -> Lesson:
+    lesson = getattr(module, "lesson", None)
+    if not isinstance(lesson, Lesson):
+        raise InputError(f"{module.__name__} defines no value `lesson` of type Lesson")
+    return lesson
