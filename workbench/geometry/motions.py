@@ -1,0 +1,121 @@
+"""Rigid motions: SO(3) and SE(3) with exp and log that hold at the identity and at half a turn.
+
+A motion `T_a_b` is 4x4 and takes points of frame b to frame a: `p_a = apply(T_a_b, p_b)`. A twist is (v, w): the
+translational part in metres first, then the rotation vector in radians.
+
+Reference: Solà, Deray and Atchuthan, A micro Lie theory for state estimation in robotics, 2018, appendices B and D.
+"""
+
+import numpy as np
+from jaxtyping import Float
+
+
+def motion(R: Float[np.ndarray, "3 3"], t: Float[np.ndarray, "3"]) -> Float[np.ndarray, "4 4"]:
+    """Return the 4x4 motion with this rotation and this translation in metres."""
+    T = np.eye(4)
+    T[:3, :3] = R
+    T[:3, 3] = t
+    return T
+
+
+def inverse(T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
+    """Return the inverse of a rigid motion, (R^T, -R^T t): of T_a_b it is T_b_a.
+
+    Note:
+        It is wrong for a motion that scales or shears; those want `np.linalg.inv`.
+    """
+    R = T[:3, :3]
+    return motion(R.T, -R.T @ T[:3, 3])
+
+
+def apply(T: Float[np.ndarray, "4 4"], p: Float[np.ndarray, "*n 3"]) -> Float[np.ndarray, "*n 3"]:
+    """Return the points moved by a motion or an affine map: T_a_b takes p_b to p_a."""
+    return p @ T[:3, :3].T + T[:3, 3]
+
+
+def rotation_angle(R: Float[np.ndarray, "3 3"]) -> float:
+    """Return the angle of a rotation in [0, pi] radians, exact at both ends.
+
+    The sine comes from the antisymmetric part and the cosine from the trace, so neither end loses digits as the
+    arc cosine alone does.
+    """
+    return float(np.arctan2(np.linalg.norm(_twice_vee(R)), np.trace(R) - 1.0))
+
+
+def skew(w: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
+    """Return the matrix whose product with x is the cross product w x x."""
+    return np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+
+
+def exp_so3(w: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
+    """Return the rotation by |w| radians about w (Rodrigues' formula).
+
+    Args:
+        w: Rotation vector, radians; zero gives the identity.
+    """
+    angle = np.linalg.norm(w)
+    W = skew(w)
+    return np.eye(3) + _sine_term(angle) * W + _cosine_term(angle) * W @ W
+
+
+def log_so3(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3"]:
+    """Return the rotation vector of R, of length at most pi, such that `exp_so3` gives R back.
+
+    Note:
+        At half a turn both signs of the axis are right, and one of them is returned.
+    """
+    w, *v = _unit_quaternion(R)
+    sine = np.linalg.norm(v)
+    if sine < 1e-12:  # the limit of the factor below; w is 1 to the last digit here
+        return 2.0 * np.array(v)
+    return 2.0 * np.arctan2(sine, w) / sine * np.array(v)
+
+
+def exp_se3(twist: Float[np.ndarray, "6"]) -> Float[np.ndarray, "4 4"]:
+    """Return the motion along a screw: twist = (v, w), metres and radians."""
+    v, w = twist[:3], twist[3:]
+    return motion(exp_so3(w), _left_jacobian(w) @ v)
+
+
+def log_se3(T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "6"]:
+    """Return the twist (v, w) of a rigid motion, such that `exp_se3` gives the motion back."""
+    w = log_so3(T[:3, :3])
+    return np.concatenate([np.linalg.solve(_left_jacobian(w), T[:3, 3]), w])
+
+
+def _sine_term(angle: float | np.floating) -> float:
+    """sin(a) / a, which is 1 at zero."""
+    return float(np.sinc(angle / np.pi))
+
+
+def _cosine_term(angle: float | np.floating) -> float:
+    """(1 - cos a) / a^2 = 2 sin^2(a/2) / a^2, which is 1/2 at zero and loses no digits near it."""
+    return 0.5 * float(np.sinc(0.5 * angle / np.pi)) ** 2
+
+
+def _left_jacobian(w: np.ndarray) -> np.ndarray:
+    """Return the matrix V of SE(3)'s exp (Solà et al., eq. 174)."""
+    angle = np.linalg.norm(w)
+    cubic = (angle - np.sin(angle)) / angle**3 if angle > 1e-3 else 1.0 / 6.0 - angle**2 / 120.0
+    W = skew(w)
+    return np.eye(3) + _cosine_term(angle) * W + cubic * W @ W
+
+
+def _twice_vee(R: np.ndarray) -> np.ndarray:
+    return np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+
+
+def _unit_quaternion(R: np.ndarray) -> np.ndarray:
+    """(w, x, y, z) with w >= 0, from its largest component, so that nothing is divided by a small number."""
+    x, y, z = _twice_vee(R)
+    a, b, c = np.diag(R)
+    four_q_times_q = np.array(  # row i is 4 q_i q
+        [
+            [1 + a + b + c, x, y, z],
+            [x, 1 + a - b - c, R[0, 1] + R[1, 0], R[2, 0] + R[0, 2]],
+            [y, R[0, 1] + R[1, 0], 1 - a + b - c, R[1, 2] + R[2, 1]],
+            [z, R[2, 0] + R[0, 2], R[1, 2] + R[2, 1], 1 - a - b + c],
+        ]
+    )
+    q = four_q_times_q[np.argmax(np.diag(four_q_times_q))]
+    return q / np.linalg.norm(q) * (1.0 if q[0] >= 0 else -1.0)

@@ -1,0 +1,82 @@
+"""Normals of a point cloud: the direction of least spread of each point's neighbours."""
+
+import numpy as np
+import scipy
+from jaxtyping import Float
+
+CHUNK = 4096
+
+
+def point_normals(
+    p: Float[np.ndarray, "n 3"], k: int = 16, viewpoint: Float[np.ndarray, "3"] | None = None
+) -> Float[np.ndarray, "n 3"]:
+    """Return one unit normal per point, by principal components of its k nearest points (itself included).
+
+    Args:
+        p: Points, metres.
+        k: Neighbours; fewer where the cloud has fewer points.
+        viewpoint: Normals face this point (a scanner's position). Left out, they face away from the mean of the points.
+
+    Raises:
+        ValueError: If there are fewer than 3 points, k is below 3, or a coordinate is not finite.
+
+    Note:
+        Collinear or coinciding neighbours leave the normal open: some unit vector orthogonal to the line, or any.
+
+    Reference: Hoppe, DeRose, Duchamp, McDonald and Stuetzle, Surface reconstruction from unorganized points, 1992,
+    section 3.2.
+    """
+    if len(p) < 3 or k < 3:
+        raise ValueError(f"normals need at least 3 points and 3 neighbours, not {len(p)} and {k}")
+    if not np.isfinite(p).all():
+        raise ValueError("a point is not finite; drop such points first")
+    tree = scipy.spatial.KDTree(p)
+    k = min(k, len(p))
+    normals = np.empty_like(p, dtype=float)
+    for start in range(0, len(p), CHUNK):  # in tree order, so that consecutive queries touch the same leaves
+        rows = tree.indices[start : start + CHUNK]
+        neighbours = np.asarray(tree.query(p[rows], k=k, workers=-1)[1])
+        normals[rows] = _least_directions(_covariances(p, rows, neighbours))
+    outwards = p - p.mean(axis=0) if viewpoint is None else viewpoint - p
+    return np.where(np.einsum("ij,ij->i", normals, outwards)[:, None] < 0, -normals, normals)
+
+
+def _covariances(p: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
+    """Return the six entries (xx, yy, zz, xy, xz, yz) of each neighbourhood's covariance, about the point itself first."""
+    x, y, z = (p[neighbours] - p[rows][:, None]).transpose(2, 0, 1)
+    x, y, z = x - x.mean(1, keepdims=True), y - y.mean(1, keepdims=True), z - z.mean(1, keepdims=True)
+    pairs = ((x, x), (y, y), (z, z), (x, y), (x, z), (y, z))
+    return np.stack([np.einsum("ij,ij->i", a, b) for a, b in pairs])
+
+
+def _least_directions(c: np.ndarray) -> np.ndarray:
+    """Return unit eigenvectors of the smallest eigenvalue of symmetric 3x3 matrices given as six rows of entries.
+
+    The smallest root of the characteristic polynomial in trigonometric form, then the longest cross product of two
+    rows of C - root I. Where that product is short (two small eigenvalues nearly equal), `eigh` decides.
+    """
+    size = np.maximum(c[:3].sum(axis=0), np.finfo(float).tiny)
+    a, b, d, e, f, g = c / size
+    third = (a + b + d) / 3.0
+    a, b, d = a - third, b - third, d - third
+    radius = np.sqrt(np.maximum((a * a + b * b + d * d + 2.0 * (e * e + f * f + g * g)) / 6.0, 1e-300))
+    half_det = (a * (b * d - g * g) - e * (e * d - f * g) + f * (e * g - b * f)) / (2.0 * radius**3)
+    root = 2.0 * radius * np.cos(np.arccos(np.clip(half_det, -1.0, 1.0)) / 3.0 + 2.0 * np.pi / 3.0)
+    a, b, d = a - root, b - root, d - root
+    products = np.stack(  # rows (a e f), (e b g), (f g d) crossed in pairs
+        [
+            np.stack([e * g - f * b, f * e - a * g, a * b - e * e]),
+            np.stack([e * d - f * g, f * f - a * d, a * g - e * f]),
+            np.stack([b * d - g * g, g * f - e * d, e * g - b * f]),
+        ]
+    )
+    lengths = np.einsum("ijk,ijk->ik", products, products)
+    best = lengths.argmax(axis=0)
+    columns = np.arange(c.shape[1])
+    longest = np.sqrt(lengths[best, columns])
+    vectors = (products[best, :, columns].T / np.maximum(longest, 1e-300)).T
+    unsure = longest < 1e-5
+    if unsure.any():
+        matrices = c[:, unsure][[0, 3, 4, 3, 1, 5, 4, 5, 2]].T.reshape(-1, 3, 3)
+        vectors[unsure] = np.linalg.eigh(matrices)[1][:, :, 0]
+    return vectors
