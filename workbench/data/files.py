@@ -1,0 +1,253 @@
+"""Files that people bring: clouds, meshes, images and known poses, each read or refused in one clear line."""
+
+import functools
+import gzip
+import io
+import re
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy
+from jaxtyping import Float, Int, UInt8
+
+from workbench.data.formats import mesh_error, obj_points, pcd_points, ply_points, text_points
+from workbench.errors import InputError
+from workbench.geometry.motions import inverse, motion
+
+MOST_BYTES = 500 * 10**6
+MOST_POINTS = 5_000_000
+MOST_PIXELS = 50_000_000
+
+_TEXT = (".xyz", ".txt", ".csv", ".asc", ".pts", ".tsv", ".dat")
+_MESHES = (".off", ".stl", ".glb", ".gltf", ".obj", ".ply")
+
+
+def read_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n 3"]:
+    """Return the points of a file, in its own unit and frame, read-only; a second call for the same file is free.
+
+    Formats: ply, pcd, obj, npy, npz (an array named p, points, xyz or vertices, or the only one) and text (xyz, txt,
+    csv, ...; see `text_points`), each also gzipped. A mesh is refused: its vertices are rarely the samples that a cloud
+    is taken for. NaN in a pcd marks what the scanner did not see and is left out; elsewhere it is refused.
+
+    Raises:
+        InputError: If the file is missing, too large, not understood, or has fewer than `fewest` points.
+    """
+    path = Path(path)
+    stamp = _stat(path)
+    p = _cloud(path, *stamp)
+    if len(p) < fewest:
+        raise InputError(f"{path.name}: {_count(len(p), 'point')}; at least {fewest} are needed")
+    return p
+
+
+def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
+    """Return the vertices and triangles of a mesh file (off, obj, ply, stl, glb; also gzipped); polygons are cut up.
+
+    Raises:
+        InputError: If the file is missing, too large, not understood, has no faces, or holds NaN.
+    """
+    path = Path(path)
+    _stat(path)
+    content, kind = _content(path)
+    if kind not in _MESHES:
+        raise InputError(
+            f"{path.name}: {kind or 'a file without ending'} is no mesh format that is read (off, obj, ply, stl, glb)"
+        )
+    import trimesh
+
+    try:
+        loaded: Any = trimesh.load(io.BytesIO(content), file_type=kind[1:], process=False)
+        mesh = loaded.to_mesh() if isinstance(loaded, trimesh.Scene) else loaded
+        p, faces = np.array(mesh.vertices, float), np.array(getattr(mesh, "faces", np.empty((0, 3))), np.int64)
+    except Exception as error:  # the readers of trimesh raise whatever they trip over
+        raise InputError(f"{path.name}: not readable as a {kind[1:]} mesh ({type(error).__name__})") from None
+    if len(faces) == 0:
+        raise InputError(f"{path.name}: {_count(len(p), 'point')} without faces, where a mesh is wanted")
+    if not np.isfinite(p).all() or faces.min() < 0 or faces.max() >= len(p):
+        raise InputError(f"{path.name}: a vertex is not finite, or a face names a vertex that is not there")
+    return p, faces
+
+
+def read_image(path: Path) -> UInt8[np.ndarray, "h w *channels"]:
+    """Return an image as (h, w) grey or (h, w, 3) RGB, uint8; transparency is dropped.
+
+    Raises:
+        InputError: If the file is missing, too large, or no image of 8 bits a channel.
+    """
+    path = Path(path)
+    _stat(path)
+    from PIL import Image
+
+    try:
+        with Image.open(path) as image:
+            if image.width * image.height > MOST_PIXELS:
+                raise InputError(
+                    f"{path.name}: {image.width} x {image.height} pixels; at most {MOST_PIXELS:,} are read"
+                )
+            if image.mode in ("I", "F", "I;16", "I;16B"):
+                raise InputError(f"{path.name}: more than 8 bits a pixel; save it with 8 bits")
+            return np.array(image.convert("L" if image.mode in ("1", "L", "LA") else "RGB"))
+    except InputError:
+        raise
+    except Exception as error:  # Pillow's decoders raise many kinds
+        raise InputError(f"{path.name}: not readable as an image ({type(error).__name__})") from None
+
+
+def read_pose(path: Path, target: Path | None = None, source: Path | None = None) -> Float[np.ndarray, "4 4"]:
+    """Return the T_target_source that a file gives.
+
+    The file is 16 numbers row by row (text or npy), or a list of poses by the name of a scan, each from the scan into one
+    common frame: rows of 12 or 16 numbers, or a Stanford .conf (translation, then a quaternion x, y, z, w that is stored
+    conjugated).
+
+    Args:
+        path: The file.
+        target: The scan in whose frame the pose is, to find its row in a list; a single 4x4 does not need it.
+        source: The scan that the pose moves, likewise.
+
+    Raises:
+        InputError: If the file is missing, not understood, not a pose, or a list without the two scans.
+    """
+    path = Path(path)
+    _stat(path)
+    content, kind = _content(path)
+    if kind == ".npy":
+        T = np.asarray(_load_array(content, path.name), float)
+    else:
+        text = content.decode("utf-8", "replace")
+        poses = _listed_poses(text)
+        if poses:
+            return inverse(_pose_of(target, poses, path)) @ _pose_of(source, poses, path)
+        words = [
+            w for line in text.splitlines() if not line.lstrip().startswith("#") for w in re.split(r"[\s,;]+", line)
+        ]
+        try:
+            T = np.array([float(word) for word in words if word])
+        except ValueError:
+            raise InputError(f"{path.name}: not a pose; a text file of 4 x 4 numbers is wanted") from None
+    if T.size != 16:
+        raise InputError(f"{path.name}: {_count(T.size, 'number')}, where a pose is 4 x 4")
+    return _checked_pose(T.reshape(4, 4), path.name)
+
+
+def _listed_poses(text: str) -> dict[str, np.ndarray]:
+    poses = {}
+    for line in text.splitlines():
+        match re.split(r"[\s,;]+", line.strip()):
+            case ["bmesh", scan, *words] if len(words) == 7:
+                x, y, z, a, b, c, w = map(float, words)
+                R = scipy.spatial.transform.Rotation.from_quat([-a, -b, -c, w]).as_matrix()
+                poses[Path(scan).name] = motion(R, np.array([x, y, z]))
+            case [scan, *words] if len(words) in (12, 16) and re.search("[A-Za-z]", scan) and _all_numbers(words):
+                poses[Path(scan).name] = np.vstack([np.array(words[:12], float).reshape(3, 4), [0.0, 0.0, 0.0, 1.0]])
+    return poses
+
+
+def _pose_of(scan: Path | None, poses: dict[str, np.ndarray], path: Path) -> np.ndarray:
+    if scan is None or Path(scan).name not in poses:
+        name = "the scans" if scan is None else Path(scan).name
+        raise InputError(f"{path.name}: lists poses of {', '.join(poses)}; none for {name}")
+    return _checked_pose(poses[Path(scan).name], path.name)
+
+
+def _checked_pose(T: np.ndarray, name: str) -> np.ndarray:
+    R = T[:3, :3]
+    rigid = np.isfinite(T).all() and np.allclose(R @ R.T, np.eye(3), atol=1e-3) and np.linalg.det(R) > 0
+    if not rigid or not np.allclose(T[3], [0, 0, 0, 1], atol=1e-9):
+        raise InputError(f"{name}: not a rigid pose (a rotation, a translation, and 0 0 0 1 as last row)")
+    return T
+
+
+@functools.lru_cache(maxsize=8)
+def _cloud(path: Path, _modified: int, _size: int) -> np.ndarray:
+    content, kind = _content(path)
+    if not content.strip():
+        raise InputError(f"{path.name}: the file is empty")
+    if kind == ".ply":
+        p = ply_points(content, path.name)
+    elif kind == ".pcd":
+        p = pcd_points(content, path.name)
+    elif kind == ".obj":
+        p = obj_points(content, path.name)
+    elif kind in (".npy", ".npz"):
+        p = _array_points(content, path.name)
+    elif kind in _TEXT:
+        p = text_points(content, path.name)
+    elif kind in _MESHES:
+        p, faces = read_mesh(path)
+        raise mesh_error(path.name, len(p), len(faces))
+    else:
+        kinds = ", ".join(["ply", "pcd", "obj", "npy", "npz", *(ending[1:] for ending in _TEXT)])
+        raise InputError(f"{path.name}: {kind or 'no ending'}; point clouds are read from {kinds}")
+    if len(p) > MOST_POINTS:
+        raise InputError(f"{path.name}: {len(p):,} points; at most {MOST_POINTS:,} are read, thin the cloud first")
+    bad = ~np.isfinite(p).all(axis=1)
+    if bad.any():
+        raise InputError(
+            f"{path.name}: {int(bad.sum()):,} of {len(p):,} points are NaN or infinite, the first is number"
+            f" {int(np.argmax(bad)) + 1:,}; leave such points out"
+        )
+    p.setflags(write=False)
+    return p
+
+
+def _array_points(content: bytes, name: str) -> np.ndarray:
+    p = np.asarray(_load_array(content, name))
+    if p.ndim != 2 or p.shape[1] < 3 or p.dtype.kind not in "fiu":
+        raise InputError(f"{name}: an array of {p.dtype} {p.shape}, where (n, 3) numbers are wanted")
+    return p[:, :3].astype(float)
+
+
+def _load_array(content: bytes, name: str) -> np.ndarray:
+    try:
+        loaded = np.load(io.BytesIO(content), allow_pickle=False)
+        if isinstance(loaded, np.ndarray):
+            return loaded
+        names = [n for n in ("p", "points", "xyz", "vertices") if n in loaded.files]
+        names = names or (loaded.files if len(loaded.files) == 1 else [])
+        if not names:
+            raise InputError(f"{name}: no array named p, points, xyz or vertices, but {', '.join(loaded.files)}")
+        return loaded[names[0]]
+    except (ValueError, EOFError, OSError, zipfile.BadZipFile):
+        raise InputError(f"{name}: not readable as arrays of numpy") from None
+
+
+def _content(path: Path) -> tuple[bytes, str]:
+    """Return the bytes of a file, gzip undone, and its ending in lower case."""
+    kind = path.suffix.lower()
+    try:
+        if kind != ".gz":
+            return path.read_bytes(), kind
+        with gzip.open(path) as stream:
+            content = stream.read(MOST_BYTES + 1)
+    except (OSError, EOFError) as error:
+        raise InputError(f"{path}: not readable ({error.__class__.__name__})") from None
+    if len(content) > MOST_BYTES:
+        raise InputError(f"{path.name}: over {MOST_BYTES // 10**6} MB unpacked; that is too large")
+    return content, Path(path.stem).suffix.lower()
+
+
+def _stat(path: Path) -> tuple[int, int]:
+    """Return when the file was changed and its size; refuse what is no file, or too large."""
+    try:
+        stat = path.stat()
+    except OSError:
+        raise InputError(f"{path}: no such file") from None
+    if not path.is_file():
+        raise InputError(f"{path}: a folder, not a file")
+    if stat.st_size > MOST_BYTES:
+        raise InputError(f"{path.name}: {stat.st_size / 1e6:,.0f} MB; at most {MOST_BYTES // 10**6} MB are read")
+    return stat.st_mtime_ns, stat.st_size
+
+
+def _all_numbers(words: list[str]) -> bool:
+    try:
+        return all(np.isfinite(float(word)) for word in words)
+    except ValueError:
+        return False
+
+
+def _count(n: int, word: str) -> str:
+    return f"{n:,} {word}" if n == 1 else f"{n:,} {word}s"
