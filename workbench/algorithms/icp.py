@@ -33,6 +33,7 @@ class Stop(Enum):
     """Why a run ended."""
 
     CONVERGED = "converged: the last fit moved no point by more than the tolerance"
+    CIRCLING = "the matches are those of an earlier iteration again: the run goes round in a circle"
     TOO_FEW_MATCHES = "too few matches are left to fit a motion"
     MAX_ITERATIONS = "the maximum number of iterations is reached"
     NOT_FINITE = "the fit gave a motion with numbers that are not finite"
@@ -157,6 +158,7 @@ def icp(
     shortest_move = tolerance * np.linalg.norm(corners[-1] - corners[0])
     fewest = 3 if n_target is None else 6
     p_moved = apply(T_target_source, p_source)
+    last_seen = {}  # by matches: the iteration that had them
 
     for iteration in range(1, max_iterations + 1):
         indices = match(p_target, p_moved)  # step a: closest points
@@ -181,10 +183,14 @@ def icp(
         largest_move = lengths(apply(T_new, corners) - apply(T_target_source, corners)).max()
         T_target_source, p_moved = T_new, apply(T_new, p_source)  # step c: apply the registration
         distances = lengths(p_match - p_moved)
+        matches = hash((indices.tobytes(), kept.tobytes()))
         if largest_move <= shortest_move:  # step d: terminate
             stop = Stop.CONVERGED
+        elif last_seen.get(matches, iteration) < iteration - 1:  # only without a cost that must fall: planes, gates
+            stop = Stop.CIRCLING
         elif iteration == max_iterations:
             stop = Stop.MAX_ITERATIONS
+        last_seen[matches] = iteration
         residual = misfit(p_match, p_moved, n_match, distances, kept)
         yield summary("fit", iteration, T_target_source, indices, distances, limit, kept, residual, stop)
         if stop:
