@@ -1,0 +1,145 @@
+"""A small street to look at with a camera: two rails to the horizon, sleepers, boxes, spheres and a house."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int, UInt8
+
+RAIL_HALF_GAUGE = 0.75
+RAIL_END = 60.0
+SUN = np.array([0.35, -0.55, 0.76])  # unit direction towards the light
+BALL_CENTER = np.array([2.2, 5.0, 0.6])
+BALL_RADIUS = 0.6
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A closed mesh with one colour per face, already lit by the sun."""
+
+    p_world: Float[np.ndarray, "v 3"]
+    faces: Int[np.ndarray, "f 3"]
+    colors: UInt8[np.ndarray, "f 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class Street:
+    """The scene, metres, +Z up; the rails run along +Y and the camera usually stands at negative y.
+
+    `landmarks` are named points of it, `rails` two segments on the ground, `edges` the outlines of boxes and house.
+    """
+
+    solids: dict[str, Solid]
+    rails: Float[np.ndarray, "2 2 3"]
+    edges: Float[np.ndarray, "e 2 3"]
+    landmarks: dict[str, Float[np.ndarray, "3"]]
+
+
+def street() -> Street:
+    """Return the street; it is the same each time."""
+    house, roof, door = _box((4.6, 11.0, 0.0), (3.2, 4.0, 2.4)), _roof((4.6, 11.0, 2.4), (3.6, 4.4, 1.5)), _door()
+    crate, tower = _box((-1.9, 6.0, 0.0), (1.0, 1.0, 1.0)), _box((-4.5, 14.0, 0.0), (1.6, 1.6, 5.0))
+    sleepers = [_box((0.0, y, -0.02), (2.2, 0.25, 0.06)) for y in np.arange(1.0, 40.0, 1.5)]
+    solids = {
+        "ground": _ground(),
+        "sleepers": _lit(_merge(sleepers), (150, 128, 108)),
+        "crate": _lit(crate, (222, 176, 104)),
+        "tower": _lit(tower, (196, 190, 205)),
+        "house": _lit(house, (232, 222, 204)),
+        "roof": _lit(roof, (178, 96, 78)),
+        "door": _lit(door, (110, 84, 66)),
+        "ball": _lit(_ball(BALL_CENTER, BALL_RADIUS), (120, 160, 200)),
+        "far ball": _lit(_ball(np.array([-2.6, 11.0, 0.9]), 0.9), (150, 190, 150)),
+    }
+    rails = np.array([[[x, 0.0, 0.06], [x, RAIL_END, 0.06]] for x in (-RAIL_HALF_GAUGE, RAIL_HALF_GAUGE)])
+    edges = np.concatenate([_box_edges(mesh) for mesh in (crate, tower, house)] + [_roof_edges(roof)])
+    landmarks = {
+        "roof ridge": roof[0][4],
+        "crate corner": crate[0][5],
+        "tower top": tower[0][5],
+        "rail, near": rails[1, 0] + (0.0, 2.0, 0.0),
+        "rail, far": rails[1, 0] + (0.0, 40.0, 0.0),
+        "behind the camera": np.array([0.6, -9.0, 2.6]),
+    }
+    return Street(solids, rails, edges, landmarks)
+
+
+Mesh = tuple[np.ndarray, np.ndarray]
+
+
+def _box(foot: tuple[float, float, float], size: tuple[float, float, float]) -> Mesh:
+    """Return a box standing on the middle of its floor; vertex bits 1, 2, 4 say high x, y, z."""
+    bits = (np.arange(8)[:, None] >> np.arange(3)) & 1
+    p = np.array(foot) + (bits - np.array([0.5, 0.5, 0.0])) * np.array(size)
+    quads = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+    return p, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+
+def _roof(foot: tuple[float, float, float], size: tuple[float, float, float]) -> Mesh:
+    """Return a gable along y: four eaves corners, then the two ends of the ridge, the one at low y first."""
+    x, y, h = np.array(size) * (0.5, 0.5, 1.0)
+    p = np.array(foot) + np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0], [0, -y, h], [0, y, h]])
+    return p, np.array([[0, 1, 4], [2, 3, 5], [1, 2, 5], [1, 5, 4], [3, 0, 4], [3, 4, 5], [0, 2, 1], [0, 3, 2]])
+
+
+def _door() -> Mesh:
+    return _box((4.6, 8.98, 0.0), (0.9, 0.06, 1.7))
+
+
+def _ball(center: np.ndarray, radius: float, rings: int = 16) -> Mesh:
+    """Return a sphere of latitude rings, 2 x rings vertices each, and its two poles."""
+    turn = 2 * rings
+    polar = np.linspace(0, np.pi, rings + 1)[1:-1, None]
+    around = np.linspace(0, 2 * np.pi, turn, endpoint=False)[None, :]
+    unit = np.stack(
+        np.broadcast_arrays(np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)), axis=-1
+    ).reshape(-1, 3)
+    p = np.concatenate([unit, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]])
+    here = np.arange(turn)
+    there = (here + 1) % turn
+    top, bottom = np.full(turn, len(unit)), np.full(turn, len(unit) + 1)
+    last = (rings - 2) * turn
+    faces = [np.stack([top, here, there], axis=1), np.stack([bottom, last + there, last + here], axis=1)]
+    for ring in range(rings - 2):
+        a, b = ring * turn, (ring + 1) * turn
+        faces += [np.stack([a + here, b + here, b + there], axis=1), np.stack([a + here, b + there, a + there], axis=1)]
+    return center + radius * p, np.concatenate(faces)
+
+
+def _ground(tile: float = 2.0) -> Solid:
+    """Return a chequered ground, two greys, slightly below everything that stands on it."""
+    x, y = np.arange(-10.0, 10.0, tile), np.arange(-4.0, RAIL_END, tile)
+    corner = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * tile
+    p = (corner[:, None] + square).reshape(-1, 2)
+    first = 4 * np.arange(len(corner))[:, None]
+    faces = np.concatenate([first + np.array(corners) for corners in ((0, 1, 2), (0, 2, 3))])
+    grey = np.where((corner / tile).sum(axis=1) % 2 == 0, 214, 226).astype(np.uint8)
+    colors = np.stack([grey, grey, grey], axis=1)
+    return Solid(np.column_stack([p, np.full(len(p), -0.03)]), faces, np.concatenate([colors, colors]))
+
+
+def _merge(meshes: list[Mesh]) -> Mesh:
+    starts = np.cumsum([0, *[len(p) for p, _ in meshes]])
+    faces = [faces + start for (_, faces), start in zip(meshes, starts, strict=False)]
+    return np.concatenate([p for p, _ in meshes]), np.concatenate(faces)
+
+
+def _lit(mesh: Mesh, color: tuple[int, int, int]) -> Solid:
+    """Colour each face by Lambert's law, with half of the light from everywhere."""
+    p, faces = mesh
+    a, b, c = p[faces[:, 0]], p[faces[:, 1]], p[faces[:, 2]]
+    normal = np.cross(b - a, c - a)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    light = 0.55 + 0.45 * np.maximum(normal @ SUN, 0.0)
+    return Solid(p, faces, np.rint(light[:, None] * np.array(color)).astype(np.uint8))
+
+
+def _box_edges(mesh: Mesh) -> np.ndarray:
+    low, bit = np.meshgrid(np.arange(8), [1, 2, 4], indexing="ij")
+    low, bit = low[low & bit == 0], bit[low & bit == 0]
+    return np.stack([mesh[0][low], mesh[0][low + bit]], axis=1)
+
+
+def _roof_edges(mesh: Mesh) -> np.ndarray:
+    pairs = np.array([[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 4], [2, 5], [3, 5], [4, 5]])
+    return mesh[0][pairs]

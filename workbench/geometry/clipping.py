@@ -1,0 +1,133 @@
+"""Cuts segments and triangles at the near plane, at the picture's border, and into short pieces."""
+
+import functools
+from collections.abc import Callable
+
+import numpy as np
+from jaxtyping import Float, Int
+
+MOST_CUTS = 12
+
+
+def clip_segments(
+    p: Float[np.ndarray, "n 2 3"], ahead: Float[np.ndarray, "n 2"]
+) -> tuple[Float[np.ndarray, "m 2 3"], Int[np.ndarray, " m"]]:
+    """Keep of each segment what lies ahead of a plane.
+
+    Args:
+        p: Both ends of each segment, in any frame.
+        ahead: Signed distance of each end from the plane; what is not positive is cut away.
+
+    Returns:
+        The cut segments, and the row of `p` that each comes from.
+    """
+    kept = np.flatnonzero((ahead > 0).any(axis=1))
+    p, ahead = p[kept], ahead[kept]
+    crossing = _crossing(p[:, 0], p[:, 1], ahead[:, 0], ahead[:, 1])
+    return np.where((ahead > 0)[:, :, None], p, crossing[:, None]), kept
+
+
+def clip_triangles(
+    p: Float[np.ndarray, "n 3 3"], ahead: Float[np.ndarray, "n 3"]
+) -> tuple[Float[np.ndarray, "m 3 3"], Int[np.ndarray, " m"]]:
+    """Keep of each triangle what lies ahead of a plane: nothing, one triangle or two.
+
+    Args:
+        p: The corners of each triangle, in any frame.
+        ahead: Signed distance of each corner from the plane; what is not positive is cut away.
+
+    Returns:
+        The cut triangles, turning the same way round, and the row of `p` that each comes from.
+    """
+    count = (ahead > 0).sum(axis=1)
+    whole, tip, stump = (np.flatnonzero(count == number) for number in (3, 1, 2))
+    a, _, _, ab, ac = _lone_corner_first(p[tip], ahead[tip], ahead[tip] > 0)
+    _, e, f, de, df = _lone_corner_first(p[stump], ahead[stump], ahead[stump] <= 0)
+    pieces = [p[whole], np.stack([a, ab, ac], 1), np.stack([de, e, f], 1), np.stack([de, f, df], 1)]
+    return np.concatenate(pieces), np.concatenate([whole, tip, stump, stump])
+
+
+def clip_to_rectangle(
+    uv: Float[np.ndarray, "n 2 2"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
+    """Return from which to which share of its length each segment lies in a rectangle.
+
+    Returns:
+        Start and stop in [0, 1]; start is not below stop for a segment that misses the rectangle or has NaN ends.
+
+    Reference: Liang and Barsky, A new concept and method for line clipping, 1984.
+    """
+    way = uv[:, 1] - uv[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one, other = (low - uv[:, 0]) / way, (high - uv[:, 0]) / way
+        start = np.fmax(np.fmin(one, other).max(axis=1, initial=0.0), 0.0)
+        stop = np.fmin(np.fmax(one, other).min(axis=1, initial=1.0), 1.0)
+    return start, np.where(np.isnan(uv).any(axis=(1, 2)), -1.0, stop)
+
+
+def cut_finely(
+    p: Float[np.ndarray, "n c 3"],
+    flatten: Callable[[np.ndarray], np.ndarray],
+    longest: float,
+    low: Float[np.ndarray, "2"],
+    high: Float[np.ndarray, "2"],
+) -> tuple[Float[np.ndarray, "m c 3"], Int[np.ndarray, " m"]]:
+    """Halve edges until all are short in a flat picture, dropping what is outside it on the way.
+
+    Args:
+        p: Segments (c = 2) or triangles (c = 3), all ahead of the camera.
+        flatten: Where points (n, 3) are in the flat picture, (n, 2).
+        longest: Length there that no edge of a piece exceeds (each edge is halved at most 12 times).
+        low: Lowest coordinates of the part of the flat picture that matters.
+        high: Its highest coordinates.
+
+    Returns:
+        The pieces, and the row of `p` that each comes from.
+    """
+    source = np.arange(len(p))
+    done = []
+    for cuts_left in range(MOST_CUTS, -1, -1):
+        xy = flatten(p.reshape(-1, 3)).reshape(*p.shape[:2], 2)
+        lowest, highest = over_corners(np.minimum, xy), over_corners(np.maximum, xy)
+        inside = np.flatnonzero(((highest >= low) & (lowest <= high)).all(axis=1))
+        p, source, xy = p[inside], source[inside], xy[inside]
+        edge = np.roll(xy, -1, axis=1) - xy
+        long = over_corners(np.maximum, np.einsum("nci,nci->nc", edge, edge)) > longest**2
+        if not cuts_left:
+            long[:] = False
+        done.append((p[~long], source[~long]))
+        if not long.any():
+            break
+        pieces = _halves(p[long]) if p.shape[1] == 2 else _quarters(p[long])
+        p, source = np.concatenate(pieces), np.tile(source[long], len(pieces))
+    return np.concatenate([p for p, _ in done]), np.concatenate([source for _, source in done])
+
+
+def over_corners(choose: np.ufunc, rows: Float[np.ndarray, "n c *more"]) -> Float[np.ndarray, "n *more"]:
+    """Return the minimum or maximum over the corners of each row; numpy's reduction is slow over so few."""
+    return functools.reduce(choose, (rows[:, corner] for corner in range(rows.shape[1])))
+
+
+def _lone_corner_first(p: np.ndarray, ahead: np.ndarray, alone: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Turn triangles so that the corner alone on its side leads; return a, b, c and the crossings on ab and ac."""
+    turn = (np.argmax(alone, axis=1)[:, None] + np.arange(3)) % 3
+    a, b, c = np.take_along_axis(p, turn[:, :, None], axis=1).transpose(1, 0, 2)
+    at_a, at_b, at_c = np.take_along_axis(ahead, turn, axis=1).T
+    return a, b, c, _crossing(a, b, at_a, at_b), _crossing(a, c, at_a, at_c)
+
+
+def _crossing(p_a: np.ndarray, p_b: np.ndarray, ahead_a: np.ndarray, ahead_b: np.ndarray) -> np.ndarray:
+    """Return where segments a-b cross the plane at which `ahead` is zero; anything for those that do not."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return p_a + (ahead_a / (ahead_a - ahead_b))[:, None] * (p_b - p_a)
+
+
+def _halves(p: np.ndarray) -> list[np.ndarray]:
+    middle = 0.5 * (p[:, 0] + p[:, 1])
+    return [np.stack([p[:, 0], middle], axis=1), np.stack([middle, p[:, 1]], axis=1)]
+
+
+def _quarters(p: np.ndarray) -> list[np.ndarray]:
+    a, b, c = p[:, 0], p[:, 1], p[:, 2]
+    ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
+    return [np.stack(corners, axis=1) for corners in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
