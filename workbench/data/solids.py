@@ -1,0 +1,77 @@
+"""Small closed solids whose left and right, front and back can be told apart. Metres, +Z up, foot at z = 0."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from workbench.geometry.meshes import face_normals
+
+Shape = Literal["house", "L block", "box"]
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A triangle mesh, faces counter-clockwise seen from outside, and the edges at which its surface bends."""
+
+    p: Float[np.ndarray, "v 3"]
+    faces: Int[np.ndarray, "f 3"]
+    outline: Int[np.ndarray, "e 2"]
+
+
+def solid(shape: Shape) -> Solid:
+    """Return a solid by name."""
+    return {"house": house, "L block": l_block, "box": box}[shape]()
+
+
+def box(size: tuple[float, float, float] = (1.0, 0.7, 0.6)) -> Solid:
+    """Return a box that stands on the origin; a mirror image of it is the same box."""
+    x, y, z = size
+    foot = np.array([[-x / 2, -y / 2], [x / 2, -y / 2], [x / 2, y / 2], [-x / 2, y / 2]])
+    p = np.vstack([np.c_[foot, np.zeros(4)], np.c_[foot, np.full(4, z)]])
+    return _of_polygons(p, ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)))
+
+
+def house() -> Solid:
+    """Return a house that no mirror and no turn maps to itself: ridge off the middle, gable in front, hip behind."""
+    p = np.vstack([box().p, [[0.15, -0.35, 1.0], [0.15, 0.1, 1.0]]])
+    return _of_polygons(
+        p,
+        (
+            (3, 2, 1, 0),
+            (0, 1, 5, 8, 4),
+            (1, 2, 6, 5),
+            (2, 3, 7, 6),
+            (3, 0, 4, 7),
+            (5, 6, 9, 8),
+            (4, 8, 9, 7),
+            (6, 7, 9),
+        ),
+    )
+
+
+def l_block() -> Solid:
+    """Return an L-shaped block; its mirror image is the same block turned over."""
+    corners = np.array([[-0.5, -0.35], [0.5, -0.35], [0.5, 0.0], [-0.1, 0.0], [-0.1, 0.35], [-0.5, 0.35]])
+    p = np.vstack([np.c_[corners, np.zeros(6)], np.c_[corners, np.full(6, 0.5)]])
+    sides = tuple((i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6))
+    return _of_polygons(p, ((3, 2, 1, 0), (5, 4, 3, 0), (6, 7, 8, 9), (6, 9, 10, 11), *sides))
+
+
+def sharp_edges(
+    p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], angle: float = 0.02
+) -> Int[np.ndarray, "e 2"]:
+    """Return the edges at which two faces meet at more than an angle in radians, or that only one face has."""
+    ends = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edge, inverse, count = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    total = np.zeros((len(edge), 3))
+    np.add.at(total, inverse.ravel(), np.repeat(face_normals(p, faces), 3, axis=0))
+    # Two unit normals at the angle a add up to a vector of length 2 cos(a / 2).
+    return edge[(count != 2) | (np.linalg.norm(total, axis=1) < 2.0 * np.cos(0.5 * angle))]
+
+
+def _of_polygons(p: np.ndarray, polygons: tuple[tuple[int, ...], ...]) -> Solid:
+    """Return a solid of convex polygons, each cut into a fan."""
+    faces = np.array([(q[0], q[i], q[i + 1]) for q in polygons for i in range(1, len(q) - 1)])
+    return Solid(p, faces, sharp_edges(p, faces))

@@ -1,0 +1,94 @@
+"""What a map leaves as it was, measured on a mesh: lengths, angles, area, volume, orientation, parallel edges.
+
+The mesh is measured before and after, and nothing is concluded from the matrix: which measures survive is what tells a
+rigid motion from a similarity, an affine or a projective map.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from workbench.geometry.meshes import boundary_edges, edges, face_angles, face_areas
+
+MOST_EDGES = 64  # compared with each other for being parallel
+
+
+@dataclass(frozen=True, eq=False)
+class Measures:
+    """The measures of one mesh.
+
+    Attributes:
+        lengths: Of every edge, metres.
+        angles: Of every face, radians.
+        area: Square metres.
+        volume: Cubic metres, negative where the faces are seen clockwise from outside; NaN for an open mesh.
+        directions: Unit directions of the first edges; zero for an edge without length.
+    """
+
+    lengths: Float[np.ndarray, "e"]
+    angles: Float[np.ndarray, "f 3"]
+    area: float
+    volume: float
+    directions: Float[np.ndarray, "d 3"]
+
+
+@dataclass(frozen=True)
+class Change:
+    """One measure before and after.
+
+    `amount` is 0 where nothing changed: the largest relative change of a length, area or volume (1 is 100 %), or the
+    largest change of an angle, in radians; for the orientation 1 means that it flipped.
+    """
+
+    name: str
+    amount: float
+    unit: str = ""
+
+    @property
+    def kept(self) -> bool:
+        """Whether it survived, up to rounding."""
+        return self.amount < 1e-9
+
+
+def measure(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Measures:
+    """Measure a mesh whose faces are counter-clockwise seen from outside."""
+    a, b = edges(faces).T
+    v = p[b] - p[a]
+    lengths = np.linalg.norm(v, axis=1)
+    volume = signed_volume(p, faces) if len(boundary_edges(faces)) == 0 else np.nan
+    few = slice(0, MOST_EDGES)
+    directions = v[few] / np.where(lengths[few] > 0, lengths[few], 1.0)[:, None]
+    return Measures(lengths, face_angles(p, faces), float(face_areas(p, faces).sum()), volume, directions)
+
+
+def signed_volume(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> float:
+    """Return the volume inside a closed mesh, negative where it is turned inside out.
+
+    Reference: the divergence theorem: one sixth of the sum of triple products of the faces' corners.
+    """
+    a, b, c = (p - p.mean(axis=0))[faces].transpose(1, 0, 2)  # about the middle: no digits are lost far from the origin
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
+
+
+def changes(before: Measures, after: Measures) -> tuple[Change, ...]:
+    """Return what became of each measure of one mesh; volume and orientation are left out for an open one."""
+    angle = float(np.abs(after.angles - before.angles).max())
+    found = [
+        Change("edge lengths", float(np.abs(after.lengths / before.lengths - 1.0).max())),
+        Change("angles", angle, "rad"),
+        Change("parallel edges", _spread(before.directions, after.directions), "rad"),
+        Change("area", abs(after.area / before.area - 1.0)),
+    ]
+    if np.isfinite(before.volume):
+        found.append(Change("volume", abs(abs(after.volume / before.volume) - 1.0)))
+        found.append(Change("orientation", float(np.sign(before.volume) != np.sign(after.volume))))
+    return tuple(found)
+
+
+def _spread(before: np.ndarray, after: np.ndarray) -> float:
+    """Return the largest angle between two edges that were parallel before."""
+    i, j = np.triu_indices(len(before), 1)
+    parallel = np.linalg.norm(np.cross(before[i], before[j]), axis=1) < 1e-9
+    apart = np.linalg.norm(np.cross(after[i[parallel]], after[j[parallel]]), axis=1)
+    return float(np.arcsin(np.clip(apart, 0.0, 1.0)).max(initial=0.0))
