@@ -24,8 +24,8 @@ S = TypeVar("S")
 class View:
     """How the scene is first seen: the eye, what it looks at, metres; +Z is up unless `up` says otherwise.
 
-    `grid` is the spacing of the ground grid in metres at height `grid_height`; None draws none. `flat` lessons live in
-    the plane z = 0 and are seen from above.
+    `grid` is the spacing of the ground grid in metres at height `grid_height` along `up`; None draws none. `axes` draws
+    the world's axes, labelled, at the origin.
     """
 
     eye: tuple[float, float, float] = (2.0, -2.0, 1.5)
@@ -34,6 +34,7 @@ class View:
     grid: float | None = 0.5
     grid_height: float = 0.0
     fov_degrees: float = 45.0
+    axes: bool = True
 
 
 @dataclass(frozen=True)

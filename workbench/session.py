@@ -1,0 +1,297 @@
+"""One person's place in the course: which lesson, which params, which step, playing or not. Knows no viewer.
+
+A viewer calls the verbs (`seek`, `change`, `play`, ...), lets `compute` run somewhere off its event loop while `pending`,
+and shows what `look` returns. The latest wish wins: `compute` gives up a run as soon as another one is wanted.
+"""
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from workbench import knobs
+from workbench.errors import InputError
+from workbench.lesson import Lesson, Question
+from workbench.scene import Caption, Scene, ghost
+from workbench.timeline import Series, Timeline, Timelines
+from workbench.watch import Moment
+
+SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """What a person sees now.
+
+    Args:
+        lesson, params: The lesson and the params that are wanted (the picture may still be of the run before).
+        k, known: The step that is shown, and how many steps there are so far.
+        finished: Whether all steps are known.
+        scene: The step's scene, the pinned run's ghost included.
+        caption: The step's caption, or what went wrong.
+        moment: Where the algorithm stood.
+        series, pinned_series: Every scalar over the steps, of this run and of the pinned one.
+        playing, speed, pinned: As they are.
+    """
+
+    lesson: Lesson
+    params: Any
+    timeline: Timeline
+    k: int
+    known: int
+    finished: bool
+    scene: Scene
+    caption: Caption
+    moment: Moment | None
+    series: Mapping[str, Series]
+    pinned_series: Mapping[str, Series]
+    playing: bool
+    speed: float
+    pinned: bool
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came of a prediction: whether it was right, the right answer in words, and why."""
+
+    right: bool
+    truth: str
+    why: str
+
+
+@dataclass
+class Session:
+    """A place in a lesson, and the verbs that move it.
+
+    Args:
+        lesson: The lesson that is open.
+        timelines: Where runs are kept; share one between the sessions of a server.
+        slots: Functions that replace keyword arguments of the lesson's run (a student's); such runs are not shared.
+    """
+
+    lesson: Lesson
+    timelines: Timelines = field(default_factory=Timelines)
+    slots: Mapping[str, Callable] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.playing, self.speed = False, 1.0
+        self.message: str | None = None  # what the person gave that could not be used
+        self._due = 0.0
+        self._pinned: tuple[Timeline, int] | None = None
+        self._shown: Timeline | None = None  # the run whose picture stays until the wanted one has a first step
+        self.params = self.lesson.params()
+        self.timeline = self._run(self.params)
+        self._want(self.lesson.first_step)
+
+    # what is wanted -------------------------------------------------------------------------------------------------
+
+    def open(self, lesson: Lesson, params: Any = None, step: int | None = None) -> None:
+        """Go to a lesson, at these params and this step (negative counts from the end).
+
+        Raises:
+            InputError: If the params are not the lesson's; nothing has changed then.
+        """
+        params = lesson.check(params if params is not None else lesson.params())
+        other = lesson is not self.lesson
+        self.lesson, self.playing, self.message = lesson, False, None
+        if other:
+            self._pinned, self._shown, self.slots = None, None, {}
+        self._go(params)
+        self._want(lesson.first_step if step is None else step)
+
+    def change(self, **values: Any) -> None:
+        """Set params; numbers out of range go to the nearer end. What cannot be used becomes the caption, no more."""
+        try:
+            params = knobs.make(self.lesson.params, values, base=self.params, clamp=True)
+        except InputError as error:
+            self.message = str(error)
+            return
+        self.message = None
+        if params != self.params:
+            at_end = self.timeline.finished and self._wanted >= len(self.timeline) - 1 and len(self.timeline) > 0
+            self._go(params)
+            self._want(-1 if at_end else self._wanted)
+
+    def reset(self) -> None:
+        """Go back to the default run, nothing pinned."""
+        self._pinned = None
+        self.open(self.lesson)
+
+    def use_preset(self, name: str) -> None:
+        """Open a preset of the lesson."""
+        preset = self.lesson.preset(name)
+        self.open(self.lesson, preset.params, preset.step)
+
+    def pin(self) -> None:
+        """Keep the run and step that are shown as a ghost behind what comes."""
+        self._pinned = (self.timeline, self.step) if len(self.timeline) else None
+
+    def unpin(self) -> None:
+        """Let the pinned run go."""
+        self._pinned = None
+
+    @property
+    def pinned(self) -> bool:
+        """Whether a run is pinned."""
+        return self._pinned is not None
+
+    # moving in time -------------------------------------------------------------------------------------------------
+
+    @property
+    def step(self) -> int:
+        """The step that can be shown now: the wanted one, or the nearest that is known."""
+        last = len(self.timeline) - 1
+        if self._wanted >= 0:
+            return max(0, min(self._wanted, last))
+        return max(0, last + 1 + self._wanted) if self.timeline.finished else max(0, last)
+
+    def seek(self, k: Any) -> None:
+        """Go to step k; beyond the end means the last step, what is no number is ignored."""
+        if isinstance(k, bool) or not isinstance(k, (int, float)) or k != k:
+            return
+        self._want(max(0, int(min(k, 1e9))))
+
+    def forward(self) -> None:
+        """Go one step on."""
+        self.seek(self.step + 1)
+
+    def back(self) -> None:
+        """Go one step back: a look-up."""
+        self.playing = False
+        self.seek(self.step - 1)
+
+    def first(self) -> None:
+        """Go to the first step."""
+        self.playing = False
+        self.seek(0)
+
+    def last(self) -> None:
+        """Go to the last step, as soon as it is known."""
+        self.playing = False
+        self._want(-1)
+
+    def play(self, now: float) -> None:
+        """Start playing, from the start when at the end; the next step is due one period from now (seconds)."""
+        if self.timeline.finished and self.step >= len(self.timeline) - 1:
+            self.seek(0)
+        else:
+            self.seek(self.step)
+        self.playing, self._due = True, now + 1.0 / self.speed
+
+    def pause(self) -> None:
+        """Stop playing."""
+        self.playing = False
+
+    def set_speed(self, speed: Any, now: float) -> None:
+        """Set the steps per second to one of SPEEDS; anything else is ignored."""
+        if speed in SPEEDS:
+            self.speed = float(speed)
+            self._due = min(self._due, now + 1.0 / self.speed)
+
+    def tick(self, now: float) -> float | None:
+        """Take the step that is due, if any; return when the next one is due, None when not playing.
+
+        Steps follow deadlines, so a late call does not slow the playing down; steps are never skipped.
+        """
+        if not self.playing:
+            return None
+        if now >= self._due:
+            if self.step + 1 < len(self.timeline):
+                self._wanted = self.step + 1
+                self._due = max(self._due + 1.0 / self.speed, now)
+            elif self.timeline.finished:
+                self.playing = False
+                return None
+            else:
+                self._due = now + 0.02  # the next step is still being computed
+        return self._due
+
+    # computing and looking ------------------------------------------------------------------------------------------
+
+    @property
+    def pending(self) -> bool:
+        """Whether steps of the wanted run are still to be computed."""
+        return not self.timeline.finished
+
+    def compute(self, seconds: float) -> None:
+        """Compute steps of the wanted run for about so long, at least one; return early when another run is wanted."""
+        timeline, end = self.timeline, time.perf_counter() + seconds
+        while timeline is self.timeline and timeline.extend() and time.perf_counter() < end:
+            pass
+
+    def look(self) -> Look | None:
+        """Return what is to be seen now; None when there is nothing yet. The picture of the run before stays meanwhile."""
+        timeline = self.timeline
+        if len(timeline):
+            self._shown, k = timeline, self.step
+        elif self._shown is not None and self._shown.lesson is self.lesson and len(self._shown):
+            timeline, k = self._shown, min(self._last_k, len(self._shown) - 1)
+        else:
+            return self._blank() if timeline.finished or self.message else None
+        self._last_k = k
+        step = timeline[k]
+        scene = dict(step.scene)
+        pinned_series: Mapping[str, Series] = {}
+        if self._pinned is not None:
+            other, at = self._pinned
+            scene |= ghost(other[min(at, len(other) - 1)].scene)
+            pinned_series = other.series()
+        caption = self._trouble(k) or step.caption
+        return Look(
+            self.lesson, self.params, timeline, k, len(timeline), timeline.finished, scene, caption, step.moment,
+            timeline.series(), pinned_series, self.playing, self.speed, self.pinned,
+        )  # fmt: skip
+
+    def answer(self, question: Question, given: Any) -> Answer:
+        """Compare a prediction (None: skipped, only tell) with the run that answers it; computes that run.
+
+        Raises:
+            InputError: If what was given is no answer to this question, or its run fails.
+        """
+        value = self._given(question, given)
+        states = self.timelines.get(self.lesson, question.params).states()
+        truth = question.answer(states)
+        if question.choices:
+            return Answer(value == truth, question.choices[int(truth)], question.why(states))
+        right = abs(value - truth) <= question.tolerance
+        return Answer(right, f"{truth:.4g} {question.unit}".rstrip(), question.why(states))
+
+    @staticmethod
+    def _given(question: Question, given: Any) -> float:
+        if given is None:
+            return float("nan")
+        if question.choices:
+            if given not in question.choices:
+                raise InputError("choose one of the answers")
+            return float(question.choices.index(given))
+        try:
+            return float(given)
+        except (TypeError, ValueError):
+            raise InputError("a number is asked for") from None
+
+    def _go(self, params: Any) -> None:
+        self.params, self.timeline = params, self._run(params)
+
+    def _run(self, params: Any) -> Timeline:
+        return Timeline(self.lesson, params, self.slots) if self.slots else self.timelines.get(self.lesson, params)
+
+    def _want(self, step: int) -> None:
+        self._wanted = step
+
+    def _trouble(self, k: int) -> Caption | None:
+        if self.message is not None:
+            return Caption(self.message, "wrong")
+        ended = self.timeline.stopped
+        if ended is not None and (not len(self.timeline) or k == len(self.timeline) - 1):
+            return Caption(ended, "wrong")
+        return None
+
+    def _blank(self) -> Look:
+        text = self.message or self.timeline.stopped or "This run has no steps."
+        return Look(
+            self.lesson, self.params, self.timeline, 0, 0, True, {}, Caption(text, "wrong"), None, {}, {},
+            False, self.speed, self.pinned,
+        )  # fmt: skip
+
+    _wanted: int = 0
+    _last_k: int = 0

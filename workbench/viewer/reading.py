@@ -1,0 +1,81 @@
+"""The Lesson tab: the page, and the questions that are answered before the run is shown."""
+
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from workbench.lesson import Lesson, Question
+from workbench.session import Answer
+from workbench.typeset import inline_html, page_html
+from workbench.viewer.style import escape
+
+Predict = Callable[[Question, Any], None]
+
+
+class Reading:
+    """A lesson's text and questions, in the container that is open.
+
+    Args:
+        gui: The client's interface.
+        lesson: What is read.
+        predict: Called with a question and the answer given, None to skip it and see.
+        answers: What this browser answered before, by question name.
+    """
+
+    def __init__(self, gui: viser.GuiApi, lesson: Lesson, predict: Predict, answers: dict[str, Any]):
+        self.gui, self._predict = gui, predict
+        self._results: dict[str, Any] = {}
+        text = lesson.page.read_text(encoding="utf-8")
+        before, break_, after = _around_questions(page_html(text))
+        gui.add_html(f'<div class="wb wb-pad">{before}</div>')
+        for number, question in enumerate(lesson.questions, 1):
+            self._ask(number, question, answers.get(question.name))
+        gui.add_html(f'<div class="wb wb-pad">{break_}{after}</div>')
+
+    def show(self, question: Question, given: Any, answer: Answer) -> None:
+        """Show what came of a prediction."""
+        if given is None:
+            verdict = f"The answer: {escape(answer.truth)}."
+        elif answer.right:
+            verdict = f'<span class="wb-done">Right: {escape(answer.truth)}.</span>'
+        else:
+            verdict = f"You said {escape(str(given))}; the run says <strong>{escape(answer.truth)}</strong>."
+        self._results[
+            question.name
+        ].content = f'<div class="wb-result" role="status">{verdict} {escape(answer.why)}</div>'
+
+    def say(self, question: Question, text: str) -> None:
+        """Show a line under a question."""
+        self._results[question.name].content = f'<div class="wb-result">{escape(text)}</div>'
+
+    def _ask(self, number: int, question: Question, before: Any) -> None:
+        with self.gui.add_folder(f"Predict {number}"):
+            self.gui.add_html(f'<div class="wb wb-pad" style="padding-bottom:4px">{inline_html(question.text)}</div>')
+            if question.choices:
+                for choice in question.choices:
+                    self._button(choice, question, lambda choice=choice: choice, color=(86, 110, 140))
+            else:
+                unit = f" ({question.unit})" if question.unit else ""
+                number_input = self.gui.add_number("Your prediction" + unit, 0.0, step=0.001)
+                self._button("Answer", question, lambda: number_input.value, color=(86, 110, 140))
+            self._button("Skip and show me", question, lambda: None, color=(150, 155, 163))
+            said = f'<div class="wb-result">You answered: {escape(str(before))}.</div>' if before is not None else ""
+            self._results[question.name] = self.gui.add_html(said)
+
+    def _button(self, label: str, question: Question, value: Callable[[], Any], color: tuple[int, int, int]) -> None:
+        button = self.gui.add_button(label, color=color)
+
+        @button.on_click
+        async def _(event: Any) -> None:
+            if event.client is not None:
+                self._predict(question, value())
+
+
+def _around_questions(html: str) -> tuple[str, str, str]:
+    """Split a page where its questions belong: behind the section that asks to predict, else at the end."""
+    start = html.find('<section class="s-predict')
+    if start < 0:
+        return html, "", ""
+    end = html.find("</section>", start) + len("</section>")
+    return html[:end], "", html[end:]

@@ -1,0 +1,293 @@
+"""Makes a viser scene equal to a Scene, sending only what differs from what is shown.
+
+A thing that moved is sent as a pose; a thing that is drawn with the same arrays is not sent again.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import trimesh
+import viser
+from viser.transforms import SO3
+
+from workbench.scene import (
+    PALETTE,
+    Axes,
+    Camera,
+    Label,
+    Mesh,
+    Picture,
+    Points,
+    Scene,
+    Segments,
+    Spatial,
+    color_rows,
+    in_space,
+    is_rigid,
+    same,
+)
+
+ROOT = "/scene/"
+_IDENTITY = np.eye(4)
+
+
+@dataclass
+class _Node:
+    shown: Spatial
+    handle: Any
+
+
+class ViserSink:
+    """Shows scenes on one client (or a server), by path.
+
+    Args:
+        scene: The scene interface of a client or server.
+        backdrop: The colour that translucent points and lines are mixed with, since the browser draws them opaque.
+    """
+
+    def __init__(self, scene: viser.SceneApi, backdrop: tuple[int, int, int] = (255, 255, 255)):
+        self.scene, self.backdrop = scene, backdrop
+        self._nodes: dict[str, _Node] = {}
+
+    def show(self, scene: Scene) -> None:
+        """Make what is shown equal to the spatial part of `scene`."""
+        wanted = {path: primitive for path, primitive in scene.items() if in_space(primitive)}
+        for path in [path for path in self._nodes if path not in wanted]:
+            self._nodes.pop(path).handle.remove()
+        for path, primitive in wanted.items():
+            self._show(path, primitive)  # type: ignore[arg-type]
+
+    def handle(self, path: str) -> Any:
+        """Return viser's handle of what is shown at a path, None when there is nothing."""
+        node = self._nodes.get(path)
+        return node.handle if node else None
+
+    def shown(self) -> dict[str, Spatial]:
+        """Return what is shown, by path."""
+        return {path: node.shown for path, node in self._nodes.items()}
+
+    def repaint(self, backdrop: tuple[int, int, int]) -> None:
+        """Draw everything again before another backdrop."""
+        self.backdrop = backdrop
+        shown = self.shown()
+        self.show({})
+        self.show(shown)
+
+    def _show(self, path: str, wanted: Spatial) -> None:
+        node = self._nodes.get(path)
+        if node is not None:
+            if same(node.shown, wanted):
+                return
+            if self._moved(node, wanted) or self._changed(node, wanted):
+                node.shown = wanted
+                return
+            node.handle.remove()
+        self._nodes[path] = _Node(wanted, self._add(ROOT + path, wanted))
+
+    def _moved(self, node: _Node, wanted: Spatial) -> bool:
+        """Set the pose where nothing but a rigid pose differs."""
+        if type(node.shown) is not type(wanted) or not (_poseable(node.shown) and _poseable(wanted)):
+            return False
+        if not same(replace(node.shown, T_world_object=None), replace(wanted, T_world_object=None)):
+            return False
+        _set_pose(node.handle, wanted)
+        return True
+
+    def _changed(self, node: _Node, wanted: Spatial) -> bool:
+        """Send only the points or only the colours, where that is all that differs."""
+        before = node.shown
+        if isinstance(before, Label) and isinstance(wanted, Label):
+            node.handle.text = wanted.text
+            _set_pose(node.handle, wanted)
+            return True
+        if isinstance(before, Points) and isinstance(wanted, Points) and before.radius == wanted.radius:
+            p, p_before = _placed(wanted, wanted.p), _placed(before, before.p)
+            if len(p) == len(p_before):
+                if not (p is p_before or np.array_equal(p, p_before)):
+                    node.handle.points = p.astype(np.float32)
+                node.handle.colors = self._colors(wanted, len(p))
+                _set_pose(node.handle, wanted)
+                return True
+        if isinstance(before, Segments) and isinstance(wanted, Segments) and before.width == wanted.width:
+            ends = _placed(wanted, wanted.ends)
+            if len(ends) == len(before.ends) > 0:
+                node.handle.points = ends.astype(np.float32)
+                node.handle.colors = self._end_colors(wanted)
+                _set_pose(node.handle, wanted)
+                return True
+        return False
+
+    def _add(self, name: str, primitive: Spatial) -> Any:
+        handle = self._makers()[type(primitive)](name, primitive)
+        _set_pose(handle, primitive)
+        return handle
+
+    def _makers(self) -> dict[type, Callable[[str, Any], Any]]:
+        return {
+            Points: self._points,
+            Segments: self._segments,
+            Mesh: self._mesh,
+            Axes: self._axes,
+            Camera: self._camera,
+            Label: self._label,
+            Picture: self._picture,
+        }
+
+    def _points(self, name: str, points: Points) -> Any:
+        return self.scene.add_point_cloud(
+            name,
+            _placed(points, points.p).astype(np.float32),
+            self._colors(points, len(points.p)),
+            point_size=2 * points.radius,
+            point_shape="circle",
+            point_shading="flat",
+            precision="float32",
+        )
+
+    def _segments(self, name: str, segments: Segments) -> Any:
+        if not len(segments.ends):
+            return self.scene.add_frame(name, show_axes=False)
+        return self.scene.add_line_segments(
+            name,
+            _placed(segments, segments.ends).astype(np.float32),
+            self._end_colors(segments),
+            thickness=segments.width,
+            thickness_units="screen",
+        )
+
+    def _mesh(self, name: str, mesh: Mesh) -> Any:
+        p = _placed(mesh, mesh.p).astype(np.float32)
+        if isinstance(mesh.color, str):
+            return self.scene.add_mesh_simple(
+                name,
+                p,
+                mesh.faces.astype(np.uint32),
+                color=PALETTE[mesh.color],
+                wireframe=mesh.wireframe,
+                opacity=mesh.opacity if mesh.opacity < 1 else None,
+                flat_shading=mesh.flat,
+                side="double",
+                cast_shadow=False,
+                receive_shadow=False,
+            )
+        colors = np.empty((len(p), 4), np.uint8)
+        colors[:, :3], colors[:, 3] = color_rows(mesh.color, len(p)), round(255 * mesh.opacity)
+        both = np.concatenate([mesh.faces, mesh.faces[:, ::-1]])  # GLB faces are one-sided
+        shape = trimesh.Trimesh(p, both, vertex_colors=colors, process=False)
+        return self.scene.add_mesh_trimesh(name, shape, cast_shadow=False, receive_shadow=False)
+
+    def _axes(self, name: str, axes: Axes) -> Any:
+        ends = np.zeros((3, 2, 3), np.float32)
+        ends[:, 1] = axes.length * np.eye(3)
+        if axes.T_world_object is not None and not is_rigid(axes.T_world_object):
+            ends = _placed(axes, ends).astype(np.float32)
+        colors = np.array([PALETTE["x"], PALETTE["y"], PALETTE["z"]])
+        return self.scene.add_arrows(
+            name,
+            ends,
+            self._faded(colors, axes.opacity),
+            shaft_radius=0.018 * axes.length,
+            head_radius=0.05 * axes.length,
+            head_length=0.15 * axes.length,
+        )
+
+    def _camera(self, name: str, camera: Camera) -> Any:
+        K, d = camera.K, camera.depth
+        corners_uv = np.array(
+            [
+                [-0.5, -0.5],
+                [camera.width - 0.5, -0.5],
+                [camera.width - 0.5, camera.height - 0.5],
+                [-0.5, camera.height - 0.5],
+            ]
+        )
+        rays = np.column_stack([corners_uv, np.ones(4)]) @ np.linalg.inv(K).T
+        corners, centre = d * rays, np.zeros(3)
+        rim = np.stack([corners, np.roll(corners, -1, 0)], 1)
+        spokes = np.stack([np.broadcast_to(centre, (4, 3)), corners], 1)
+        up = corners[:2].mean(0) - 0.12 * (corners[3] - corners[0])
+        roof = np.array([[corners[0], up], [up, corners[1]]])
+        ends = np.concatenate([rim, spokes, roof])
+        frame = self.scene.add_frame(name, show_axes=False)
+        color = self._faded(np.array(PALETTE[camera.color]), camera.opacity)
+        self.scene.add_line_segments(
+            name + "/lines",
+            _placed(camera, ends).astype(np.float32),
+            color,
+            thickness=2.0,
+            thickness_units="screen",
+        )
+        if camera.image is not None:
+            size = corners[2] - corners[0]
+            image = camera.image if camera.image.ndim == 3 else np.repeat(camera.image[:, :, None], 3, 2)
+            self.scene.add_image(
+                name + "/image",
+                image,
+                float(size[0]),
+                float(size[1]),
+                position=(corners[0] + corners[2]) / 2,
+                wxyz=(0.0, 1.0, 0.0, 0.0),
+                cast_shadow=False,
+                receive_shadow=False,
+            )
+        return frame
+
+    def _label(self, name: str, label: Label) -> Any:
+        return self.scene.add_label(name, label.text, font_screen_scale=1.0, anchor="bottom-center")
+
+    def _picture(self, name: str, picture: Picture) -> Any:
+        image = picture.rgb()
+        width = picture.width or 1.0
+        height = width * image.shape[0] / image.shape[1]
+        frame = self.scene.add_frame(name, show_axes=False)
+        self.scene.add_image(
+            name + "/image",
+            image,
+            width,
+            height,
+            wxyz=(0.0, 1.0, 0.0, 0.0),
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+        return frame
+
+    def _colors(self, primitive: Points, n: int) -> np.ndarray:
+        if isinstance(primitive.color, str):
+            return self._faded(np.array(PALETTE[primitive.color]), primitive.opacity)
+        return self._faded(color_rows(primitive.color, n), primitive.opacity)
+
+    def _end_colors(self, segments: Segments) -> np.ndarray:
+        if isinstance(segments.color, str):
+            rgb = self._faded(np.array(PALETTE[segments.color]), segments.opacity)
+            return np.broadcast_to(rgb, (len(segments.ends), 2, 3))
+        rgb = self._faded(color_rows(segments.color, len(segments.ends)), segments.opacity)
+        return np.repeat(rgb[:, None], 2, 1)
+
+    def _faded(self, rgb: np.ndarray, opacity: float) -> np.ndarray:
+        if opacity >= 1:
+            return np.asarray(rgb, np.uint8)
+        return (opacity * rgb + (1 - opacity) * np.array(self.backdrop)).round().astype(np.uint8)
+
+
+def _poseable(primitive: Spatial) -> bool:
+    return primitive.T_world_object is None or is_rigid(primitive.T_world_object)
+
+
+def _placed(primitive: Spatial, p: np.ndarray) -> np.ndarray:
+    """Return points in the frame of the node: the object's, or the world's where a pose cannot express the motion."""
+    T = primitive.T_world_object
+    return p if T is None or is_rigid(T) else p @ T[:3, :3].T + T[:3, 3]
+
+
+def _set_pose(handle: Any, primitive: Spatial) -> None:
+    T = primitive.T_world_object
+    T_world_node = _IDENTITY if T is None or not is_rigid(T) else T
+    p_world = T_world_node[:3, 3]
+    if isinstance(primitive, Label):
+        p = primitive.p if T is None else T[:3, :3] @ primitive.p + T[:3, 3]
+        handle.position = p
+        return
+    handle.wxyz = SO3.from_matrix(T_world_node[:3, :3]).wxyz
+    handle.position = p_world

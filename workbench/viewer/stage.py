@@ -1,0 +1,52 @@
+"""The empty stage of a lesson: camera, world up, grid with a stated spacing, labelled axes."""
+
+import numpy as np
+import viser
+
+from workbench.lesson import View
+
+BACKDROPS = {False: (255, 255, 255), True: (20, 21, 23)}  # viser's canvas in the light and the dark theme
+_PLANES = ("yz", "xz", "xy")
+
+
+def set_stage(client: viser.ClientHandle, view: View) -> None:
+    """Put a client's camera, grid and axes where a lesson wants them."""
+    scene = client.scene
+    scene.set_up_direction(view.up)
+    with client.atomic():
+        client.camera.up_direction = np.array(view.up)
+        client.camera.position = np.array(view.eye)
+        client.camera.look_at = np.array(view.target)
+        client.camera.fov = float(np.radians(view.fov_degrees))
+    axis = int(np.argmax(np.abs(view.up)))
+    if view.grid is None:
+        scene.add_frame("/grid", show_axes=False)
+    else:
+        scene.add_grid(
+            "/grid",
+            plane=_PLANES[axis],  # type: ignore[arg-type]
+            infinite_grid=True,
+            cell_size=view.grid,
+            section_size=5 * view.grid,
+            cell_color=(205, 208, 212),
+            section_color=(170, 175, 182),
+            cell_thickness=0.8,
+            section_thickness=1.0,
+            fade_distance=40 * view.grid,
+            fade_from="origin",
+            position=view.grid_height * np.array(view.up),
+            shadow_opacity=0.0,
+        )
+    length = view.grid or 0.5
+    scene.add_frame(
+        "/axes", show_axes=view.axes, axes_length=length, axes_radius=0.012 * length, origin_radius=0.02 * length
+    )
+    for name, tip in zip("xyz", np.eye(3), strict=True):
+        scene.add_label(
+            f"/axes/{name}",
+            name,
+            position=1.08 * length * tip,
+            visible=view.axes,
+            font_screen_scale=0.8,
+            anchor="center-center",
+        )
