@@ -1,0 +1,133 @@
+"""The whole way from two pictures to a disparity map: in steps for a screen, or at once.
+
+`match` stops after every disparity compared and every direction summed; `disparity_map` and `block_matching` run the same
+pieces without stops. Maps are (h, w), pixels, for the left picture: d = x_left - x_right. NaN is unknown; 0 is a disparity
+like any other, that of something infinitely far.
+
+Reference: Scharstein and Szeliski, A taxonomy and evaluation of dense two-frame stereo correspondence algorithms, IJCV 2002,
+section 3; Hirschmueller, PAMI 2008, section 2.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from enum import Enum
+from typing import TypeAlias
+
+import numpy as np
+from jaxtyping import Bool, Float, Real
+
+from workbench.algorithms.cost_volume import CENSUS_BITS, CostVolume, census_cost_volume, sad_cost_volume
+from workbench.algorithms.disparity_map import agree, fill, median3, seen_from_right, sub_pixel, winner_takes_all
+from workbench.algorithms.semiglobal import semi_global, semi_global_total
+from workbench.watch import watched
+
+Choose: TypeAlias = Callable[[np.ndarray], np.ndarray]
+"""choose(cost (d, h, w)) -> disparity (h, w), whole pixels."""
+
+P1, P2 = CENSUS_BITS // 3, CENSUS_BITS
+"""Penalties for census costs of single pixels: a jump costs as much as the worst match, a step of one a third of it."""
+
+
+class Stage(Enum):
+    """What a step of `match` has just done."""
+
+    COMPARE = "compared one more disparity"
+    AGGREGATE = "summed the costs over a window"
+    PATHS = "added the paths of one direction"
+    CHECK = "checked left against right"
+    REFINE = "refined between pixels"
+    SMOOTH = "took the median of neighbours"
+
+
+@dataclass(frozen=True, eq=False)
+class Matching:
+    """A step of `match`.
+
+    Args:
+        stage: What was just done.
+        cost: The volume the map was chosen from; while comparing, its disparities so far.
+        disparity: The map so far, pixels, NaN where unknown.
+        matched: Which pixels are left by the check against the right picture; before it, all.
+        done: How many disparities were compared, or directions added, so far.
+        direction: The direction (rows down, columns right) just added, if one was.
+    """
+
+    stage: Stage
+    cost: Real[np.ndarray, "d h w"]
+    disparity: Float[np.ndarray, "h w"]
+    matched: Bool[np.ndarray, "h w"]
+    done: int = 0
+    direction: tuple[int, int] | None = None
+
+
+@watched
+def match(
+    left: Float[np.ndarray, "h w"],
+    right: Float[np.ndarray, "h w"],
+    max_disparity: int,
+    window: int,
+    penalties: tuple[float, float] | None,
+    compare: CostVolume = sad_cost_volume,
+    choose: Choose = winner_takes_all,
+) -> Iterator[Matching]:
+    """Find the disparity of every left pixel, step by step.
+
+    Args:
+        left, right: Grey pictures, rectified.
+        max_disparity: Largest disparity that is tried, pixels.
+        window: Side of the window over which costs are summed, pixels, odd.
+        penalties: P1 and P2 of the semi-global paths, in the unit of the summed costs; None leaves the paths out.
+        compare: Makes the cost volume of two pictures, for a largest disparity and a window.
+        choose: Takes a map from a cost volume.
+    """
+    everywhere = np.ones(left.shape, bool)
+    single = compare(left, right, max_disparity, 1)
+    for done in range(1, max_disparity + 2):
+        cost = single[:done]
+        yield Matching(Stage.COMPARE, cost, choose(cost).astype(float), everywhere, done)
+
+    cost = single if window == 1 else compare(left, right, max_disparity, window)
+    yield Matching(Stage.AGGREGATE, cost, choose(cost).astype(float), everywhere)
+
+    if penalties is not None:
+        for done, paths in enumerate(semi_global(cost, *penalties), 1):
+            cost = paths.total
+            yield Matching(Stage.PATHS, cost, choose(cost).astype(float), everywhere, done, paths.direction)
+
+    winner = choose(cost).astype(int)
+    matched = agree(winner, choose(seen_from_right(cost)).astype(int))
+    yield Matching(Stage.CHECK, cost, np.where(matched, winner, np.nan), matched)
+
+    refined = sub_pixel(cost, winner)
+    yield Matching(Stage.REFINE, cost, np.where(matched, refined, np.nan), matched)
+
+    smooth = median3(fill(refined, matched))
+    yield Matching(Stage.SMOOTH, cost, np.where(matched, smooth, np.nan), matched)
+
+
+def disparity_map(
+    left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int
+) -> tuple[Float[np.ndarray, "h w"], Bool[np.ndarray, "h w"]]:
+    """Return the disparity of every left pixel by semi-global matching of census codes, and which pixels were matched.
+
+    Args:
+        left, right: Grey pictures, rectified.
+        max_disparity: Largest disparity that is tried, pixels.
+
+    Returns:
+        The map, pixels, in which unmatched (mostly occluded) pixels continue the background; and the mask of the others.
+    """
+    return _finish(semi_global_total(census_cost_volume(left, right, max_disparity), P1, P2))
+
+
+def block_matching(
+    left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int, window: int
+) -> tuple[Float[np.ndarray, "h w"], Bool[np.ndarray, "h w"]]:
+    """Return the disparity of every left pixel by the lowest sum of absolute differences, as `disparity_map` does."""
+    return _finish(sad_cost_volume(left, right, max_disparity, window))
+
+
+def _finish(cost: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    winner = winner_takes_all(cost)
+    matched = agree(winner, winner_takes_all(seen_from_right(cost)))
+    return median3(fill(sub_pixel(cost, winner), matched)), matched

@@ -1,0 +1,201 @@
+"""Semi-global matching: smooth a cost volume along eight straight paths through every pixel, then add the paths up.
+
+The map sought minimises E(D) = sum_p C(p, D_p) + sum over neighbours of P1 [|step| = 1] + P2 [|step| > 1]: a slope of one
+disparity is cheap, a jump costs P2 however high it is. In two dimensions that is NP-hard; along one line it is a shortest
+path, and eight lines that meet in a pixel nearly know the answer.
+
+Reference: Hirschmueller, Stereo processing by semiglobal matching and mutual information, PAMI 2008, section 2.3; equation
+numbers are that paper's.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Real
+
+from workbench.watch import watched
+
+DIRECTIONS = ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 1))
+"""The eight steps (rows down, columns right) from one pixel of a path to the next."""
+
+
+@dataclass(frozen=True, eq=False)
+class PathSum:
+    """The path costs of all directions so far.
+
+    Args:
+        direction: The step (rows down, columns right) of the direction just added.
+        path: L_r(p, d), its own path costs.
+        total: S(p, d), the sum over the directions so far.
+    """
+
+    direction: tuple[int, int]
+    path: Real[np.ndarray, "d h w"]
+    total: Real[np.ndarray, "d h w"]
+
+
+@watched
+def semi_global(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Iterator[PathSum]:
+    """Add up path costs, one direction per step.
+
+    Args:
+        cost: C(p, d), from `cost_volume`; infinite cells count as the worst finite one.
+        P1: Penalty for a step of one disparity between neighbours, in the unit of the cost.
+        P2: Penalty for every larger step. Both are rounded where the cost is whole numbers.
+
+    Raises:
+        ValueError: Unless 0 <= P1 <= P2.
+    """
+    cost, jumps = prepare(cost, P1, P2)
+    total = np.zeros(cost.shape, jumps.type_of_sum(len(DIRECTIONS)))
+    for direction in DIRECTIONS:
+        path = path_costs(cost, direction, jumps)  # L_r, eq. 13
+        total = total + path  # S = sum over r of L_r, eq. 14
+        yield PathSum(direction, path, total)
+
+
+def semi_global_total(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Real[np.ndarray, "d h w"]:
+    """Return the sum over all eight directions at once: what `semi_global` ends with, several times sooner.
+
+    The three directions that go down share one pass over the picture, and so do those that go up; right and left run
+    over a transposed copy, in which they are down and up.
+    """
+    cost, jumps = prepare(cost, P1, P2)
+    total = np.zeros(cost.shape, jumps.type_of_sum(len(DIRECTIONS)))
+    turned = np.ascontiguousarray(cost.transpose(0, 2, 1))
+    sideways = np.zeros(turned.shape, jumps.type_of_sum(2))
+    for way in (1, -1):
+        sweep(by_row(cost)[::way], by_row(total)[::way], (0, 1, -1), jumps)
+        sweep(by_row(turned)[::way], by_row(sideways)[::way], (0,), jumps)
+    total += sideways.transpose(0, 2, 1)
+    return total
+
+
+@dataclass(frozen=True)
+class Jumps:
+    """The penalties, and the largest matching cost, which together bound every path cost: L <= top + P2."""
+
+    P1: float
+    P2: float
+    top: float
+    whole: bool
+
+    def type_of_sum(self, paths: int) -> np.dtype:
+        """Return the narrowest number type that holds the sum of so many path costs."""
+        most = paths * (self.top + self.P2)
+        whole = np.uint8 if most < 2**8 else np.uint16 if most < 2**16 else np.float32
+        return np.dtype(whole if self.whole else np.float32)
+
+
+def prepare(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> tuple[Real[np.ndarray, "d h w"], Jumps]:
+    """Return the cost as the sweeps want it: whole numbers as they are, others as float32 without infinities.
+
+    Raises:
+        ValueError: Unless 0 <= P1 <= P2.
+    """
+    if not 0 <= P1 <= P2:
+        raise ValueError(f"the penalties must satisfy 0 <= P1 <= P2, got {P1} and {P2}")
+    if cost.dtype.kind == "u":
+        return cost, Jumps(float(round(P1)), float(round(P2)), float(cost.max()), True)
+    top = _largest_finite(cost)
+    return np.minimum(cost, top).astype(np.float32), Jumps(P1, P2, top, False)
+
+
+def path_costs(cost: Real[np.ndarray, "d h w"], direction: tuple[int, int], jumps: Jumps) -> Real[np.ndarray, "d h w"]:
+    """Return L_r(p, d) for one direction r = (rows down, columns right), of a cost that `prepare` returned."""
+    down, right = direction
+    path = np.zeros(cost.shape, jumps.type_of_sum(1))
+    if down:
+        sweep(by_row(cost)[::down], by_row(path)[::down], (right,), jumps)
+    else:
+        sweep(by_column(cost)[::right], by_column(path)[::right], (0,), jumps)
+    return path
+
+
+def sweep(
+    cost: Real[np.ndarray, "n d w"], total: Real[np.ndarray, "n d w"], slopes: tuple[int, ...], jumps: Jumps
+) -> None:
+    """Walk over the lines of a picture in order, and add to `total` the path costs of one path per slope.
+
+    Args:
+        cost: C(p, d), line by line.
+        total: S(p, d), added to in place.
+        slopes: How many columns right each path goes per line: 0, 1 or -1.
+        jumps: The penalties.
+
+    Note:
+        With carried(d) = min(L(d) - min L, P2) of the pixel before, eq. 13 reads L(d) = C(d) + min(carried(d),
+        carried(d +- 1) + P1); it never exceeds top + P2, so bytes often do. A line is laid out flat, d by d, with one spare
+        column and a spare d at both ends: then every neighbour is the same array at another offset.
+    """
+    n, disparities, w = cost.shape
+    row = w + 1
+    start, stop = row + 1, row + 1 + disparities * row
+    dtype = jumps.type_of_sum(len(slopes))
+    P1 = dtype.type(jumps.P1)
+    limit = np.full((disparities, row), jumps.P2, dtype)
+    limit[:, w] = 0  # nothing is carried from beyond the border: a path begins there
+    carried = np.zeros((len(slopes), stop + row + 1), dtype)
+    carried[:, :row], carried[:, stop:] = jumps.P2, jumps.P2
+    here, path, added = (np.zeros((disparities, row), dtype) for _ in range(3))
+    for line in range(n):
+        here[:, :w] = cost[line]
+        added[:] = 0
+        for slope, before in zip(slopes, carried, strict=True):
+            same, lower, higher = (
+                before[start - slope + shift : stop - slope + shift].reshape(path.shape) for shift in (0, -row, row)
+            )
+            np.minimum(lower, higher, out=path)
+            path += P1
+            np.minimum(path, same, out=path)
+            path += here  # L_r(p, d), eq. 13
+            added += path
+            after = before[start:stop].reshape(path.shape)
+            np.subtract(path, np.minimum.reduce(path, axis=0), out=after)
+            np.minimum(after, limit, out=after)
+        total[line] += added[:, :w]
+
+
+def energy(cost: Real[np.ndarray, "d h w"], disparity: Real[np.ndarray, "h w"], P1: float, P2: float) -> float:
+    """Return E(D) of eq. 11 per known pixel of a disparity map.
+
+    Args:
+        cost: C(p, d); infinite cells count as the worst finite one.
+        disparity: The map, pixels, charged at the nearest whole disparity; NaN is unknown and left out.
+        P1, P2: As for `semi_global`; every pair among the eight neighbours counts once.
+    """
+    known = np.isfinite(disparity)
+    if not known.any():
+        return 0.0
+    nearest = np.rint(np.where(known, disparity, 0)).astype(np.int64)
+    matching = np.take_along_axis(cost, nearest[None], axis=0)[0][known]
+    total = float(np.minimum(matching, _largest_finite(cost)).sum(dtype=float))
+    for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
+        a, b = _neighbours(nearest, down, right)
+        step = np.abs(a - b)[np.logical_and(*_neighbours(known, down, right))]
+        total += P1 * float(np.count_nonzero(step == 1)) + P2 * float(np.count_nonzero(step > 1))
+    return total / float(known.sum())
+
+
+def by_row(volume: np.ndarray) -> np.ndarray:
+    """View a volume (d, h, w) as its rows (h, d, w)."""
+    return volume.transpose(1, 0, 2)
+
+
+def by_column(volume: np.ndarray) -> np.ndarray:
+    """View a volume (d, h, w) as its columns (w, d, h)."""
+    return volume.transpose(2, 0, 1)
+
+
+def _largest_finite(cost: np.ndarray) -> float:
+    if cost.dtype.kind == "u":
+        return float(cost.max())
+    return float(np.max(cost, initial=0.0, where=np.isfinite(cost)))
+
+
+def _neighbours(values: np.ndarray, down: int, right: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the values of both pixels of all pairs that are one such step apart."""
+    h, w = values.shape
+    left, stop = max(-right, 0), w - max(right, 0)
+    return values[: h - down, left:stop], values[down:, left + right : stop + right]
