@@ -137,6 +137,15 @@ def point_to_plane_step(
     return motion(R, centre + x[3:] - R @ centre)
 
 
+def nearest_rotation(A: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
+    """Return the rotation nearest to a matrix in the least-squares sense: the turn that a similarity or affine map holds.
+
+    Note:
+        A matrix of rank below 2 leaves the answer open; any one of them is returned.
+    """
+    return _rotation(A)[0]
+
+
 def rmse(T: Float[np.ndarray, "4 4"], p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]) -> float:
     """Return the root mean square distance between pairs after moving the source, in metres."""
     return float(np.sqrt(np.mean(np.sum((p_target - apply(T, p_source)) ** 2, axis=1))))

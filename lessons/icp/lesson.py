@@ -1,0 +1,77 @@
+"""Iterative closest point: match every source point to its nearest target point, fit a motion, repeat.
+
+What it teaches: ICP walks downhill from where it starts. Its cost falls at every step whether it walks home or into
+another valley, so a small RMSE proves nothing; the start, the gate and the error measure decide.
+
+`params.py` has the inputs, `scans.py` the clouds, `draw.py` the picture, `presets.py` the experiments and questions.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from lessons.icp.basin import Try, align_of, gate_of, tries_of
+from lessons.icp.draw import State, draw
+from lessons.icp.params import Params
+from lessons.icp.presets import PRESETS, QUESTIONS
+from lessons.icp.scans import scans_of
+from workbench.algorithms.icp import Align, Match, PlaneStep, icp, nearest
+from workbench.geometry.alignment import align_rigid, nearest_rotation, point_to_plane_step
+from workbench.geometry.motions import rotation_angle
+from workbench.lesson import Lesson, View
+
+MAX_ITERATIONS, TOLERANCE = 150, 1e-5
+
+
+def run(
+    params: Params, *, align: Align = align_rigid, match: Match = nearest, step: PlaneStep = point_to_plane_step
+) -> Iterator[State]:
+    """Yield the steps of ICP on the scans, then, where the truth is known, one try from each of a row of starts."""
+    scans = scans_of(params)
+    T_before, rmse_before, state = scans.T_start, float("nan"), None
+    for now in icp(
+        scans.p_target,
+        scans.p_source,
+        scans.T_start,
+        n_target=scans.n_target() if params.fit == "point-to-plane" else None,
+        gate=gate_of(params),
+        match=match,
+        align=align_of(params, align),
+        step=step,
+        max_iterations=MAX_ITERATIONS,
+        tolerance=TOLERANCE,
+    ):
+        turned = turn(now.T_target_source, T_before)
+        right = scans.right_share(now.indices, now.kept)
+        state = State(params, scans, now, rmse_before, turned, *scans.errors(now.T_target_source), right)
+        yield state
+        T_before, rmse_before = now.T_target_source, now.rmse
+    ours = (align, match, step) == (align_rigid, nearest, point_to_plane_step)
+    if state is None or scans.T_truth is None or not ours:
+        return
+    tries: tuple[Try, ...] = ()
+    for attempt in tries_of(params):
+        tries = (*tries, attempt)
+        yield replace(state, tries=tries)
+
+
+def turn(T_new: np.ndarray, T_old: np.ndarray) -> float:
+    """Return the angle between two motions, in degrees."""
+    return float(np.degrees(rotation_angle(nearest_rotation(T_new[:3, :3]) @ nearest_rotation(T_old[:3, :3]).T)))
+
+
+lesson = Lesson(
+    name="icp",
+    title="Iterative closest point",
+    summary="Match, fit, repeat: two scans find each other, or a convincing wrong answer.",
+    page=Path(__file__).with_name("page.md"),
+    params=Params,
+    run=run,
+    draw=draw,
+    order=300,
+    view=View(eye=(1.5, -1.9, 1.0), target=(0.0, 0.0, 0.1), grid=0.5, grid_height=-0.35),
+    presets=PRESETS,
+    questions=QUESTIONS,
+)
