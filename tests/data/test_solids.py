@@ -8,14 +8,14 @@ from workbench.data.solids import sharp_edges, solid
 
 
 @pytest.mark.parametrize(
-    ("shape", "volume", "outline"), [("box", 0.42, 12), ("L block", 0.5 * 0.49, 18), ("house", None, 16)]
+    ("shape", "volume", "lines"), [("box", 0.42, 12), ("L block", 0.5 * 0.49, 18), ("house", None, 19)]
 )
-def test_solids_are_closed_and_stand_on_the_ground(shape, volume, outline):
+def test_solids_are_closed_and_stand_on_the_ground(shape, volume, lines):
     s = solid(shape)
     mesh = trimesh.Trimesh(s.p, s.faces, process=False)
     assert mesh.is_watertight
     assert s.p[:, 2].min() == 0.0
-    assert len(s.outline) == outline
+    assert len(s.lines) == lines
     if volume is not None:
         assert mesh.volume == pytest.approx(volume)
     if shape == "house":

@@ -16,6 +16,7 @@ from workbench.geometry.rotations import (
     locked_family,
     matrix_from_quaternion,
     matrix_to_euler,
+    other_triple,
     quaternion_from_matrix,
     quaternion_product,
     rotation_about,
@@ -85,6 +86,13 @@ def test_a_whole_family_of_triples_is_one_rotation_in_lock(outer, order, turn):
         R = euler_to_matrix(angles, order)
         for triple in locked_family(angles, order, np.array([turn, 0.0])):
             np.testing.assert_allclose(euler_to_matrix(triple, order), R, atol=1e-14)
+
+
+@given(triples, orders)
+def test_every_rotation_has_two_triples(angles, order):
+    other = other_triple(angles, order)
+    np.testing.assert_allclose(euler_to_matrix(other, order), euler_to_matrix(angles, order), atol=1e-14)
+    assert np.abs(other - angles).max() > 3
 
 
 def test_there_is_no_family_outside_of_lock():

@@ -13,11 +13,16 @@ Shape = Literal["house", "L block", "box"]
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """A triangle mesh, faces counter-clockwise seen from outside, and the edges at which its surface bends."""
+    """A triangle mesh, faces counter-clockwise seen from outside, and the lines that are drawn on it."""
 
     p: Float[np.ndarray, "v 3"]
     faces: Int[np.ndarray, "f 3"]
-    outline: Int[np.ndarray, "e 2"]
+    lines: Float[np.ndarray, "s 2 3"]
+
+
+def outlined(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], angle: float = 0.02) -> Solid:
+    """Return a mesh together with its sharp edges as lines."""
+    return Solid(p, faces, p[sharp_edges(p, faces, angle)])
 
 
 def solid(shape: Shape) -> Solid:
@@ -34,21 +39,13 @@ def box(size: tuple[float, float, float] = (1.0, 0.7, 0.6)) -> Solid:
 
 
 def house() -> Solid:
-    """Return a house that no mirror and no turn maps to itself: ridge off the middle, gable in front, hip behind."""
+    """Return a house with a door; ridge off the middle, hipped behind: no mirror and no turn maps it to itself."""
     p = np.vstack([box().p, [[0.15, -0.35, 1.0], [0.15, 0.1, 1.0]]])
-    return _of_polygons(
-        p,
-        (
-            (3, 2, 1, 0),
-            (0, 1, 5, 8, 4),
-            (1, 2, 6, 5),
-            (2, 3, 7, 6),
-            (3, 0, 4, 7),
-            (5, 6, 9, 8),
-            (4, 8, 9, 7),
-            (6, 7, 9),
-        ),
-    )
+    foot, sides = (3, 2, 1, 0), ((0, 1, 5, 8, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+    body = _of_polygons(p, (foot, *sides, (5, 6, 9, 8), (4, 8, 9, 7), (6, 7, 9)))
+    x, z = [-0.35, -0.35, -0.1, -0.1], [0.0, 0.4, 0.4, 0.0]
+    door = np.stack([x, np.full(4, -0.352), z], axis=1)  # just in front of the wall
+    return Solid(body.p, body.faces, np.concatenate([body.lines, np.stack([door[:-1], door[1:]], axis=1)]))
 
 
 def l_block() -> Solid:
@@ -74,4 +71,4 @@ def sharp_edges(
 def _of_polygons(p: np.ndarray, polygons: tuple[tuple[int, ...], ...]) -> Solid:
     """Return a solid of convex polygons, each cut into a fan."""
     faces = np.array([(q[0], q[i], q[i + 1]) for q in polygons for i in range(1, len(q) - 1)])
-    return Solid(p, faces, sharp_edges(p, faces))
+    return outlined(p, faces)

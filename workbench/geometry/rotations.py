@@ -159,6 +159,13 @@ def locked_family(
     return angles + np.outer(turns, [1.0, 0.0, -np.sign(first @ third)])
 
 
+def other_triple(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3"]:
+    """Return the second triple of angles that makes the same rotation; there always is one, lock or not."""
+    (i, _, k), _ = _letters(order)
+    a, b, c = angles
+    return np.array([a + np.pi, -b if i == k else np.pi - b, c + np.pi])
+
+
 def quaternion_from_matrix(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"]:
     """Return the unit quaternion (w, x, y, z) of a rotation that has w >= 0; its negative is the same rotation."""
     w = log_so3(R)
