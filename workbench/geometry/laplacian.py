@@ -1,0 +1,78 @@
+"""The cotangent Laplacian of a triangle mesh and the area that belongs to each vertex."""
+
+import numpy as np
+import scipy
+from jaxtyping import Float, Int
+
+from workbench.geometry.meshes import Corners, corners
+
+Points = Float[np.ndarray, "v 3"]
+Faces = Int[np.ndarray, "f 3"]
+
+
+def cotangent_laplacian(p: Points, faces: Faces) -> scipy.sparse.csr_array:
+    """Return the symmetric, positive semidefinite L with (L u)_i = sum_j w_ij (u_i - u_j), w = (cot a + cot b) / 2.
+
+    a and b are the two angles opposite edge ij; on the border there is one. Applied to a function on the vertices, L
+    gives minus the integral of its Laplace-Beltrami over each vertex' area; L 1 = 0. A face without area counts for nothing.
+
+    Reference: Pinkall and Polthier, Computing discrete minimal surfaces and their conjugates, 1993, section 4.
+    """
+    measured = corners(p, faces)
+    a, b = measured.vertices[[1, 2, 0]].ravel(), measured.vertices[[2, 0, 1]].ravel()
+    weights = measured.cotangents.ravel() / 2
+    diagonal = np.bincount(a, weights, len(p)) + np.bincount(b, weights, len(p))
+    rows, columns = np.concatenate([a, b, np.arange(len(p))]), np.concatenate([b, a, np.arange(len(p))])
+    values = np.concatenate([-weights, -weights, diagonal])
+    return scipy.sparse.csr_array((values, (rows, columns)), shape=(len(p), len(p)))
+
+
+def mixed_areas(p: Points, faces: Faces) -> Float[np.ndarray, " v"]:
+    """Return the part of the surface that belongs to each vertex, m^2; the parts add up to the whole area.
+
+    A face is shared out along the bisectors of its edges (Voronoi); where that would reach outside it because it is
+    obtuse, half of it goes to the obtuse corner and a quarter to each of the others.
+
+    Reference: Meyer, Desbrun, Schroeder, Barr, Discrete differential-geometry operators, 2003, section 3.3, figure 4.
+    """
+    return mixed_areas_of(corners(p, faces))
+
+
+def mixed_areas_of(measured: Corners) -> Float[np.ndarray, " v"]:
+    """Return the mixed areas of corners that were measured already."""
+    # Meyer (7): the corner's part is (|edge j|^2 cot j + |edge k|^2 cot k) / 8, j and k being the other two corners.
+    parts = measured.squared_edges * measured.cotangents / 8
+    shares = parts[[1, 2, 0]] + parts[[2, 0, 1]]
+    corner, face = np.nonzero(measured.dots < 0)
+    shares[:, face] = measured.double_areas[face] / 8
+    shares[corner, face] = measured.double_areas[face] / 4
+    return measured.sums(shares)
+
+
+def eigenpairs(
+    p: Points, faces: Faces, count: int
+) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, "v {count}"]]:
+    """Return the smallest eigenvalues, 1/m^2, and eigenfunctions of L u = lambda M u, M holding the mixed areas.
+
+    The functions are orthonormal over the surface, U^T M U = 1; those of equal eigenvalues may come in any rotation. On
+    a closed mesh the first is constant, with eigenvalue 0. On an open mesh the slope across the border is zero.
+
+    Raises:
+        ValueError: If `count` is not below the number of vertices.
+    """
+    if not 0 < count < len(p):
+        raise ValueError(f"asked for {count} eigenpairs of a mesh with {len(p)} vertices")
+    root = np.sqrt(mixed_areas(p, faces))
+    scale = scipy.sparse.diags_array(1 / root)
+    # D L D with D = M^(-1/2) is symmetric, so that an ordinary symmetric factorisation and solver serve.
+    matrix = (scale @ cotangent_laplacian(p, faces) @ scale).tocsc()
+    shift = -1e-2 * 4 * np.pi / float(root @ root)
+    shifted = (matrix - shift * scipy.sparse.eye_array(len(p))).tocsc()
+    factor = scipy.sparse.linalg.splu(
+        shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    )
+    inverse = scipy.sparse.linalg.LinearOperator(matrix.shape, matvec=factor.solve, dtype=float)
+    start = np.sin(np.arange(len(p)) ** 2.0)  # any start that is nowhere near a few eigenvectors
+    values, vectors = scipy.sparse.linalg.eigsh(matrix, count, sigma=shift, OPinv=inverse, v0=start)
+    order = np.argsort(values)
+    return values[order], vectors[:, order] / root[:, None]

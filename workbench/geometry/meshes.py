@@ -1,0 +1,270 @@
+"""Triangle meshes as two arrays: what holds at faces, corners, edges, vertices and borders.
+
+`p` are vertex positions in metres, one row per vertex; `faces` names three vertices per face, counterclockwise seen from
+outside. Corner k of a face is opposite its edge k. No function here checks its mesh: `check_mesh` does, once, where a
+mesh enters.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+from jaxtyping import Bool, Float, Int
+
+from workbench.errors import InputError
+
+Points = Float[np.ndarray, "v 3"]
+Faces = Int[np.ndarray, "f 3"]
+
+# Faces measured at once, so that what is computed from them stays in the processor's cache.
+BLOCK = 8192
+
+
+@dataclass(frozen=True, eq=False)
+class Corners:
+    """The measures of which every formula on a mesh is made: corner k of face i stands in row k, column i.
+
+    Attributes:
+        vertices: The vertex at each corner.
+        edges: For x, y and z the edge opposite each corner, counterclockwise round its face, m.
+        dots: The dot product of the two edges that leave the corner, m^2.
+        normals: The cross product of two edges of each face, outwards, as long as twice its area.
+        double_areas: Twice the area of each face, m^2.
+        count: How many vertices the mesh has.
+    """
+
+    vertices: Int[np.ndarray, "3 f"]
+    edges: Float[np.ndarray, "3 3 f"]
+    dots: Float[np.ndarray, "3 f"]
+    normals: Float[np.ndarray, "3 f"]
+    double_areas: Float[np.ndarray, " f"]
+    count: int
+
+    @property
+    def angles(self) -> Float[np.ndarray, "3 f"]:
+        """The inner angle at every corner, radians; a face without area has angles 0, 0 and pi, or 0 three times."""
+        return np.arctan2(self.double_areas, self.dots)
+
+    @property
+    def cotangents(self) -> Float[np.ndarray, "3 f"]:
+        """The cotangent of every angle; 0 in a face without area, which then counts for nothing."""
+        inverse = np.divide(1.0, self.double_areas, out=np.zeros_like(self.double_areas), where=self.double_areas > 0)
+        return self.dots * inverse
+
+    @property
+    def squared_edges(self) -> Float[np.ndarray, "3 f"]:
+        """The squared length of the edge opposite every corner, m^2."""
+        return self.dots[[1, 2, 0]] + self.dots[[2, 0, 1]]
+
+    def sums(self, values: Float[np.ndarray, "3 f"]) -> Float[np.ndarray, " v"]:
+        """Add up at every vertex what stands at its corners."""
+        return np.bincount(self.vertices.ravel(), values.ravel(), self.count)
+
+
+def corners(p: Points, faces: Faces) -> Corners:
+    """Measure all corners of a mesh in one pass."""
+    f = len(faces)
+    vertices = np.ascontiguousarray(faces.T)
+    edge, dots, normals = np.empty((3, 3, f)), np.empty((3, f)), np.empty((3, f))
+    for start in range(0, f, BLOCK):
+        block = slice(start, start + BLOCK)
+        a, b, c = np.take(p, vertices[:, block], axis=0).transpose(0, 2, 1)
+        bc, ca, ab = c - b, a - c, b - a
+        for k, (own, after, before) in enumerate(((bc, ca, ab), (ca, ab, bc), (ab, bc, ca))):
+            edge[:, k, block] = own
+            dots[k, block] = -np.einsum("xf,xf->f", after, before)
+        for k, (y, z) in enumerate(((1, 2), (2, 0), (0, 1))):
+            normals[k, block] = ab[y] * bc[z] - ab[z] * bc[y]
+    return Corners(vertices, edge, dots, normals, np.sqrt(np.einsum("xf,xf->f", normals, normals)), len(p))
+
+
+def face_angles(p: Points, faces: Faces) -> Float[np.ndarray, "f 3"]:
+    """Return the inner angle at each corner of each face, radians; a row adds up to pi unless the face is a point."""
+    return np.ascontiguousarray(corners(p, faces).angles.T)
+
+
+def face_areas(p: Points, faces: Faces) -> Float[np.ndarray, " f"]:
+    """Return the area of every face, m^2."""
+    return corners(p, faces).double_areas / 2
+
+
+def face_normals(p: Points, faces: Faces) -> Float[np.ndarray, "f 3"]:
+    """Return the outward unit normal of every face; zero where a face has no area."""
+    return _unit(corners(p, faces).normals.T)
+
+
+def vertex_normals(p: Points, faces: Faces) -> Float[np.ndarray, "v 3"]:
+    """Return unit normals at the vertices: the face normals around, weighted by their angle there.
+
+    Unlike the mean over the faces, the angle weights do not depend on how a flat piece was cut into triangles.
+    A vertex without faces, or whose faces cancel, gets zero.
+
+    Reference: Thuermer and Wuethrich, Computing vertex normals from polygonal facets, JGT 3(1), 1998.
+    """
+    return normals_at_vertices(corners(p, faces))
+
+
+def normals_at_vertices(measured: Corners) -> Float[np.ndarray, "v 3"]:
+    """Return the angle-weighted unit normals of corners that were measured already."""
+    angles = measured.angles
+    area = measured.double_areas
+    unit = measured.normals * np.divide(1.0, area, out=np.zeros_like(area), where=area > 0)
+    return _unit(np.stack([measured.sums(angles * unit[k]) for k in range(3)], axis=1))
+
+
+def edges(faces: Faces) -> Int[np.ndarray, "e 2"]:
+    """Return every undirected edge once, its smaller vertex first, in ascending order."""
+    return _split(np.unique(_edge_keys(_half_edges(faces))))
+
+
+def boundary_edges(faces: Faces) -> Int[np.ndarray, "b 2"]:
+    """Return the edges that have a face on one side only, in the direction in which that face goes round."""
+    half = _half_edges(faces)
+    _, first, times = np.unique(_edge_keys(half), return_index=True, return_counts=True)
+    return half[np.sort(first[times == 1])]
+
+
+def on_boundary(faces: Faces, count: int) -> Bool[np.ndarray, " {count}"]:
+    """Tell for each of `count` vertices whether it lies on the border of an oriented mesh (see `check_mesh`)."""
+    # Going round a closed fan every neighbour follows once and precedes once, so that the sum of (next - previous) is
+    # 0; round an open fan it is the first neighbour minus the last. Whole numbers below 2^53 add up exactly.
+    following, preceding = faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]
+    return np.bincount(faces.ravel(), (following - preceding).ravel(), count) != 0
+
+
+def adjacency(faces: Faces, count: int) -> scipy.sparse.csr_array:
+    """Return the `count` x `count` matrix with a 1 where an edge joins two vertices."""
+    a, b = edges(faces).T
+    ones = np.ones(2 * len(a))
+    return scipy.sparse.csr_array((ones, (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(count, count))
+
+
+def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.ndarray, " n"]]:
+    """Return the faces around a vertex and its neighbours, both counterclockwise.
+
+    Inside the mesh there are as many neighbours as faces; on the border one more, first and last being border vertices.
+
+    Raises:
+        ValueError: If the vertex has no face, or its faces are not one fan.
+    """
+    around, corner = np.nonzero(faces == vertex)
+    if not len(around):
+        raise ValueError(f"vertex {vertex} belongs to no face")
+    start, end = faces[around, (corner + 1) % 3], faces[around, (corner + 2) % 3]
+    leaving = {int(a): i for i, a in enumerate(start)}
+    first = [int(a) for a in start if a not in set(end.tolist())]
+    ring, order = [first[0] if first else int(start[0])], []
+    while ring[-1] in leaving and len(order) < len(around):
+        order.append(leaving[ring[-1]])
+        ring.append(int(end[order[-1]]))
+    if len(order) < len(around) or len(first) > 1:
+        raise ValueError(f"the {len(around)} faces at vertex {vertex} are not one fan")
+    return around[order], np.array(ring if first else ring[:-1])
+
+
+def euler_characteristic(faces: Faces) -> int:
+    """Return chi = V - E + F, counting the vertices in use: 2 for a sphere, 0 for a torus, 2 - 2g for genus g."""
+    return len(np.unique(faces)) - len(edges(faces)) + len(faces)
+
+
+def without_unused(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Faces]:
+    """Drop the vertices that no face uses; the order of the others stays."""
+    used = np.zeros(len(p), dtype=bool)
+    used[faces] = True
+    return p[used], (np.cumsum(used) - 1)[faces]
+
+
+def check_mesh(p: Points, faces: Faces) -> None:
+    """Refuse a mesh on which curvature has no meaning, and say what to mend.
+
+    Raises:
+        InputError: If the mesh is empty, names vertices that are not there, holds values that are not finite, has faces
+            without area, edges with more than two faces, faces that do not agree which side is outside, vertices where
+            sheets only touch, or vertices without faces.
+    """
+    if len(p) == 0 or len(faces) == 0:
+        raise InputError(
+            f"the mesh is empty: {len(p)} vertices and {len(faces)} faces; a point cloud has no faces to use"
+        )
+    if not np.isfinite(p).all():
+        bad = int(np.argmin(np.isfinite(p).all(axis=1)))
+        raise InputError(f"vertex {bad} of the mesh is not finite; remove or repair it")
+    if faces.min() < 0 or faces.max() >= len(p):
+        raise InputError(f"a face names vertex {int(faces.max())}, but the mesh has {len(p)} vertices, counted from 0")
+    _check_faces(p, faces)
+    _check_edges(faces)
+    _check_vertices(p, faces)
+
+
+def _check_faces(p: Points, faces: Faces) -> None:
+    measured = corners(p, faces)
+    longest = measured.squared_edges.max(axis=0)
+    flat = np.flatnonzero(measured.double_areas <= 1e-12 * longest)
+    if len(flat):
+        raise InputError(
+            f"{len(flat)} of {len(faces)} faces have no area (the first is face {flat[0]}); remove or merge them first"
+        )
+
+
+def _check_edges(faces: Faces) -> None:
+    half = _half_edges(faces)
+    keys, times = np.unique(_edge_keys(half), return_counts=True)
+    if (times > 2).any():
+        a, b = _split(keys[times > 2])[0]
+        raise InputError(
+            f"the mesh is not a surface: {int((times > 2).sum())} edges have more than two faces (the first joins "
+            f"vertices {a} and {b}); split or remove the extra faces"
+        )
+    directed, times = np.unique(half[:, 0] * (int(faces.max()) + 1) + half[:, 1], return_counts=True)
+    if (times > 1).any():
+        a, b = divmod(int(directed[times > 1][0]), int(faces.max()) + 1)
+        raise InputError(
+            f"neighbouring faces disagree which side is outside (at the edge of vertices {a} and {b}); make the faces' "
+            "orientation consistent"
+        )
+
+
+def _check_vertices(p: Points, faces: Faces) -> None:
+    used = np.zeros(len(p), dtype=bool)
+    used[faces] = True
+    if not used.all():
+        raise InputError(f"{int((~used).sum())} vertices belong to no face (the first is {int(np.argmin(used))})")
+    # A fan is a set of corners at one vertex, each sharing an edge with the next. One vertex, one fan.
+    half, f = _half_edges(faces), len(faces)
+    keys = _edge_keys(half)
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.diff(keys[order]) == 0)
+    one, two = order[first], order[first + 1]
+    # Half-edge k*f + i leaves corner k+1 of face i for corner k+2; its twin runs the other way.
+    leaves, arrives = (lambda h: (h // f + 1) % 3 * f + h % f), (lambda h: (h // f + 2) % 3 * f + h % f)
+    a = np.concatenate([leaves(one), arrives(one)])
+    b = np.concatenate([arrives(two), leaves(two)])
+    links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(3 * f, 3 * f))
+    fans, fan = scipy.sparse.csgraph.connected_components(links, directed=False)
+    if fans > len(p):
+        fan_vertex = np.zeros(fans, dtype=int)
+        fan_vertex[fan] = faces.T.ravel()
+        touching = np.flatnonzero(np.bincount(fan_vertex, minlength=len(p)) > 1)
+        raise InputError(
+            f"the mesh is not a surface: at {len(touching)} vertices sheets only touch (the first is vertex "
+            f"{touching[0]}); split these vertices"
+        )
+
+
+def _half_edges(faces: Faces) -> Int[np.ndarray, "h 2"]:
+    """Edge 0 of all faces, then edge 1, then edge 2, each in the direction of its face."""
+    return np.concatenate([faces[:, [1, 2]], faces[:, [2, 0]], faces[:, [0, 1]]])
+
+
+def _edge_keys(half: Int[np.ndarray, "h 2"]) -> Int[np.ndarray, " h"]:
+    """One whole number per undirected edge: sorting numbers is much faster than sorting rows."""
+    return half.min(axis=1).astype(np.int64) << 32 | half.max(axis=1).astype(np.int64)
+
+
+def _split(keys: Int[np.ndarray, " e"]) -> Int[np.ndarray, "e 2"]:
+    return np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1)
+
+
+def _unit(v: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+    length = np.sqrt(np.einsum("nk,nk->n", v, v))[:, None]
+    return np.divide(v, length, out=np.zeros_like(v), where=length > 0)
