@@ -122,7 +122,7 @@ def _vase_why(states: Sequence[State]) -> str:
 
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
-        "first-matches",
+        "predict-matches",
         "35° away, each source point takes its nearest target point. How many percent of these first matches are right"
         " (within two point spacings)?",
         answer=lambda states: 100.0 * states[0].right,
@@ -136,7 +136,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         step=0,
     ),
     Question(
-        "far",
+        "predict-far",
         "The source starts 120° away. What will ICP do?",
         answer=_far_answer,
         why=_far_why,
@@ -148,7 +148,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
     ),
     Question(
-        "plane-iterations",
+        "predict-plane",
         "From 35°, point-to-point takes 61 iterations to its stop. How many does point-to-plane take?",
         answer=lambda states: float(end(states).icp.iteration),
         why=lambda states: (
@@ -159,7 +159,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         tolerance=8.0,
     ),
     Question(
-        "vase",
+        "predict-vase",
         "A vase starts turned by 90° about its own axis. What does the end look like?",
         answer=_vase_answer,
         why=_vase_why,
