@@ -3,6 +3,7 @@
 import dataclasses
 import inspect
 import itertools
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,8 +13,14 @@ from workbench.lesson import Lesson, catalog
 from workbench.scene import Caption, caption_of, in_space, same
 from workbench.timeline import Timeline
 
+ROOT = Path(__file__).resolve().parents[1]
 LESSONS = list(catalog().values())
 MOST = 12  # steps looked at where a run at the end of a range would take long
+
+
+def test_every_folder_is_in_the_catalogue():
+    folders = {path.parent.name for path in (ROOT / "lessons").glob("*/__init__.py")}
+    assert folders <= set(catalog())
 
 
 def first_steps(lesson: Lesson, params, n: int = MOST) -> Timeline:

@@ -140,7 +140,7 @@ def catalog() -> Mapping[str, Lesson]:
     found: list[Lesson] = []
     lessons = importlib.import_module("lessons")
     for info in pkgutil.iter_modules(lessons.__path__, "lessons."):
-        if info.ispkg:
+        if info.ispkg and importlib.util.find_spec(f"{info.name}.lesson") is not None:
             found.append(_lesson_in(importlib.import_module(f"{info.name}.lesson")))
     for entry in importlib.metadata.entry_points(group="workbench.lessons"):
         found.append(entry.load())

@@ -91,7 +91,7 @@ Color: TypeAlias = Role | Field | Classes | np.ndarray
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """A cloud: `p` (n, 3) in the object's frame; `radius` in metres, or in pixels of the screen where None.
+    """A cloud: `p` (n, 3) in the object's frame, each point drawn as a disc of `radius` metres.
 
     `color` is a role, a Field, Classes, or (n, 3) uint8 for measured colours.
     """

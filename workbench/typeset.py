@@ -7,6 +7,7 @@ themselves; they need a font with a MATH table, which `math_font_css` supplies.
 import base64
 import functools
 import html
+import importlib.util
 import io
 import re
 from pathlib import Path
@@ -90,11 +91,13 @@ def _font() -> bytes | None:
 
 
 def _subset() -> bytes:
-    import ziamath
     from fontTools import subset
     from fontTools.ttLib import TTFont
 
-    path = next(Path(ziamath.__file__).parent.rglob("STIXTwoMath*.ttf"))
+    package = importlib.util.find_spec("ziamath")  # found, not imported: only its font is wanted
+    path = next(Path(package.origin).parent.rglob("STIXTwoMath*.ttf")) if package and package.origin else None
+    if path is None:
+        raise FileNotFoundError("no font with a MATH table")
     options = subset.Options(layout_features=["*"], hinting=False, notdef_outline=True, drop_tables=["DSIG"])
     chosen = [*range(0x20, 0x180), *range(0x370, 0x400), *range(0x2000, 0x2070), *range(0x2070, 0x20D0)]
     chosen += [*range(0x20D0, 0x2300), *range(0x2308, 0x2310), *range(0x27E8, 0x27EC), *range(0x1D400, 0x1D7FF)]

@@ -116,7 +116,7 @@ class Beside:
         chart = self._charts.get(key)
         if chart is not None and len(chart.data) == len(data):
             chart.title, chart.data, chart.scales = title, data, scales
-            if [s["label"] for s in chart.series] != [s["label"] for s in series]:
+            if list(chart.series) != series:
                 chart.series = tuple(series)
             return
         if chart is not None:

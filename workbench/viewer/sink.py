@@ -140,7 +140,7 @@ class ViserSink:
             name,
             _placed(points, points.p).astype(np.float32),
             self._colors(points, len(points.p)),
-            point_size=2 * points.radius,
+            point_size=points.radius,  # viser's size is a radius
             point_shape="circle",
             point_shading="flat",
             precision="float32",

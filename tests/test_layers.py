@@ -1,0 +1,105 @@
+"""Keeps imports pointing one way, by reading the source: DESIGN's house, as a table."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+BASE = {"workbench", "workbench.errors", "workbench.watch"}
+DRAWING = BASE | {"workbench.scene", "workbench.knobs"}
+LESSON = DRAWING | {"workbench.lesson", "workbench.timeline"}
+MATHS = BASE | {"workbench.geometry"}
+
+# what a part may import of the workbench; longer names win
+ALLOWED = {
+    "workbench.errors": set(),
+    "workbench.watch": set(),
+    "workbench.scene": set(),
+    "workbench.knobs": {"workbench.errors"},
+    "workbench.geometry": MATHS,
+    "workbench.algorithms": MATHS | {"workbench.algorithms"},
+    "workbench.data": MATHS | {"workbench.data"},
+    "workbench.lesson": DRAWING,
+    "workbench.timeline": LESSON,
+    "workbench.links": LESSON,
+    "workbench.picking": DRAWING,
+    "workbench.typeset": BASE,
+    "workbench.session": LESSON | {"workbench.session"},
+    "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links"},
+    "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.session"},
+    "workbench.publish": LESSON | {
+        "workbench.publish", "workbench.recording", "workbench.viewer", "workbench.typeset", "workbench.session",
+        "workbench.links",
+    },
+    "workbench.viewer": LESSON | {
+        "workbench.viewer", "workbench.session", "workbench.links", "workbench.picking", "workbench.typeset",
+        "workbench.recording", "workbench.exercise",
+    },
+    "workbench.flags": LESSON | {"workbench.flags"},
+    "workbench.cli": None,  # the top: it may import everything
+    "workbench.__main__": None,
+    "workbench": None,
+    "lessons": DRAWING | {"workbench.geometry", "workbench.algorithms", "workbench.data", "workbench.lesson", "lessons",
+                          "workbench.exercise"},
+}  # fmt: skip
+
+OUTSIDE = {"viser": ("workbench.viewer", "workbench.publish"), "rerun": ("workbench.recording",)}
+
+MODULES = sorted([*(ROOT / "workbench").rglob("*.py"), *(ROOT / "lessons").rglob("*.py")])
+
+
+def name_of(path: Path) -> str:
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def imports(path: Path) -> set[str]:
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path.name}: write imports in full"
+            module = node.module or ""
+            found |= {f"{module}.{alias.name}" if (ROOT / module.replace(".", "/") / f"{alias.name}.py").exists() else module
+                      for alias in node.names}  # fmt: skip
+    return found
+
+
+def inside(name: str, roots) -> bool:
+    return any(name == root or (root != "workbench" and name.startswith(root + ".")) for root in roots)
+
+
+def rule(name: str):
+    return ALLOWED[max((part for part in ALLOWED if name == part or name.startswith(part + ".")), key=len)]
+
+
+@pytest.mark.parametrize("path", MODULES, ids=name_of)
+def test_imports_point_one_way(path):
+    name, allowed = name_of(path), rule(name_of(path))
+    for imported in imports(path):
+        top = imported.split(".")[0]
+        if top in ("workbench", "lessons") and allowed is not None:
+            assert inside(imported, allowed), f"{name} imports {imported}"
+        if top in OUTSIDE:
+            assert inside(name, OUTSIDE[top]), f"{name} imports {imported}"
+        if name.startswith("lessons."):
+            assert top != "lessons" or imported.split(".")[1] == name.split(".")[1], f"{name} imports another lesson"
+
+
+def test_every_part_has_a_rule_of_its_own():
+    for path in MODULES:
+        name = name_of(path)
+        assert rule(name) is not None or name in ("workbench", "workbench.cli", "workbench.__main__"), (
+            f"{name}: no rule"
+        )
+
+
+@pytest.mark.parametrize("code", ["import workbench", "from workbench.lesson import catalog; catalog()"])
+def test_the_catalogue_needs_no_viewer(code):
+    check = f"import sys; {code}; print([m for m in ('viser', 'rerun', 'trimesh', 'skimage') if m in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", check], capture_output=True, text=True, cwd=ROOT, check=True)
+    assert done.stdout.strip() == "[]"

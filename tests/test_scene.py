@@ -1,0 +1,105 @@
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+from tests.fake import lesson, test_nothing_is_left_out  # noqa: F401 (collected here)
+from workbench.scene import (
+    Axes,
+    Camera,
+    Caption,
+    Classes,
+    Curve,
+    Field,
+    Label,
+    Mesh,
+    Picture,
+    Points,
+    Segments,
+    Table,
+    caption_of,
+    color_map,
+    ghost,
+    in_space,
+    is_rigid,
+    same,
+)
+from workbench.timeline import Timeline
+
+P = np.zeros((4, 3))
+BAD = np.array([[0, 0, np.nan]])
+
+
+@pytest.mark.parametrize(
+    ("make", "line"),
+    [
+        (lambda: Points(np.zeros((3, 2))), r"\(n, 3\), not \(3, 2\)"),
+        (lambda: Points(BAD), "NaN"),
+        (lambda: Points(P, "blue"), "unknown colour role 'blue'"),
+        (lambda: Points(P, np.zeros((3, 3), np.uint8)), r"\(4, 3\) uint8"),
+        (lambda: Points(P, Field(np.zeros(3), 0, 1, "x")), "values for 4 items"),
+        (lambda: Points(P, radius=0.0), "positive"),
+        (lambda: Points(P, T_world_object=np.eye(3)), r"\(4, 4\)"),
+        (lambda: Points(P, opacity=2.0), "opacity"),
+        (lambda: Segments(np.zeros((2, 3))), r"\(n, 2, 3\)"),
+        (lambda: Mesh(P, np.array([[0, 1, 4]])), "out of range"),
+        (lambda: Mesh(P, np.zeros((0, 3), int)), "at least one face"),
+        (lambda: Axes(length=0.0), "positive"),
+        (lambda: Camera(np.eye(2), 4, 4), r"\(3, 3\)"),
+        (lambda: Label("a", P), r"\(3,\)"),
+        (lambda: Picture(np.zeros((4, 4))), "uint8"),
+        (lambda: Field(P, 1.0, 0.0, "x"), "low < high"),
+        (lambda: Field(P, 0.0, 1.0, "x", map="diverging"), "zero in the middle"),
+        (lambda: Classes(np.array([2]), ("source",), ("a",)), "beyond the roles"),
+        (lambda: Curve(np.zeros(2), np.zeros(3), "a", "b", "c"), "n > 0"),
+        (lambda: Table("a", ("x", "y"), (("1",),)), "as long as"),
+        (lambda: Caption("  "), "says something"),
+        (lambda: caption_of({}), "needs a Caption"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_where_it_is_made(make, line):
+    with pytest.raises(ValueError, match=line):
+        make()
+
+
+def test_same_tells_every_field_apart():
+    scene = Timeline(lesson, lesson.params()).complete()[4].scene
+    for primitive in scene.values():
+        assert same(primitive, replace(primitive))
+        for field in fields(primitive):
+            value = getattr(primitive, field.name)
+            if isinstance(value, np.ndarray) and value.dtype.kind == "f":
+                assert same(primitive, replace(primitive, **{field.name: value.copy()}))
+                assert not same(primitive, replace(primitive, **{field.name: value * 1.001 + 0.001}))
+            elif isinstance(value, str) and field.name in ("text", "title", "name"):
+                assert not same(primitive, replace(primitive, **{field.name: value + "x"}))
+
+
+def test_maps_reach_their_ends_and_the_middle_is_light():
+    assert color_map("viridis", np.array([-1.0, 0.0]))[0].tolist() == [0x44, 0x01, 0x54]
+    assert color_map("viridis", np.array([1.0, 5.0]))[1].tolist() == [0xFD, 0xE7, 0x25]
+    assert color_map("diverging", np.array([0.5])).min() > 230
+    unknown = Field(np.array([np.nan, 0.5]), 0, 1, "x").rgb()
+    assert unknown[0].tolist() == [128, 128, 128]
+
+
+def test_a_ghost_is_what_stands_in_space_and_fainter():
+    scene = Timeline(lesson, lesson.params()).complete()[0].scene
+    faint = ghost(scene)
+    assert faint
+    assert all(path.startswith("ghost/") and in_space(primitive) for path, primitive in faint.items())
+    assert faint["ghost/source"].opacity < 0.5  # type: ignore[union-attr]
+    assert faint["ghost/source"].p is scene["source"].p  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize(
+    ("T", "rigid"),
+    [
+        (np.eye(4), True),
+        (np.diag([1, 1, -1, 1.0]), False),
+        (np.diag([2, 2, 2, 1.0]), False),
+        (np.diag([-1, -1, 1, 1.0]), True),
+    ],
+)
+def test_rigid_means_a_rotation_and_a_translation(T, rigid):
+    assert is_rigid(T) is rigid

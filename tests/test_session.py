@@ -1,0 +1,261 @@
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.fake import Params, lesson
+from workbench.errors import InputError
+from workbench.scene import same
+from workbench.session import SPEEDS, Session
+from workbench.timeline import Timelines
+
+
+def settled(params=None) -> Session:
+    session = Session(lesson)
+    if params is not None:
+        session.open(lesson, params)
+    finish(session)
+    return session
+
+
+def finish(session: Session) -> None:
+    while session.pending:
+        session.compute(0.01)
+
+
+def test_forward_back_and_scrub_show_the_very_same_scene_without_recomputing():
+    session = settled(Params(steps=8))
+    session.first()
+    scenes = []
+    for _ in range(8):
+        scenes.append(session.look().timeline[session.step].scene)
+        session.forward()
+    made = session.timeline
+    session.timeline.extend = None  # type: ignore[method-assign]  # any computing from here on fails
+    for k in (7, 3, 0, 5, 5, 2):
+        session.seek(k)
+        assert session.look().k == k
+        assert made[k].scene is scenes[k]
+    session.seek(7)
+    for k in range(6, -1, -1):
+        session.back()
+        assert session.look().k == k
+        assert made[k].scene is scenes[k]
+
+
+@settings(max_examples=40)
+@given(
+    verbs=st.lists(
+        st.sampled_from(["forward", "back", "first", "last", "play", "pause", "tick", "seek", "compute", "change"]),
+        max_size=30,
+    )
+)
+def test_the_step_shown_is_always_one_that_is_known(verbs):
+    session, now = Session(lesson), 0.0
+    for i, verb in enumerate(verbs):
+        now += 0.4
+        if verb in ("play", "tick"):
+            getattr(session, verb)(now)
+        elif verb == "seek":
+            session.seek(i)
+        elif verb == "compute":
+            session.compute(0.0)
+        elif verb == "change":
+            session.change(angle=i)
+        else:
+            getattr(session, verb)()
+        look = session.look()
+        if look is not None and look.known:
+            assert 0 <= look.k < look.known
+            assert same(look.timeline[look.k].scene["caption"], look.caption)
+
+
+def test_a_new_value_abandons_the_run_in_progress():
+    session = Session(lesson)
+    session.open(lesson, Params(steps=5000))
+    session.compute(0.0)
+    slow = session.timeline
+    session.change(angle=10)
+    known = len(slow)
+    session.compute(0.0)
+    assert session.timeline is not slow
+    assert len(slow) == known
+    assert len(session.timeline) >= 1
+
+
+def test_the_change_is_noticed_in_the_middle_of_computing():
+    session = Session(lesson)
+    session.open(lesson, Params(steps=5000))
+    long, extend = session.timeline, session.timeline.extend
+
+    def extend_and_change() -> bool:
+        session.change(angle=10)
+        return extend()
+
+    long.extend = extend_and_change  # type: ignore[method-assign]
+    session.compute(60.0)
+    assert len(long) == 1
+
+
+def test_the_picture_stays_until_the_next_one_is_there():
+    session = settled()
+    before = session.look()
+    session.change(angle=33)
+    meanwhile = session.look()
+    assert meanwhile.timeline is before.timeline
+    assert meanwhile.params.angle == 33
+    session.compute(0.0)
+    assert session.look().timeline is session.timeline
+
+
+def test_values_from_a_browser_are_clamped_or_told_and_the_session_lives():
+    session = settled()
+    session.change(angle=99999)
+    assert session.params.angle == 180
+    session.change(colors="red")
+    finish(session)
+    assert session.look().caption.tone == "wrong"
+    assert "one of role" in session.look().caption.text
+    session.change(colors="role")
+    finish(session)
+    assert session.look().caption.tone != "wrong" or "one of" not in session.look().caption.text
+    for value in ("x", None, float("nan"), True):
+        session.seek(value)
+    session.seek(10**12)
+    assert session.step == len(session.timeline) - 1
+    session.seek(-4)
+    assert session.step == 0
+
+
+@pytest.mark.parametrize("trouble", ["input", "crash"])
+def test_a_run_that_fails_says_so_at_its_last_step(trouble):
+    session = settled(Params(trouble=trouble))
+    session.last()
+    assert session.look().caption.tone == "wrong"
+    session.first()
+    assert session.look().caption.tone == "info"
+    session.change(trouble="none")
+    finish(session)
+    session.last()
+    assert "bug" not in session.look().caption.text
+
+
+def test_a_run_without_a_first_step_shows_its_reason():
+    session = Session(lesson)
+    session.open(lesson, Params(scan="/nowhere.npy"))  # type: ignore[arg-type]
+    finish(session)
+    look = session.look()
+    assert look.known == 0
+    assert "not a .npy file" in look.caption.text
+
+
+def test_playing_follows_deadlines_and_stops_at_the_end():
+    session = settled(Params(steps=4))
+    session.set_speed(2.0, 0.0)
+    session.first()
+    session.play(10.0)
+    assert session.tick(10.1) == pytest.approx(10.5)
+    assert session.step == 0
+    assert session.tick(10.52) == pytest.approx(11.0)  # the deadline is kept although the call was late
+    assert session.step == 1
+    session.tick(11.0)
+    session.tick(11.5)
+    assert session.step == 3
+    assert session.tick(12.1) is None
+    assert not session.playing
+    session.play(20.0)
+    assert session.step == 0
+
+
+def test_playing_waits_for_steps_that_are_still_computed():
+    session = Session(lesson)
+    session.compute(0.0)
+    session.first()
+    session.play(0.0)
+    session.tick(1.0)
+    assert session.playing
+    assert session.step == 0
+    finish(session)
+    session.tick(2.0)
+    assert session.step == 1
+
+
+@pytest.mark.parametrize("speed", [None, 0, 3.0, "fast", float("nan")])
+def test_an_unknown_speed_is_ignored(speed):
+    session = settled()
+    session.set_speed(speed, 0.0)
+    assert session.speed == 1.0
+    assert session.speed in SPEEDS
+
+
+def test_a_pinned_run_stays_as_ghost_and_curve():
+    session = settled()
+    session.seek(2)
+    pinned = session.timeline[2].scene
+    session.pin()
+    session.change(angle=10)
+    finish(session)
+    look = session.look()
+    assert same(look.scene["ghost/source"].p, pinned["source"].p)
+    assert set(look.pinned_series) == set(look.series)
+    session.unpin()
+    assert not any(path.startswith("ghost/") for path in session.look().scene)
+    session.pin()
+    session.reset()
+    assert not session.pinned
+
+
+def test_the_end_stays_the_end_when_a_knob_changes():
+    session = settled()
+    session.last()
+    session.change(steps=9)
+    finish(session)
+    assert session.step == 8
+    session.seek(3)
+    session.change(steps=20)
+    finish(session)
+    assert session.step == 3
+
+
+def test_a_preset_opens_where_it_says():
+    session = settled()
+    session.use_preset("short")
+    finish(session)
+    assert session.params == Params(steps=2)
+    assert session.step == 1
+    with pytest.raises(InputError, match="it has: half, short"):
+        session.use_preset("nothing")
+
+
+def test_answers_are_read_off_the_run():
+    session = settled()
+    number, choice = lesson.questions
+    assert session.answer(number, 0.005).right
+    assert not session.answer(number, 0.5).right
+    assert session.answer(choice, "the second").right
+    assert not session.answer(choice, "the first").right
+    skipped = session.answer(choice, None)
+    assert (skipped.right, skipped.truth) == (False, "the second")
+    for bad in ("perhaps", 7):
+        with pytest.raises(InputError):
+            session.answer(choice, bad)
+    with pytest.raises(InputError, match="a number"):
+        session.answer(number, "much")
+
+
+def test_two_sessions_share_runs_but_not_places():
+    shared = Timelines()
+    one, two = Session(lesson, shared), Session(lesson, shared)
+    finish(one)
+    one.seek(3)
+    two.seek(1)
+    assert one.timeline is two.timeline
+    assert (one.step, two.step) == (3, 1)
+
+
+def test_a_session_with_a_students_function_does_not_share_its_run():
+    shared = Timelines()
+    ours, theirs = Session(lesson, shared), Session(lesson, shared, {"turn": lambda angle: 1 / 0})
+    finish(ours)
+    finish(theirs)
+    assert len(ours.timeline) == 6
+    assert "ZeroDivisionError" in theirs.look().caption.text

@@ -1,0 +1,138 @@
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import pytest
+
+from tests.fake import Params, lesson
+from workbench.errors import InputError
+from workbench.knobs import Knob
+from workbench.lesson import Lesson
+from workbench.scene import Caption, Points, same
+from workbench.timeline import Timeline, Timelines
+
+
+@dataclass(frozen=True)
+class Bare:
+    steps: Annotated[int, Knob("How many", 0, 10**7)] = 3
+
+
+def bare(run, draw=None) -> Lesson:
+    shown = draw or (lambda state: {"p": Points(state), "caption": Caption("A step happened")})
+    return Lesson("bare", "Bare", "One line", Path(__file__), Bare, run, shown, order=1)
+
+
+def test_steps_are_computed_once_and_kept():
+    timeline = Timeline(lesson, Params(steps=4))
+    assert len(timeline) == 0
+    assert timeline.extend()
+    first = timeline[0]
+    timeline.complete()
+    assert timeline.finished
+    assert timeline.stopped is None
+    assert len(timeline) == 4
+    assert timeline[0] is first
+    assert timeline[-1] is timeline[3]
+    assert not timeline.extend()
+
+
+def test_a_state_that_is_changed_after_its_yield_raises():
+    def run(params):
+        p = np.zeros((4, 3))
+        for _ in range(3):
+            yield p
+            p += 1.0
+
+    timeline = Timeline(bare(run), Bare()).complete()
+    assert len(timeline) == 1
+    assert "read-only" in (timeline.stopped or "")
+
+
+def test_a_view_freezes_what_it_looks_at():
+    def run(params):
+        p = np.zeros((4, 3))
+        yield p[:2]
+        p[3] = 1.0
+        yield p
+
+    assert "read-only" in (Timeline(bare(run), Bare()).complete().stopped or "")
+
+
+def test_steps_and_bytes_are_bounded_and_the_reason_is_said():
+    def run(params):
+        while True:
+            yield np.zeros((1000, 3))
+
+    by_steps = Timeline(bare(run), Bare(), most_steps=7).complete()
+    assert len(by_steps) == 7
+    assert "cut after 7 steps" in (by_steps.stopped or "")
+    by_bytes = Timeline(bare(run), Bare(), most_bytes=100_000).complete()
+    assert len(by_bytes) == 5
+    assert by_bytes.bytes == 5 * 24_000
+
+
+def test_shared_arrays_are_counted_once():
+    p = np.zeros((1000, 3))
+    timeline = Timeline(bare(lambda params: iter([p, p, p[:10]])), Bare()).complete()
+    assert timeline.bytes == p.nbytes
+
+
+@pytest.mark.parametrize(("trouble", "line"), [("input", "step 2 met a bad file"), ("crash", "RuntimeError: a bug")])
+def test_a_run_that_fails_keeps_its_steps_and_says_why(trouble, line):
+    timeline = Timeline(lesson, Params(trouble=trouble)).complete()
+    assert len(timeline) == 2
+    assert line in (timeline.stopped or "")
+    assert (timeline.failure is not None) == (trouble == "crash")
+    with pytest.raises(InputError, match=line):
+        timeline.states()
+
+
+def test_a_step_without_a_caption_is_an_error_of_the_lesson():
+    timeline = Timeline(
+        bare(lambda params: iter([np.zeros((1, 3))]), lambda state: {"p": Points(state)}), Bare()
+    ).complete()
+    assert "Caption" in (timeline.stopped or "")
+
+
+def test_params_are_checked():
+    with pytest.raises(InputError, match="angle"):
+        Timeline(lesson, Params(angle=1e9))
+    with pytest.raises(InputError, match="takes Params"):
+        Timeline(lesson, Bare())
+
+
+def test_series_hold_every_scalar_and_nan_where_there_is_none():
+    timeline = Timeline(lesson, Params(steps=5)).complete()
+    series = timeline.series()
+    assert list(series) == ["error", "truth", "cost"]
+    np.testing.assert_allclose(series["error"].values, [1, 0.75, 0.5, 0.25, 0])
+    assert np.isnan(series["truth"].values[0])
+
+
+def test_runs_are_shared_and_the_least_recently_used_is_dropped():
+    kept = Timelines(most_runs=2)
+    one = kept.get(lesson, Params())
+    assert kept.get(lesson, Params()) is one
+    two = kept.get(lesson, Params(angle=10))
+    assert kept.get(lesson, Params()) is one
+    kept.get(lesson, Params(angle=20))
+    assert kept.get(lesson, Params()) is one
+    assert kept.get(lesson, Params(angle=10)) is not two
+
+
+def test_runs_are_dropped_by_size():
+    kept = Timelines(most_bytes=1)
+    kept.get(lesson, Params()).complete()
+    kept.get(lesson, Params(angle=10)).complete()
+    kept.get(lesson, Params(angle=20))
+    assert len(kept) == 1
+
+
+def test_the_slot_replaces_the_function():
+    flipped = Timeline(lesson, Params(steps=2), {"turn": lambda angle: np.diag([1, 1, -1, 1.0])}).complete()
+    plain = Timeline(lesson, Params(steps=2)).complete()
+    assert not same(flipped[0].scene["source"], plain[0].scene["source"])
+    assert same(
+        replace(flipped[0].scene["source"], T_world_object=None), replace(plain[0].scene["source"], T_world_object=None)
+    )  # type: ignore[type-var]

@@ -1,0 +1,33 @@
+from workbench.typeset import inline_html, math_font_css, math_html, page_html
+
+
+def test_maths_becomes_mathml_and_sections_are_named():
+    page = page_html("# T\n\nText $x^2$.\n\n## Break it!\n\n$$\\sum_i \\lVert p_i \\rVert$$\n\n| a |\n|---|\n| 1 |\n")
+    assert page.count("<math") == 2
+    assert '<section class="s-break-it">' in page
+    assert "<table>" in page
+    assert 'display="block"' in page
+
+
+def test_html_in_a_text_is_shown_as_text():
+    for html in (page_html("a <script>alert(1)</script>"), inline_html("<img src=x onerror=alert(1)>")):
+        assert "<script" not in html
+        assert "<img" not in html
+        assert "&lt;" in html
+    assert "javascript:" not in page_html("[a](javascript:alert(1))").replace("[a](javascript:", "")
+
+
+def test_a_formula_that_cannot_be_read_is_shown_as_written():
+    assert math_html(r"\frac{1}") == r"<code>\frac{1}</code>" or "<math" in math_html(r"\frac{1}")
+    assert "&lt;b&gt;" in math_html("<b>") or "<mi>" in math_html("<b>")
+
+
+def test_the_font_is_small_and_kept(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    math_font_css.cache_clear()
+    css = math_font_css()
+    assert 100_000 < len(css) < 600_000
+    kept = list(tmp_path.rglob("*.woff"))
+    assert len(kept) == 1
+    math_font_css.cache_clear()
+    assert math_font_css() == css

@@ -1,0 +1,142 @@
+from dataclasses import fields, is_dataclass, replace
+
+import numpy as np
+import pytest
+import viser
+
+from tests.fake import Params, lesson
+from workbench.scene import Points, in_space, same
+from workbench.timeline import Timeline
+from workbench.viewer.sink import ROOT, ViserSink
+
+
+@pytest.fixture(scope="module")
+def server():
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def sink(server):
+    server.scene.reset()
+    return ViserSink(server.scene)
+
+
+@pytest.fixture(params=["field", "classes", "measured", "role"])
+def scenes(request):
+    timeline = Timeline(lesson, Params(colors=request.param, wobble=request.param == "role")).complete()
+    return [step.scene for step in timeline.known()]
+
+
+def nodes(server) -> dict:
+    """What viser holds: every node's properties and pose."""
+    found = {}
+    for name, handle in server.scene._handle_from_node_name.items():
+        if name.startswith(ROOT):
+            props = getattr(handle._impl, "props", None)
+            values = {f.name: getattr(props, f.name) for f in fields(props)} if is_dataclass(props) else {}
+            found[name] = values | {"wxyz": np.array(handle.wxyz), "position": np.array(handle.position)}
+    return found
+
+
+def alike(a, b) -> bool:
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        a, b = np.asarray(a), np.asarray(b)
+        try:
+            a, b = np.broadcast_arrays(a, b)
+        except ValueError:
+            return False
+        return bool(np.allclose(a.astype(float), b.astype(float), atol=1e-5))
+    return a == b
+
+
+def assert_equal_nodes(a: dict, b: dict) -> None:
+    assert a.keys() == b.keys()
+    for name in a:
+        for key in a[name]:
+            assert alike(a[name][key], b[name][key]), f"{name}.{key}"
+
+
+def test_showing_one_scene_after_another_leaves_exactly_the_other(server, scenes):
+    for before in range(0, 6, 2):
+        for after in range(6):
+            server.scene.reset()
+            sink = ViserSink(server.scene)
+            sink.show(scenes[before])
+            sink.show(scenes[after])
+            got = nodes(server)
+            server.scene.reset()
+            ViserSink(server.scene).show(scenes[after])
+            assert_equal_nodes(got, nodes(server))
+
+
+def test_an_empty_scene_leaves_nothing(server, sink, scenes):
+    sink.show(scenes[2])
+    assert nodes(server)
+    sink.show({})
+    assert not nodes(server)
+
+
+class Count:
+    """Counts what is sent: messages by type, and the bytes of the arrays and texts they hold."""
+
+    def __init__(self, server, monkeypatch):
+        self.names: list[str] = []
+        self.bytes = 0
+        interface = server.scene._websock_interface
+        queue = interface.queue_message
+
+        def counted(message, *args, **kwargs):
+            self.names.append(type(message).__name__)
+            self.bytes += sum(size(value) for value in vars(message).values())
+            return queue(message, *args, **kwargs)
+
+        monkeypatch.setattr(interface, "queue_message", counted)
+
+
+def size(value) -> int:
+    if isinstance(value, np.ndarray):
+        return value.nbytes
+    if isinstance(value, (bytes, str)):
+        return len(value)
+    if isinstance(value, dict):
+        return sum(map(size, value.values()))
+    if isinstance(value, (tuple, list)):
+        return sum(map(size, value))
+    return sum(size(getattr(value, f.name)) for f in fields(value)) if is_dataclass(value) else 8
+
+
+def test_a_moved_cloud_is_sent_as_a_pose(server, sink, monkeypatch):
+    p = np.random.default_rng(0).uniform(size=(20_000, 3))
+    turned = np.array([[0.0, -1, 0, 0.3], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+    cloud = {"source": Points(p, "source", T_world_object=np.eye(4))}
+    sink.show(cloud)
+    count = Count(server, monkeypatch)
+    sink.show({"source": replace(cloud["source"], T_world_object=turned)})
+    assert set(count.names) == {"SetOrientationMessage", "SetPositionMessage"}
+    assert count.bytes < 300
+    np.testing.assert_allclose(sink.handle("source").position, [0.3, 0, 0])
+
+
+def test_what_stays_is_not_sent_again(server, sink, scenes, monkeypatch):
+    sink.show(scenes[1])
+    count = Count(server, monkeypatch)
+    sink.show(scenes[1])
+    sink.show({path: replace(primitive) for path, primitive in scenes[1].items()})
+    assert count.names == []
+
+
+def test_another_number_of_points_keeps_points_and_colours_together(server, sink):
+    few, many = np.zeros((3, 3)), np.ones((7, 3))
+    for p in (few, many, few):
+        sink.show({"cloud": Points(p, np.zeros((len(p), 3), np.uint8))})
+        assert sink.handle("cloud").points.shape == p.shape
+
+
+def test_repainting_keeps_what_is_shown(sink, scenes):
+    sink.show(scenes[2])
+    before = sink.shown()
+    sink.repaint((20, 20, 20))
+    assert same(before, sink.shown())
+    assert all(in_space(primitive) for primitive in before.values())
