@@ -57,6 +57,15 @@ def test_back_projection_inverts_projection(seed, lens):
     np.testing.assert_allclose(back, p_world, atol=1e-9)
 
 
+def test_normalised_coordinates_undo_skew_and_oblong_pixels():
+    K_odd = intrinsics(500.0, 320.0, 240.0, fy=430.0, skew=12.0)
+    xy = np.random.default_rng(7).uniform(-0.5, 0.5, (30, 2))
+    uv = project(np.column_stack([xy, np.ones(30)]), np.eye(4), K_odd, LENS)
+    np.testing.assert_allclose(normalize(uv, K_odd, LENS), xy, atol=1e-12)
+    uv_h = np.column_stack([distort(xy, *LENS), np.ones(30)]) @ K_odd.T
+    np.testing.assert_allclose(uv, uv_h[:, :2], atol=1e-10)
+
+
 @settings(max_examples=30, deadline=None)
 @given(seed=seeds, lens=lenses)
 def test_rays_start_at_the_centre_and_meet_the_points_at_ray_length(seed, lens):
@@ -184,7 +193,9 @@ def test_far_points_of_a_line_tend_to_its_vanishing_point(seed, lens):
 
 
 def test_lines_parallel_to_the_picture_have_no_vanishing_point():
-    assert np.isnan(vanishing_points(np.array([[1.0, 2.0, 0.0], [0.0, 0.0, 0.0]]), np.eye(4), K)).all()
+    assert np.isnan(
+        vanishing_points(np.array([[1.0, 2.0, 0.0], [1.0, 2.0, 1e-15], [0.0, 0.0, 0.0]]), np.eye(4), K)
+    ).all()
 
 
 @settings(max_examples=20, deadline=None)

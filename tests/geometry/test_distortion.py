@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.distortion import (
@@ -59,6 +59,7 @@ def test_the_jacobian_is_the_derivative_and_is_symmetric(lens, seed):
 
 @settings(max_examples=50, deadline=None)
 @given(lens=lenses, seed=seeds)
+@example(lens=Distortion(3.19, -0.8, 1.0, 0.0, -0.27), seed=0)  # folds across q, before it folds against it
 def test_the_jacobian_is_positive_inside_the_radius_and_singular_on_it(lens, seed):
     radius = invertible_radius(lens)
     inside = disc(np.random.default_rng(seed), min(radius, 3.0) * (1 - 1e-9))
@@ -67,7 +68,7 @@ def test_the_jacobian_is_positive_inside_the_radius_and_singular_on_it(lens, see
         angle = np.linspace(0, 2 * np.pi, 20_001)
         rim = radius * np.column_stack([np.cos(angle), np.sin(angle)])
         lowest = np.linalg.eigvalsh(jacobian(rim, lens)).min()
-        assert abs(lowest) < 1e-4 * (1 + radius**6)
+        assert abs(lowest) < 1e-6 * (1 + radius**6)
 
 
 def test_the_radius_of_a_barrel_is_the_textbook_one():
