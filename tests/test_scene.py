@@ -1,4 +1,5 @@
 from dataclasses import fields, replace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -35,7 +36,7 @@ BAD = np.array([[0, 0, np.nan]])
     [
         (lambda: Points(np.zeros((3, 2))), r"\(n, 3\), not \(3, 2\)"),
         (lambda: Points(BAD), "NaN"),
-        (lambda: Points(P, "blue"), "unknown colour role 'blue'"),
+        (lambda: Points(P, cast(Any, "blue")), "unknown colour role 'blue'"),
         (lambda: Points(P, np.zeros((3, 3), np.uint8)), r"\(4, 3\) uint8"),
         (lambda: Points(P, Field(np.zeros(3), 0, 1, "x")), "values for 4 items"),
         (lambda: Points(P, radius=0.0), "positive"),

@@ -4,8 +4,8 @@ from hypothesis import strategies as st
 
 from tests.fake import Params, lesson
 from workbench.errors import InputError
-from workbench.scene import same
-from workbench.session import SPEEDS, Session
+from workbench.scene import Points, same
+from workbench.session import SPEEDS, Look, Session
 from workbench.timeline import Timelines
 
 
@@ -15,6 +15,12 @@ def settled(params=None) -> Session:
         session.open(lesson, params)
     finish(session)
     return session
+
+
+def seen(session: Session) -> Look:
+    look = session.look()
+    assert look is not None
+    return look
 
 
 def finish(session: Session) -> None:
@@ -27,18 +33,18 @@ def test_forward_back_and_scrub_show_the_very_same_scene_without_recomputing():
     session.first()
     scenes = []
     for _ in range(8):
-        scenes.append(session.look().timeline[session.step].scene)
+        scenes.append(seen(session).timeline[session.step].scene)
         session.forward()
     made = session.timeline
     session.timeline.extend = None  # type: ignore[method-assign]  # any computing from here on fails
     for k in (7, 3, 0, 5, 5, 2):
         session.seek(k)
-        assert session.look().k == k
+        assert seen(session).k == k
         assert made[k].scene is scenes[k]
     session.seek(7)
     for k in range(6, -1, -1):
         session.back()
-        assert session.look().k == k
+        assert seen(session).k == k
         assert made[k].scene is scenes[k]
 
 
@@ -98,13 +104,13 @@ def test_the_change_is_noticed_in_the_middle_of_computing():
 
 def test_the_picture_stays_until_the_next_one_is_there():
     session = settled()
-    before = session.look()
+    before = seen(session)
     session.change(angle=33)
-    meanwhile = session.look()
+    meanwhile = seen(session)
     assert meanwhile.timeline is before.timeline
     assert meanwhile.params.angle == 33
     session.compute(0.0)
-    assert session.look().timeline is session.timeline
+    assert seen(session).timeline is session.timeline
 
 
 def test_values_from_a_browser_are_clamped_or_told_and_the_session_lives():
@@ -113,11 +119,11 @@ def test_values_from_a_browser_are_clamped_or_told_and_the_session_lives():
     assert session.params.angle == 180
     session.change(colors="red")
     finish(session)
-    assert session.look().caption.tone == "wrong"
-    assert "one of role" in session.look().caption.text
+    assert seen(session).caption.tone == "wrong"
+    assert "one of role" in seen(session).caption.text
     session.change(colors="role")
     finish(session)
-    assert session.look().caption.tone != "wrong" or "one of" not in session.look().caption.text
+    assert seen(session).caption.tone != "wrong" or "one of" not in seen(session).caption.text
     for value in ("x", None, float("nan"), True):
         session.seek(value)
     session.seek(10**12)
@@ -130,20 +136,20 @@ def test_values_from_a_browser_are_clamped_or_told_and_the_session_lives():
 def test_a_run_that_fails_says_so_at_its_last_step(trouble):
     session = settled(Params(trouble=trouble))
     session.last()
-    assert session.look().caption.tone == "wrong"
+    assert seen(session).caption.tone == "wrong"
     session.first()
-    assert session.look().caption.tone == "info"
+    assert seen(session).caption.tone == "info"
     session.change(trouble="none")
     finish(session)
     session.last()
-    assert "bug" not in session.look().caption.text
+    assert "bug" not in seen(session).caption.text
 
 
 def test_a_run_without_a_first_step_shows_its_reason():
     session = Session(lesson)
     session.open(lesson, Params(scan="/nowhere.npy"))  # type: ignore[arg-type]
     finish(session)
-    look = session.look()
+    look = seen(session)
     assert look.known == 0
     assert "not a .npy file" in look.caption.text
 
@@ -194,11 +200,14 @@ def test_a_pinned_run_stays_as_ghost_and_curve():
     session.pin()
     session.change(angle=10)
     finish(session)
-    look = session.look()
-    assert same(look.scene["ghost/source"].p, pinned["source"].p)
+    look = seen(session)
+    ghost, source = look.scene["ghost/source"], pinned["source"]
+    assert isinstance(ghost, Points)
+    assert isinstance(source, Points)
+    assert ghost.p is source.p
     assert set(look.pinned_series) == set(look.series)
     session.unpin()
-    assert not any(path.startswith("ghost/") for path in session.look().scene)
+    assert not any(path.startswith("ghost/") for path in seen(session).scene)
     session.pin()
     session.reset()
     assert not session.pinned
@@ -258,4 +267,4 @@ def test_a_session_with_a_students_function_does_not_share_its_run():
     finish(ours)
     finish(theirs)
     assert len(ours.timeline) == 6
-    assert "ZeroDivisionError" in theirs.look().caption.text
+    assert "ZeroDivisionError" in seen(theirs).caption.text

@@ -1,0 +1,216 @@
+"""The live page in a real browser, as a student uses it."""
+
+import re
+
+import pytest
+
+from workbench.lesson import catalog
+from workbench.timeline import Timeline
+
+pytestmark = pytest.mark.browser
+
+WAIT = 60_000  # milliseconds; drawing without a graphics card is slow to start
+
+
+class Student:
+    """One browser window on the workbench, and what a student does in it."""
+
+    def __init__(self, chromium, app, query: str = "", width: int = 1440, height: int = 900):
+        self.context = chromium.new_context(viewport={"width": width, "height": height})
+        self.context.grant_permissions(["clipboard-read", "clipboard-write"], origin=app.address)
+        self.page = self.context.new_page()
+        self.trouble: list[str] = []
+        self.page.on("console", lambda m: self.trouble.append(m.text) if m.type == "error" else None)
+        self.page.on("pageerror", lambda error: self.trouble.append(str(error)))
+        self.page.on("request", lambda r: self._local(r.url, app))
+        self.address = app.address
+        self.go(query)
+
+    def _local(self, url: str, app) -> None:
+        if not url.startswith((app.address, f"ws://127.0.0.1:{app.port}", "data:", "blob:")):
+            self.trouble.append(f"asked for {url}")
+
+    def go(self, query: str) -> None:
+        self.page.goto(self.address + "/" + query)
+        self.page.wait_for_selector("canvas[data-engine]", timeout=WAIT)
+
+    def button(self, name: str):
+        return self.page.get_by_role("button", name=name, exact=True).first
+
+    def click(self, name: str) -> None:
+        self.button(name).click(timeout=WAIT)
+        self.page.wait_for_timeout(60)  # the browser passes on one event per 50 ms
+
+    def caption(self, text: str) -> None:
+        self.page.locator(".wb-caption", has_text=text).wait_for(timeout=WAIT)
+
+    def step_label(self, pattern: str) -> None:
+        self.page.get_by_text(re.compile(pattern)).first.wait_for(timeout=WAIT)
+
+    def said(self) -> str:
+        return self.page.locator(".wb-caption").first.inner_text(timeout=WAIT)
+
+    def knob(self, label: str):
+        row = f'//label[normalize-space(.)="{label}"]/ancestor::div[contains(@class,"mantine-Flex-root")][1]'
+        return self.page.locator(row).locator("input[type=text], input:not([type])").first
+
+    def close(self) -> None:
+        self.context.close()
+
+
+@pytest.fixture
+def student(chromium, app):
+    windows: list[Student] = []
+
+    def enter(query: str = "", **size: int) -> Student:
+        windows.append(Student(chromium, app, query, **size))
+        return windows[-1]
+
+    yield enter
+    for window in windows:
+        trouble = window.trouble
+        window.close()
+        assert trouble == []
+
+
+@pytest.fixture(scope="module")
+def default_run() -> Timeline:
+    lesson = catalog()["icp"]
+    return Timeline(lesson, lesson.params()).complete()
+
+
+def test_play_step_back_knob_preset_question_link_code_and_reload(student, default_run):
+    texts = [step.caption.text for step in default_run.known()]
+    me = student("?lesson=icp&step=2")
+    me.caption(texts[2])
+    me.click("Next")
+    me.caption(texts[3])
+    me.click("Back")
+    me.caption(texts[2])
+    me.click("First")
+    me.caption(texts[0])
+    me.click("Last")
+    me.caption(texts[-1])
+    me.click("First")
+    me.click("Play")
+    me.button("Pause").wait_for(timeout=WAIT)
+    me.caption(texts[2])
+    me.click("Pause")
+    me.button("Play").wait_for(timeout=WAIT)
+
+    # keys: N, P, End
+    me.page.locator("canvas[data-engine]").hover()
+    me.click("First")
+    me.caption(texts[0])
+    me.page.keyboard.press("n")
+    me.caption(texts[1])
+    me.page.keyboard.press("p")
+    me.caption(texts[0])
+    me.page.keyboard.press("End")
+    me.caption(texts[-1])
+
+    # the marked line of code is the line at which the step was yielded
+    me.click("First")
+    me.page.keyboard.press("n")
+    me.caption(texts[1])
+    me.page.get_by_role("tab", name="Code").click()
+    moment = default_run[1].moment
+    assert moment is not None
+    me.page.wait_for_selector(f'img[data-line="{moment.line}"]', state="attached", timeout=WAIT)
+    lines, first = moment.source
+    marked = me.page.locator(f"#wb-line-{moment.line - first}")
+    assert lines[moment.line - first].strip() in marked.inner_text()
+    assert "rgba(204, 121, 167" in marked.evaluate("e => getComputedStyle(e).backgroundColor")
+
+    # a knob changes the run; a pinned run stays
+    me.click("Pin this run")
+    me.button("Unpin").wait_for(timeout=WAIT)
+    me.page.get_by_role("tab", name="Parameters").click()
+    knob = me.knob("Start angle (deg)")
+    knob.fill("60")
+    knob.press("Enter")
+    me.page.wait_for_url(re.compile("start_angle=60"), timeout=WAIT)
+    me.click("Reset")
+    me.button("Pin this run").wait_for(timeout=WAIT)
+
+    # a preset
+    me.page.get_by_role("tab", name="Presets").click()
+    preset = catalog()["icp"].presets[1]
+    me.click(preset.title)
+    me.page.wait_for_url(re.compile(r"\?lesson=icp&\w+="), timeout=WAIT)
+
+    # a question is answered, and remembered after a reload
+    me.page.get_by_role("tab", name="Lesson").click()
+    question = next(q for q in catalog()["icp"].questions if q.choices)
+    me.click(question.choices[0])
+    states = Timeline(catalog()["icp"], question.params).states()
+    me.page.locator(".wb-result", has_text=question.why(states)[:40]).wait_for(timeout=WAIT)
+    here = me.page.url
+    me.page.reload()
+    me.page.locator(".wb-result", has_text=f"You answered: {question.choices[0]}").wait_for(timeout=WAIT)
+    assert me.page.url == here
+
+
+def test_the_course_page_leads_to_every_lesson(student):
+    me = student()
+    for lesson in catalog().values():
+        me.button(f"Open {lesson.title}").wait_for(timeout=WAIT)
+    first = next(iter(catalog().values()))
+    me.click(f"Open {first.title}")
+    me.page.wait_for_selector(".wb-caption", timeout=WAIT)
+    me.page.wait_for_url(re.compile(f"lesson={first.name}"), timeout=WAIT)
+    me.page.get_by_role("tab", name="Course").click()
+    me.page.locator(".wb-done").first.wait_for(timeout=WAIT)
+
+
+@pytest.mark.parametrize("name", list(catalog()))
+def test_every_lesson_opens_without_an_error(student, name):
+    lesson = catalog()[name]
+    me = student(f"?lesson={name}")
+    timeline = Timeline(lesson, lesson.params()).complete()
+    me.caption(timeline[lesson.first_step].caption.text)
+    assert me.page.locator("math").count() > 0
+
+
+def test_two_browsers_have_a_place_each(student, default_run):
+    one, two = student("?lesson=icp&step=1"), student("?lesson=icp&step=3")
+    one.caption(default_run[1].caption.text)
+    two.caption(default_run[3].caption.text)
+    one.click("Last")
+    one.caption(default_run[-1].caption.text)
+    two.caption(default_run[3].caption.text)
+
+
+def test_a_link_that_cannot_be_used_is_a_message_and_the_page_lives(student):
+    me = student("?lesson=icp&start_angle=9999")
+    me.page.get_by_text("a number from").first.wait_for(timeout=WAIT)
+    me.button(f"Open {catalog()['icp'].title}").click(timeout=WAIT)
+    me.page.wait_for_selector(".wb-caption", timeout=WAIT)
+
+
+def test_the_link_that_is_copied_leads_to_the_same_step(student, default_run):
+    me = student("?lesson=icp&step=5")
+    me.caption(default_run[5].caption.text)
+    me.click("Copy link")
+    me.page.get_by_text("Link to this step copied").wait_for(timeout=WAIT)
+    copied = me.page.evaluate("navigator.clipboard.readText()")
+    assert copied == me.address + "/?lesson=icp&step=5"
+
+
+def test_the_theme_is_kept(student):
+    me = student("?lesson=icp")
+    me.click("Theme")
+    me.page.wait_for_selector("[data-mantine-color-scheme=dark]", state="attached", timeout=WAIT)
+    me.page.reload()
+    me.page.wait_for_selector("[data-mantine-color-scheme=dark]", state="attached", timeout=WAIT)
+
+
+def test_a_phone_shows_caption_and_controls(student, default_run):
+    me = student("?lesson=icp&step=2", width=390, height=844)
+    me.caption(default_run[2].caption.text)
+    box = me.page.locator(".wb-caption").first.bounding_box()
+    assert box is not None
+    assert box["x"] >= 0
+    assert box["width"] > 300
+    me.click("Next")
+    me.caption(default_run[3].caption.text)
