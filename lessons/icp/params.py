@@ -37,5 +37,5 @@ class Params:
     truth: Annotated[Path | None, Knob("Known pose of the source in the target's frame: 4x4 or list of poses")] = None
     own_points: Annotated[
         int, Knob("Points drawn from an own source scan; the target keeps all", 100, 50_000, step=100)
-    ] = 5000
+    ] = 10_000
     seed: Annotated[int, Knob("Which points are sampled", 0, 99)] = 0

@@ -114,15 +114,15 @@ def pair(
         raise ValueError(f"shape {shape!r}, count {count}, overlap {overlap}, outliers {outliers}")
     cut = (1.0 - overlap) / (2.0 - overlap)  # each scan keeps 1 - cut of the shape; 1 - 2 cut of it is in both
     more = int(np.ceil(count / (1.0 - cut)))
-    p_target, p_source = (SHAPES[shape](more, rng) for _ in range(2))
-    p_target = p_target[np.argsort(p_target[:, 0], kind="stable")[:count]]
-    p_source = p_source[np.argsort(-p_source[:, 0], kind="stable")[:count]]
-    p_target, p_source = (rng.permutation(p) + noise * rng.standard_normal(p.shape) for p in (p_target, p_source))
+    first, second = (SHAPES[shape](more, rng) for _ in range(2))  # both in the target frame
+    first = first[np.argsort(first[:, 0], kind="stable")[:count]]
+    second = second[np.argsort(-second[:, 0], kind="stable")[:count]]
+    first, second = (rng.permutation(p) + noise * rng.standard_normal(p.shape) for p in (first, second))
     is_outlier = np.arange(count) < round(outliers * count)
-    low, high = p_source.min(axis=0), p_source.max(axis=0)
+    low, high = second.min(axis=0), second.max(axis=0)
     anywhere = rng.uniform(low - 0.5 * (high - low), high + 0.5 * (high - low), (count, 3))
-    p_source = np.where(is_outlier[:, None], anywhere, p_source)
-    return Pair(p_target, apply(inverse(T_target_source), p_source), T_target_source, is_outlier)
+    second = np.where(is_outlier[:, None], anywhere, second)
+    return Pair(first, apply(inverse(T_target_source), second), T_target_source, is_outlier)
 
 
 def _vase_radius(z: np.ndarray) -> np.ndarray:

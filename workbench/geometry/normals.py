@@ -59,7 +59,7 @@ def _least_directions(c: np.ndarray) -> np.ndarray:
     a, b, d, e, f, g = c / size
     third = (a + b + d) / 3.0
     a, b, d = a - third, b - third, d - third
-    radius = np.sqrt(np.maximum((a * a + b * b + d * d + 2.0 * (e * e + f * f + g * g)) / 6.0, 1e-300))
+    radius = np.sqrt(np.maximum((a * a + b * b + d * d + 2.0 * (e * e + f * f + g * g)) / 6.0, 1e-60))
     half_det = (a * (b * d - g * g) - e * (e * d - f * g) + f * (e * g - b * f)) / (2.0 * radius**3)
     root = 2.0 * radius * np.cos(np.arccos(np.clip(half_det, -1.0, 1.0)) / 3.0 + 2.0 * np.pi / 3.0)
     a, b, d = a - root, b - root, d - root

@@ -1,0 +1,97 @@
+"""Normals of clouds: known surfaces, an oracle, and degenerate neighbourhoods."""
+
+import numpy as np
+import pytest
+import scipy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from workbench.geometry.motions import exp_so3
+from workbench.geometry.normals import _least_directions, point_normals
+
+
+def angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.abs(np.einsum("ij,ij->i", a, b))))
+
+
+def sphere(n: int, seed: int = 0) -> np.ndarray:
+    u = np.random.default_rng(seed).standard_normal((n, 3))
+    return u / np.linalg.norm(u, axis=1, keepdims=True)
+
+
+def test_a_plane_is_exact_wherever_it_lies():
+    rng = np.random.default_rng(0)
+    R = exp_so3(np.array([0.7, -0.3, 0.2]))
+    p = rng.uniform(-1, 1, (500, 3)) * [1, 1, 0] @ R.T + 1e5
+    assert angles(point_normals(p), np.tile(R[:, 2], (500, 1))).max() < 1e-4
+
+
+def test_a_sphere_points_outwards_and_nearly_radially():
+    p = sphere(5000)
+    normals = point_normals(p + [3.0, -2.0, 1.0])
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-12)
+    assert np.einsum("ij,ij->i", normals, p).min() > 0
+    assert np.median(angles(normals, p)) < 1.0
+
+
+def test_normals_face_the_viewpoint():
+    p = sphere(1000)
+    assert np.all(np.einsum("ij,ij->i", point_normals(p, viewpoint=np.zeros(3)), p) < 0)
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 1000))
+def test_the_closed_form_agrees_with_eigh(seed):
+    rng = np.random.default_rng(seed)
+    X = rng.standard_normal((200, 8, 3)) * 10.0 ** rng.uniform(-4, 1, (200, 1, 3))
+    C = np.einsum("nki,nkj->nij", X, X)
+    found = _least_directions(np.stack([C[:, i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]))
+    np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0, atol=1e-9)
+    values = np.linalg.eigvalsh(C)
+    quotient = np.einsum("ni,nij,nj->n", found, C, found)  # Rayleigh: how much worse than the best direction
+    assert np.all(quotient - values[:, 0] <= 1e-10 * values[:, 2])
+
+
+def test_they_turn_with_the_cloud():
+    rng = np.random.default_rng(1)
+    p = rng.standard_normal((300, 3)) * [1.0, 0.6, 0.2]
+    R = exp_so3(np.array([0.4, 1.2, -0.7]))
+    assert angles(point_normals(p @ R.T), point_normals(p) @ R.T).max() < 1e-5
+
+
+@pytest.mark.parametrize(
+    "p",
+    [
+        np.outer(np.arange(20.0), [1.0, 1.0, 0.0]),
+        np.ones((20, 3)),
+        np.repeat(sphere(5), 10, axis=0),
+        np.eye(3),
+    ],
+    ids=["collinear", "coinciding", "duplicates", "three points"],
+)
+def test_degenerate_clouds_give_some_unit_vector(p):
+    normals = point_normals(p)
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-9)
+
+
+def test_on_a_line_the_normal_is_orthogonal_to_it():
+    line = np.array([1.0, 2.0, -0.5])
+    normals = point_normals(np.outer(np.linspace(0, 1, 30), line))
+    np.testing.assert_allclose(normals @ line, 0.0, atol=1e-7)
+
+
+def test_misuse_is_refused():
+    with pytest.raises(ValueError, match="at least 3 points"):
+        point_normals(np.zeros((2, 3)))
+    with pytest.raises(ValueError, match="at least 3 points"):
+        point_normals(np.zeros((9, 3)), k=2)
+    with pytest.raises(ValueError, match="finite"):
+        point_normals(np.full((9, 3), np.nan))
+
+
+def test_the_oracle_of_plain_principal_components():
+    p = sphere(400, 3) * [1.0, 0.7, 0.4]
+    neighbours = scipy.spatial.KDTree(p).query(p, k=12)[1]
+    X = p[neighbours] - p[neighbours].mean(axis=1, keepdims=True)
+    expected = np.linalg.svd(X)[2][:, 2]
+    assert angles(point_normals(p, k=12), expected).max() < 1e-4
