@@ -131,8 +131,9 @@ def test_one_ring_inside_and_on_the_border():
 def test_one_ring_refuses_what_has_none():
     with pytest.raises(ValueError, match="no face"):
         meshes.one_ring(TETRAHEDRON[1], 9)
-    with pytest.raises(ValueError, match="not one fan"):
-        meshes.one_ring(np.array([[0, 1, 2], [0, 3, 4]]), 0)
+    for faces in (np.array([[0, 1, 2], [0, 3, 4]]), BAD["closed sheets touch"][1]):
+        with pytest.raises(ValueError, match="not one fan"):
+            meshes.one_ring(faces, 0)
 
 
 def test_unused_vertices_are_dropped_and_the_shape_stays():

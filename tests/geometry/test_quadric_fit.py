@@ -62,6 +62,17 @@ def test_curvature_of_a_quadric_at_its_summit_is_exact(seed):
     np.testing.assert_allclose([k2[middle], k1[middle]], np.linalg.eigvalsh([[-2 * a, -b], [-b, -2 * c]]), atol=1e-7)
 
 
+def test_a_slope_in_the_frame_is_accounted_for():
+    # Over the horizontal the saddle is a quadric everywhere, steep or not: with upright frames every vertex is exact.
+    surface = SURFACES["saddle"](200, bend=2.0, jitter=0.2, rng=np.random.default_rng(5))
+    upright = np.broadcast_to([0.0, 0.0, 1.0], surface.p.shape)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(quadric_fit, "vertex_normals", lambda p, faces: upright)
+        K, H = fit_quadrics(surface.p, surface.faces).curvatures()
+    np.testing.assert_allclose(K, surface.gaussian, rtol=1e-7)
+    np.testing.assert_allclose(H, surface.mean, rtol=1e-7, atol=1e-9)
+
+
 @pytest.mark.parametrize("name", ["torus", "cylinder", "saddle", "catenoid"])
 def test_principal_directions(name):
     surface = SURFACES[name](4000, jitter=0.2, rng=np.random.default_rng(2))
@@ -115,14 +126,13 @@ def test_agrees_with_least_squares_one_by_one():
 
 def test_too_few_neighbours_or_a_conic_give_nan():
     assert np.isnan(fit_quadrics(*TETRAHEDRON).coefficients).all()
-    # A vertex and five neighbours round it, all on the circle-and-centre pencil of conics' union: a pyramid over a
-    # regular pentagon has six points, but another pair of rings adds none.
+    # Six points that lie on no conic are just enough: a pentagon and its centre.
     angle = 2 * np.pi * np.arange(5) / 5
     p = np.vstack([[0, 0, 0.3], np.c_[np.cos(angle), np.sin(angle), 0 * angle]])
     faces = np.array([[0, 1 + k, 1 + (k + 1) % 5] for k in range(5)])
     assert np.isfinite(fit_quadrics(p, faces).coefficients[0]).all()
     line = np.c_[np.linspace(0, 1, 8), np.zeros(8), np.zeros(8)]
-    flat = np.vstack([line, line + [0, 1, 0]])
+    flat = np.vstack([line, line + np.array([0, 1, 0])])
     strip = np.array([[k, k + 1, k + 9] for k in range(7)] + [[k, k + 9, k + 8] for k in range(7)])
     assert np.isnan(fit_quadrics(flat, strip, rings=3).coefficients).all()  # two parallel lines are a conic
 
