@@ -30,7 +30,8 @@ def sad_cost_volume(
     """Sum the absolute grey differences over a window: cheap, and needs equal exposure.
 
     Args:
-        left, right: Grey pictures, rectified.
+        left: Grey picture of the left camera.
+        right: Grey picture of the right one, of the same size; rows correspond.
         max_disparity: Largest shift that is tried, pixels.
         window: Side of the square window, pixels, odd.
 

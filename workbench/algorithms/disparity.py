@@ -62,8 +62,8 @@ class Matching:
 
 @watched
 def match(
-    left: Float[np.ndarray, "h w"],
-    right: Float[np.ndarray, "h w"],
+    left: Real[np.ndarray, "h w"],
+    right: Real[np.ndarray, "h w"],
     max_disparity: int,
     window: int,
     penalties: tuple[float, float] | None,
@@ -73,7 +73,8 @@ def match(
     """Find the disparity of every left pixel, step by step.
 
     Args:
-        left, right: Grey pictures, rectified.
+        left: Grey picture of the left camera.
+        right: Grey picture of the right one, of the same size; rows correspond.
         max_disparity: Largest disparity that is tried, pixels.
         window: Side of the window over which costs are summed, pixels, odd.
         penalties: P1 and P2 of the semi-global paths, in the unit of the summed costs; None leaves the paths out.
@@ -111,7 +112,8 @@ def disparity_map(
     """Return the disparity of every left pixel by semi-global matching of census codes, and which pixels were matched.
 
     Args:
-        left, right: Grey pictures, rectified.
+        left: Grey picture of the left camera.
+        right: Grey picture of the right one, of the same size; rows correspond.
         max_disparity: Largest disparity that is tried, pixels.
 
     Returns:

@@ -23,7 +23,7 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
 
 
 def seen_from_right(cost: Real[np.ndarray, "d h w"]) -> Real[np.ndarray, "d h w"]:
-    """Return the same costs by right pixel: right (x, y) at d was compared with left (x + d, y), if that is in the picture."""
+    """Return the same costs by right pixel: right (x, y) at d was compared with left (x + d, y), if there is one."""
     worst = np.inf if cost.dtype.kind == "f" else np.iinfo(cost.dtype).max
     turned = np.full_like(cost, worst)
     w = cost.shape[2]
@@ -39,9 +39,9 @@ def agree(
 
     Occluded pixels fail, for the right picture shows something nearer there; so do most wrong matches.
 
-    Reference: Hirschmueller, PAMI 2008, section 2.3.3.
+    Reference: Hirschmueller, PAMI 2008, section 2.3.
     """
-    h, w = left_disparity.shape
+    w = left_disparity.shape[1]
     partner = np.arange(w) - left_disparity
     inside = (partner >= 0) & (partner < w)
     back = np.take_along_axis(right_disparity, np.where(inside, partner, 0), axis=1)
@@ -62,7 +62,9 @@ def sub_pixel(cost: Real[np.ndarray, "d h w"], disparity: Int[np.ndarray, "h w"]
     before, here, after = (np.take_along_axis(cost, (middle + k)[None], axis=0)[0].astype(float) for k in (-1, 0, 1))
     valley = (middle == disparity) & (here <= before) & (here <= after) & np.isfinite(before + after)
     valley &= before + after > 2.0 * here
-    before, here, after = (np.where(valley, values, flat) for values, flat in ((before, 1.0), (here, 0.0), (after, 1.0)))
+    before, here, after = (
+        np.where(valley, values, flat) for values, flat in ((before, 1.0), (here, 0.0), (after, 1.0))
+    )
     return disparity + (before - after) / (2.0 * (before - 2.0 * here + after))
 
 
@@ -71,6 +73,8 @@ def fill(disparity: Float[np.ndarray, "h w"], known: Bool[np.ndarray, "h w"]) ->
 
     What one camera alone sees lies behind what hides it from the other: the background, the smaller disparity, goes on.
     Rows without any known pixel stay as they are.
+
+    Reference: Hirschmueller, PAMI 2008, section 2.5.3, along rows only.
     """
     w = disparity.shape[1]
     columns = np.arange(w)

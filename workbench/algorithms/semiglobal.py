@@ -4,7 +4,7 @@ The map sought minimises E(D) = sum_p C(p, D_p) + sum over neighbours of P1 [|st
 disparity is cheap, a jump costs P2 however high it is. In two dimensions that is NP-hard; along one line it is a shortest
 path, and eight lines that meet in a pixel nearly know the answer.
 
-Reference: Hirschmueller, Stereo processing by semiglobal matching and mutual information, PAMI 2008, section 2.3; equation
+Reference: Hirschmueller, Stereo processing by semiglobal matching and mutual information, PAMI 2008, section 2.2; equation
 numbers are that paper's.
 """
 
@@ -163,7 +163,8 @@ def energy(cost: Real[np.ndarray, "d h w"], disparity: Real[np.ndarray, "h w"], 
     Args:
         cost: C(p, d); infinite cells count as the worst finite one.
         disparity: The map, pixels, charged at the nearest whole disparity; NaN is unknown and left out.
-        P1, P2: As for `semi_global`; every pair among the eight neighbours counts once.
+        P1: Penalty for a step of one disparity; every pair among the eight neighbours counts once.
+        P2: Penalty for every larger step.
     """
     known = np.isfinite(disparity)
     if not known.any():

@@ -46,7 +46,7 @@ class StereoCamera:
         return intrinsics(self.f, self.cx, self.cy)
 
     def shrunk(self, k: int) -> "StereoCamera":
-        """Return the cameras of pictures whose blocks of k x k pixels were averaged: f, c and doffs shrink, not the baseline."""
+        """Return the cameras of pictures with blocks of k x k pixels averaged: all but the baseline shrinks."""
         K = resize_intrinsics(self.K, 1.0 / k, 1.0 / k)
         return StereoCamera(float(K[0, 0]), float(K[0, 2]), float(K[1, 2]), self.baseline, self.doffs / k)
 
@@ -96,7 +96,7 @@ def depth_uncertainty(
 def depth_interval(
     d: Float[np.ndarray, "..."], f: float, baseline: float, disparity_error: float
 ) -> tuple[Float[np.ndarray, "..."], Float[np.ndarray, "..."]]:
-    """Return the nearest and the furthest depth within `disparity_error` pixels of a disparity; the far end may be infinite."""
+    """Return the nearest and furthest depth within `disparity_error` pixels of a disparity; the latter may be infinite."""
     near = depth_from_disparity(d + disparity_error, f, baseline)
     return near, depth_from_disparity(np.maximum(d - disparity_error, 0.0), f, baseline)
 
