@@ -66,9 +66,10 @@ def test_a_slope_in_the_frame_is_accounted_for():
     # Over the horizontal the saddle is a quadric everywhere, steep or not: with upright frames every vertex is exact.
     surface = SURFACES["saddle"](200, bend=2.0, jitter=0.2, rng=np.random.default_rng(5))
     upright = np.broadcast_to([0.0, 0.0, 1.0], surface.p.shape)
+    turned = surface.p @ exp_so3(np.array([0, 0, 0.4])).T
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(quadric_fit, "vertex_normals", lambda p, faces: upright)
-        K, H = fit_quadrics(surface.p, surface.faces).curvatures()
+        K, H = fit_quadrics(turned, surface.faces).curvatures()
     np.testing.assert_allclose(K, surface.gaussian, rtol=1e-7)
     np.testing.assert_allclose(H, surface.mean, rtol=1e-7, atol=1e-9)
 

@@ -154,8 +154,8 @@ def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.n
     leaving = {int(a): i for i, a in enumerate(start)}
     first = [int(a) for a in start if a not in set(end.tolist())]
     ring, order = [first[0] if first else int(start[0])], []
-    while ring[-1] in leaving and len(order) < len(around):
-        order.append(leaving[ring[-1]])
+    while ring[-1] in leaving:
+        order.append(leaving.pop(ring[-1]))
         ring.append(int(end[order[-1]]))
     if len(order) < len(around) or len(first) > 1:
         raise ValueError(f"the {len(around)} faces at vertex {vertex} are not one fan")
