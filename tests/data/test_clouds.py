@@ -25,7 +25,7 @@ def test_as_many_finite_points_as_asked_for_and_the_same_again(shape, count):
 def test_the_rabbit_lies_on_one_smooth_surface_with_few_holes():
     p = rabbit(4000, np.random.default_rng(0))
     assert np.abs(_rabbit_distance(p)[0]).max() < 1e-3
-    gaps = scipy.spatial.KDTree(p).query(p, k=2)[0][:, 1]
+    gaps = np.asarray(scipy.spatial.KDTree(p).query(p, k=2)[0])[:, 1]
     assert gaps.max() < 6 * np.median(gaps)
 
 

@@ -225,7 +225,7 @@ def test_the_plane_step_is_equivariant_and_right_far_away():
 def test_a_single_plane_holds_only_three_directions():
     rng = np.random.default_rng(2)
     p = rng.uniform(-1, 1, (100, 3)) * [1, 1, 0]
-    step = point_to_plane_step(p, p + [0.3, 0.2, 0.1], np.tile([0.0, 0.0, 1.0], (100, 1)))
+    step = point_to_plane_step(p, p + np.array([0.3, 0.2, 0.1]), np.tile([0.0, 0.0, 1.0], (100, 1)))
     np.testing.assert_allclose(step, motion(np.eye(3), np.array([0.0, 0.0, -0.1])), atol=1e-12)
 
 

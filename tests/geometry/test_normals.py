@@ -28,7 +28,7 @@ def test_a_plane_is_exact_wherever_it_lies():
 
 def test_a_sphere_points_outwards_and_nearly_radially():
     p = sphere(5000)
-    normals = point_normals(p + [3.0, -2.0, 1.0])
+    normals = point_normals(p + np.array([3.0, -2.0, 1.0]))
     np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-12)
     assert np.einsum("ij,ij->i", normals, p).min() > 0
     assert np.median(angles(normals, p)) < 1.0

@@ -210,6 +210,8 @@ def _load_array(content: bytes, name: str) -> np.ndarray:
         if not names:
             raise InputError(f"{name}: no array named p, points, xyz or vertices, but {', '.join(loaded.files)}")
         return loaded[names[0]]
+    except InputError:
+        raise
     except (ValueError, EOFError, OSError, zipfile.BadZipFile):
         raise InputError(f"{name}: not readable as arrays of numpy") from None
 
