@@ -31,6 +31,13 @@ def test_no_mirror_and_no_turn_maps_the_house_to_itself():
     assert min(apart) > 0.01
 
 
+@pytest.mark.parametrize(("shape", "normal", "offset"), [("box", [1.0, 0, 0], 0.0), ("L block", [0, 0, 1.0], 0.25)])
+def test_the_others_are_their_own_mirror_image(shape, normal, offset):
+    p, n = solid(shape).p, np.array(normal)
+    mirrored = p - 2.0 * (p @ n - offset)[:, None] * n
+    assert {tuple(row) for row in mirrored.round(9) + 0.0} == {tuple(row) for row in p.round(9) + 0.0}
+
+
 def test_a_flat_patch_has_only_its_border():
     p = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     assert len(sharp_edges(p, np.array([[0, 1, 2], [0, 2, 3]]))) == 4

@@ -74,8 +74,9 @@ def signed_volume(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) ->
 def changes(before: Measures, after: Measures) -> tuple[Change, ...]:
     """Return what became of each measure of one mesh; volume and orientation are left out for an open one."""
     angle = float(np.abs(after.angles - before.angles).max())
+    stretch = np.abs(after.lengths - before.lengths) / np.where(before.lengths > 0, before.lengths, 1.0)
     found = [
-        Change("edge lengths", float(np.abs(after.lengths / before.lengths - 1.0).max())),
+        Change("edge lengths", float(stretch.max())),
         Change("angles", angle, "rad"),
         Change("parallel edges", _spread(before.directions, after.directions), "rad"),
         Change("area", abs(after.area / before.area - 1.0)),

@@ -1,0 +1,1 @@
+"""Transforms: the same motion, many numbers."""

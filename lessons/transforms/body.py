@@ -1,0 +1,124 @@
+"""The body that is moved, and the map that the params describe."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lessons.transforms.params import First, Params
+from workbench.algorithms.composition import Factor
+from workbench.algorithms.interpolation import FromEuler, Rodrigues
+from workbench.data.files import read_mesh
+from workbench.data.solids import Solid, outlined, solid
+from workbench.errors import InputError
+from workbench.geometry.affine import perspective, reflection, scaling, shear, translation
+from workbench.geometry.invariants import Measures, measure
+from workbench.geometry.motions import exp_so3, motion
+from workbench.geometry.rotations import EulerOrder, euler_to_matrix
+
+MOST_FACES = 50_000
+FRONT = np.array([0.0, -1.0, 0.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """What moves: its mesh and lines in its own frame, its measures, and the vertex that is followed."""
+
+    name: str
+    solid: Solid
+    measures: Measures
+    point: int
+
+    @property
+    def p_point(self) -> np.ndarray:
+        """The followed vertex."""
+        return self.solid.p[self.point]
+
+    @property
+    def p_door(self) -> np.ndarray:
+        """Where the arrow to the front starts."""
+        low, high = self.solid.p.min(axis=0), self.solid.p.max(axis=0)
+        return np.array([(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 4])
+
+
+@dataclass(frozen=True, eq=False)
+class Numbers:
+    """A map as numbers, in radians and metres: what is misread when a convention is."""
+
+    angles: np.ndarray
+    order: EulerOrder
+    turn: np.ndarray
+    offset: np.ndarray
+    first: First
+
+    def rotation(self) -> np.ndarray:
+        """Return the three turns, then the turn of the handle."""
+        return exp_so3(self.turn) @ euler_to_matrix(self.angles, self.order)
+
+    def motion(self) -> np.ndarray:
+        """Return the rigid part of the map."""
+        R = self.rotation()
+        return motion(R, self.offset if self.first == "rotate, then translate" else R @ self.offset)
+
+    def swapped(self) -> "Numbers":
+        """Return the same numbers with translation and rotation in the other order."""
+        rotate_first = self.first == "rotate, then translate"
+        return replace(self, first="translate, then rotate" if rotate_first else "rotate, then translate")
+
+
+def body_of(params: Params) -> Body:
+    """Return the body, an own mesh scaled to one metre and put on the ground.
+
+    Raises:
+        InputError: If the own mesh cannot be used.
+    """
+    if params.mesh is None:
+        made = solid(params.shape)
+        name = params.shape
+    else:
+        p, faces = read_mesh(params.mesh)
+        if len(faces) > MOST_FACES:
+            raise InputError(f"{params.mesh.name}: {len(faces):,} faces; this lesson takes up to {MOST_FACES:,}")
+        low, high = p.min(axis=0), p.max(axis=0)
+        foot = np.array([*(low + high)[:2] / 2, low[2]])
+        made, name = outlined((p - foot) / (high - low).max(), faces, angle=0.6), "mesh"
+    return Body(name, made, measure(made.p, made.faces), min(params.point, len(made.p) - 1))
+
+
+def numbers_of(params: Params) -> Numbers:
+    """Return the rigid part of the params in radians."""
+    turn, offset = np.array(params.pose[3:], float), np.array(params.pose[:3], float)
+    return Numbers(np.radians(params.angles), params.order, turn, offset, params.first)
+
+
+def shape_factors(params: Params) -> list[Factor]:
+    """Return the factors that change the shape, those that do nothing left out."""
+    factors = []
+    if params.scale != (1.0, 1.0, 1.0):
+        x, y, z = params.scale
+        factors.append(Factor("scale", f"x × {x:g}, y × {y:g}, z × {z:g}", scaling(np.array(params.scale, float))))
+    if params.shear:
+        factors.append(Factor("shear", f"x + {params.shear:g} z", shear("x", "z", params.shear)))
+    if params.perspective:
+        slope = np.array([0.0, 0.0, params.perspective])
+        factors.append(Factor("perspective", f"w = 1 + {params.perspective:g} z", perspective(slope)))
+    if params.mirror != "none":
+        normal = np.eye(3)["xyz".index(params.mirror)]
+        factors.append(Factor("mirror", f"{params.mirror} → −{params.mirror}", reflection(normal)))
+    return factors
+
+
+def motion_factors(params: Params, euler_to_matrix: FromEuler, rotation_from_axis_angle: Rodrigues) -> list[Factor]:
+    """Return the three turns, the handle's turn if there is one, and the translation, in the chosen order."""
+    numbers, turns, R_before = numbers_of(params), [], np.eye(3)
+    for k, letter in enumerate(params.order):
+        R = euler_to_matrix(np.where(np.arange(3) <= k, numbers.angles, 0.0), params.order)
+        axis = f"the world's {letter}" if letter.islower() else f"the body's own {letter.lower()}"
+        turns.append(Factor("turn", f"{params.angles[k]:g}° about {axis}", motion(R @ R_before.T, np.zeros(3))))
+        R_before = R
+    angle = np.linalg.norm(numbers.turn)
+    if angle > 0:
+        R = rotation_from_axis_angle(numbers.turn, float(angle))
+        turns.append(Factor("handle", f"{np.degrees(angle):.0f}° about the handle's axis", motion(R, np.zeros(3))))
+    x, y, z = params.pose[:3]
+    move = Factor("translate", f"({x:g}, {y:g}, {z:g}) m", translation(numbers.offset))
+    return [*turns, move] if params.first == "rotate, then translate" else [move, *turns]

@@ -1,0 +1,151 @@
+"""Transforms: one motion, many numbers, and what each kind of map leaves as it was.
+
+What it teaches: a 4x4 is a product in which the order counts; lengths, angles, volumes and orientation tell the kinds of
+maps apart; Euler angles, matrices and quaternions are names of one rotation, and only some of them can be blended.
+
+`params.py` has the inputs, `body.py` the body and its factors, `compare.py` the misreadings, `states.py` what is
+yielded, `draw.py` the picture, `presets.py` the experiments and questions.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from lessons.transforms.body import body_of, motion_factors, numbers_of, shape_factors
+from lessons.transforms.compare import ghosts_of, undo_ghosts_of
+from lessons.transforms.draw import draw
+from lessons.transforms.params import Params
+from lessons.transforms.presets import PRESETS, QUESTIONS
+from lessons.transforms.states import Built, Moved, State, Way
+from workbench.algorithms import interpolation as between
+from workbench.algorithms.composition import Invert, compose
+from workbench.algorithms.interpolation import FromEuler, Rodrigues
+from workbench.geometry import rotations
+from workbench.geometry.affine import transform
+from workbench.geometry.alignment import nearest_rotation
+from workbench.geometry.invariants import changes, measure
+from workbench.geometry.motions import apply, exp_so3, inverse, motion, rotation_angle
+from workbench.lesson import Lesson, View
+
+
+def run(
+    params: Params,
+    *,
+    invert_rigid: Invert = inverse,
+    rotation_from_axis_angle: Rodrigues = rotations.rotation_from_axis_angle,
+    euler_to_matrix: FromEuler = rotations.euler_to_matrix,
+) -> Iterator[State]:
+    """Yield the body after every factor, or at every time between the two poses."""
+    if params.half == "build a map":
+        yield from _build(params, invert_rigid, rotation_from_axis_angle, euler_to_matrix)
+    else:
+        yield from _move(params, invert_rigid, rotation_from_axis_angle, euler_to_matrix)
+
+
+def _build(
+    params: Params, invert_rigid: Invert, rotation_from_axis_angle: Rodrigues, euler_to_matrix: FromEuler
+) -> Iterator[Built]:
+    body, numbers = body_of(params), numbers_of(params)
+    shape, motions = shape_factors(params), motion_factors(params, euler_to_matrix, rotation_from_axis_angle)
+    p, faces = body.solid.p, body.solid.faces
+    A = np.eye(4)
+    for factor in shape:
+        A = factor.matrix @ A
+    ghosts, p_shaped = ghosts_of(params, body, numbers, A), transform(A, p)
+    before, trail, turns = body.measures, np.empty((0, 3)), 0
+    for now in compose(shape, motions, invert_rigid):
+        p_now = transform(now.T, p)
+        after, trail = measure(p_now, faces), np.vstack([trail, p_now[body.point]])
+        turns += now.factor.kind == "turn"
+        undone = now.factor.kind == "undo"
+        yield Built(
+            params,
+            body,
+            now.factor,
+            now.T,
+            now.T_world_body,
+            turns,
+            np.where(np.arange(3) < turns, numbers.angles, 0.0),
+            changes(before, after),
+            changes(body.measures, after),
+            trail,
+            len(trail) == len(shape) + len(motions) + 1,
+            undo_ghosts_of(params, body, now.T_world_body, A) if undone else ghosts,
+            float(np.linalg.norm(p_now - p_shaped, axis=1).max()) if undone else float("nan"),
+        )
+        before = after
+
+
+def _move(
+    params: Params, invert_rigid: Invert, rotation_from_axis_angle: Rodrigues, euler_to_matrix: FromEuler
+) -> Iterator[Moved]:
+    body, numbers, times = body_of(params), numbers_of(params), np.linspace(0.0, 1.0, params.steps + 1)
+    angles_end = np.radians(params.angles_end)
+    R_end = euler_to_matrix(angles_end, params.order)
+    if numbers.turn.any():  # the handle turns the end further, so that other angles make it
+        R_end = exp_so3(numbers.turn) @ R_end
+        angles_end = rotations.matrix_to_euler(nearest_rotation(R_end), params.order)
+    T_start = motion(euler_to_matrix(numbers.angles, params.order), np.zeros(3))
+    T_end = motion(R_end, numbers.offset)
+    shortest = list(between.slerp_and_lerp(T_start, T_end, times, rotations.rotation_from_axis_angle))
+    shortest_way = Way(times[:0], np.empty((0, 3)), times[:0])
+    for k, now in enumerate(shortest):
+        shortest_way = _gone(shortest_way, now, shortest[max(k - 1, 0)], body.p_point)
+    if params.method == "slerp + lerp":
+        states = between.slerp_and_lerp(T_start, T_end, times, rotation_from_axis_angle)
+    elif params.method == "Euler angles":
+        states = between.lerp_of_euler_angles(
+            numbers.angles, angles_end, params.order, T_start[:3, 3], T_end[:3, 3], times, euler_to_matrix
+        )
+    elif params.method == "matrix entries":
+        states = between.lerp_of_entries(T_start, T_end, times)
+    elif params.method == "slerp to -q":
+        states = between.slerp_to_minus_q(T_start, T_end, times)
+    else:
+        states = between.along_a_screw(T_start, T_end, times, invert_rigid)
+    way, before = Way(times[:0], np.empty((0, 3)), times[:0]), None
+    for now, best in zip(states, shortest, strict=True):
+        way = _gone(way, now, before or now, body.p_point)
+        T, before = now.T_world_body, now
+        after = measure(apply(T, body.solid.p), body.solid.faces)
+        yield Moved(
+            params,
+            body,
+            T_start,
+            T_end,
+            T,
+            best.T_world_body,
+            way,
+            shortest_way,
+            _degrees_between(best.T_world_body, T),
+            float(np.linalg.det(T[:3, :3])),
+            changes(body.measures, after),
+        )
+
+
+def _gone(way: Way, now: between.State, before: between.State, p_point: np.ndarray) -> Way:
+    turned = (way.turned[-1] if len(way.turned) else 0.0) + _degrees_between(before.T_world_body, now.T_world_body)
+    path = np.vstack([way.path, apply(now.T_world_body, p_point)])
+    return Way(np.append(way.times, now.t), path, np.append(way.turned, turned))
+
+
+def _degrees_between(T: np.ndarray, other: np.ndarray) -> float:
+    """Return the angle between two rotations, or between the rotations nearest to what are none."""
+    return float(np.degrees(rotation_angle(nearest_rotation(T[:3, :3]).T @ nearest_rotation(other[:3, :3]))))
+
+
+lesson = Lesson(
+    name="transforms",
+    title="Transforms",
+    summary="The same motion, many numbers: build a 4x4 factor by factor, and blend two poses in five ways.",
+    page=Path(__file__).with_name("page.md"),
+    params=Params,
+    run=run,
+    draw=draw,
+    order=100,
+    view=View(eye=(3.4, -3.6, 2.4), target=(0.8, 0.2, 0.5), grid=0.5),
+    presets=PRESETS,
+    questions=QUESTIONS,
+    first_step=5,
+)
