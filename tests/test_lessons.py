@@ -3,6 +3,7 @@
 import dataclasses
 import inspect
 import itertools
+import re
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from workbench.knobs import fields_of, from_json, to_json
 from workbench.lesson import Lesson, catalog
 from workbench.scene import Caption, caption_of, in_space, same
 from workbench.timeline import Timeline
+from workbench.typeset import inline_html, page_html
 
 ROOT = Path(__file__).resolve().parents[1]
 LESSONS = list(catalog().values())
@@ -133,6 +135,14 @@ def test_the_page_has_its_parts(lesson):
     assert 350 <= len(text.split()) <= 1100, len(text.split())
     for part in ("Conventions", "Watch", "Predict", "Break it", "Your turn", "Pitfalls", "References"):
         assert part.lower() in text.lower(), f"{lesson.name}/page.md has no part {part!r}"
+
+
+def test_every_formula_of_the_page_is_read(lesson):
+    formulas = re.findall(r"<math.*?</math>", page_html(lesson.page.read_text(encoding="utf-8")), re.DOTALL)
+    assert formulas
+    for formula in formulas:
+        assert chr(92) not in formula, f"an unknown TeX command in {formula}"
+    assert all(inline_html(question.text) for question in lesson.questions)
 
 
 def test_run_takes_only_keywords_beside_params(lesson):

@@ -17,6 +17,11 @@ def test_html_in_a_text_is_shown_as_text():
     assert "javascript:" not in page_html("[a](javascript:alert(1))").replace("[a](javascript:", "")
 
 
+def test_functions_the_converter_does_not_know_are_taught_to_it():
+    assert "arg" in math_html(r"\arg\min_x f(x)")
+    assert chr(92) not in math_html(r"\arg\min_x f(x)")
+
+
 def test_a_formula_that_cannot_be_read_is_shown_as_written():
     assert math_html(r"\frac{1}") == r"<code>\frac{1}</code>" or "<math" in math_html(r"\frac{1}")
     assert "&lt;b&gt;" in math_html("<b>") or "<mi>" in math_html("<b>")

@@ -53,7 +53,9 @@ def math_html(tex: str, block: bool = False) -> str:
     from latex2mathml.converter import convert
 
     try:
-        mathml = convert(tex.strip(), display="block" if block else "inline")
+        mathml = convert(
+            re.sub(r"\\arg(?![a-zA-Z])", r"\\operatorname{arg}", tex.strip()), display="block" if block else "inline"
+        )
     except Exception:  # the converter raises many kinds; the text itself is the best answer to all of them
         return f"<code>{html.escape(tex)}</code>"
     # bars written without \\left and \\right keep the height of a letter

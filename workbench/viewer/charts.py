@@ -58,9 +58,10 @@ class Beside:
                 value = one.values[look.k] if look.k < len(one.values) else np.nan
                 if np.isfinite(value):
                     said.append(f"{scalar.name} {value:.3g} {scalar.unit}".rstrip())
-            log = look.series[paths[0]].scalar.log
+            first = look.series[paths[0]].scalar
+            y_label = ("log₁₀ " if first.log else "") + chart + (f" ({first.unit})" if first.unit else "")
             title = " · ".join(said) if said else chart
-            self._chart("series/" + chart, title, x, lines, ("log₁₀ " if log else "") + chart, (float(look.k),), "step")
+            self._chart("series/" + chart, title, x, lines, y_label, (float(look.k),), "step")
         self._drop("series/", [f"series/{chart}" for chart in _groups(look.series)])
 
     # curves of this step --------------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 """The Code tab: the source of the algorithm that runs, the line it stands at, and its local variables."""
 
+import ast
 import functools
 from collections.abc import Callable
 from typing import Any
@@ -36,11 +37,12 @@ class CodeTab:
             )
             self._source.content = source_html(moment.function)
         at = min(max(moment.line - first, 0), len(lines) - 1)
-        # the unreadable image runs the script that keeps the marked line in sight, without taking the focus
+        # the unreadable image runs the script that keeps the marked line in sight inside its box
         self._mark.content = (
             f"<style>#wb-line-{at}{{background:rgba(204,121,167,.32);box-shadow:inset 3px 0 #cc79a7}}</style>"
             f'<img src="data:,x" alt="" hidden data-line="{moment.line}" onerror="'
-            f"document.getElementById('wb-line-{at}')?.scrollIntoView({{block:'nearest'}})\">"
+            f"const l=document.getElementById('wb-line-{at}'),b=l?.closest('.wb-code');"
+            'if(b)b.scrollTop=l.offsetTop-b.offsetTop-0.6*b.clientHeight">'
         )
         rows = "".join(
             f"<tr><td><code>{escape(v.name)}</code></td><td>{escape(v.shape)}</td><td>{escape(v.value)}</td></tr>"
@@ -60,7 +62,21 @@ def source_html(function: Callable[..., Any]) -> str:
         f'<div id="wb-line-{i}"><span class="n">{first + i}</span>{line or " "}</div>'
         for i, line in enumerate(_highlighted("\n".join(lines)))
     ]
-    return f'<div class="wb-code">{"".join(rows)}</div>'
+    start, end = _long_docstring("\n".join(lines))
+    folded = f"<details><summary>{rows[start]}</summary>{''.join(rows[start + 1 : end])}</details>" if end else ""
+    return f'<div class="wb-code" tabindex="0">{"".join(rows[:start])}{folded}{"".join(rows[end:])}</div>'
+
+
+def _long_docstring(source: str) -> tuple[int, int]:
+    """Return where a function's docstring starts and ends if it is longer than a line, else (0, 0): it is folded away."""
+    body = ast.parse(source).body[0].body  # type: ignore[attr-defined]
+    first = body[0]
+    is_text = (
+        isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str)
+    )
+    if not is_text or first.end_lineno == first.lineno:
+        return 0, 0
+    return first.lineno - 1, first.end_lineno or 0
 
 
 def _highlighted(source: str) -> list[str]:

@@ -31,9 +31,13 @@ class KnobPanel:
         self._fields = {field.name: field for field in fields_of(lesson.params)}
         defaults = lesson.params()
         for name, field in self._fields.items():
-            self._widgets[name] = self._add(client.gui, field, getattr(defaults, name))
-            if isinstance(field.knob.by, Gizmo):
-                self._gizmos[name] = self._gizmo(client.scene, field, getattr(defaults, name))
+            value = getattr(defaults, name)
+            if not isinstance(field.knob.by, Gizmo):
+                self._widgets[name] = self._add(client.gui, field, value)
+                continue
+            self._gizmos[name] = self._gizmo(client.scene, field, value)
+            with client.gui.add_folder(f"{field.label}: drag its handle in the scene", expand_by_default=False):
+                self._widgets[name] = self._add(client.gui, field, value)
 
     def show(self, params: Any) -> None:
         """Set every control to these params, without that counting as a wish."""

@@ -105,6 +105,7 @@ class Page:
         if not self._narrow:
             panel.dock_left()
             panel.set_width(460)
+            gui.set_panel_label("Choose a lesson")
             gui.main_panel.minimize()
         else:
             panel.expand()
@@ -180,6 +181,21 @@ class Page:
 
     def _add_controls(self, lesson: Lesson, session: Session) -> KnobPanel:
         gui = self.client.gui
+        acts: dict[str, Callable[[], None]] = {
+            "Pin this run": lambda: self._toggle_pin(session),
+            "Reset": lambda: self._wish(session.reset),
+            "Copy link": lambda: self._copy_link(session),
+            "Recording": lambda: self._do(self._download(session)),
+            "Theme": self._switch_theme,
+        }
+        first = gui.add_button_group("Run", ("Pin this run", "Reset"))
+        second = gui.add_button_group("Share", ("Copy link", "Recording", "Theme"))
+        speed = gui.add_dropdown(
+            "Speed", tuple(map(_speed, SPEEDS)), initial_value=_speed(session.speed), hint="How fast Play goes"
+        )
+        for group in (first, second):
+            self._on_click(group, lambda group=group: acts.get(str(group.value), lambda: self._toggle_pin(session))())
+
         tabs = gui.add_tab_group()
         with tabs.add_tab("Presets"):
             for preset in lesson.presets:
@@ -188,20 +204,6 @@ class Page:
                 self._on_click(button, lambda name=preset.name: self._wish(lambda: session.use_preset(name)))
         with tabs.add_tab("Parameters"):
             knobs = KnobPanel(self.client, lesson, lambda **values: self._wish(lambda: session.change(**values)))
-        acts: dict[str, Callable[[], None]] = {
-            "Pin this run": lambda: self._toggle_pin(session),
-            "Reset": lambda: self._wish(session.reset),
-            "Copy link": lambda: self._copy_link(session),
-            "Recording": lambda: self._do(self._download(session)),
-            "Theme": self._switch_theme,
-        }
-        speed = gui.add_dropdown(
-            "Speed", tuple(map(_speed, SPEEDS)), initial_value=_speed(session.speed), hint="How fast Play goes"
-        )
-        first = gui.add_button_group("Run", ("Pin this run", "Reset"))
-        second = gui.add_button_group("Share", ("Copy link", "Recording", "Theme"))
-        for group in (first, second):
-            self._on_click(group, lambda group=group: acts.get(str(group.value), lambda: self._toggle_pin(session))())
 
         @speed.on_update
         async def _(event: Any) -> None:
