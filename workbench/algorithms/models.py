@@ -1,0 +1,161 @@
+"""What can be fitted robustly: six kinds of model, each as the five functions that RANSAC and Huber's method need.
+
+Rows are (x, y) for LINE and CIRCLE, (x, y, z) for PLANE and SPHERE, in metres; (u, v, u', v') for HOMOGRAPHY and
+FUNDAMENTAL, a pixel of the first image and its match in the second.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from jaxtyping import Float
+
+from workbench.geometry.circles_spheres import circle_from_points, fit_sphere, sphere_distances, sphere_from_points
+from workbench.geometry.epipolar import (
+    fit_fundamental,
+    fundamentals_from_seven,
+    orientation_agrees,
+    refine_fundamental,
+    sampson_distances,
+)
+from workbench.geometry.homography import (
+    fit_homography,
+    homographies_from_four,
+    refine_homography,
+    transfer_distances,
+)
+from workbench.geometry.lines_planes import fit_hyperplane, hyperplane_distances, line_from_points, plane_from_points
+
+
+class Refit(Protocol):
+    """Fits a model to many rows by least squares."""
+
+    def __call__(
+        self, p: np.ndarray, /, weights: np.ndarray | None = None, start: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Return the estimate with the least squared distances over the rows, weighted, near `start` if given."""
+        ...
+
+
+@dataclass(frozen=True)
+class Model:
+    """A kind of model. An estimate of it is an array whose shape depends on the kind.
+
+    Attributes:
+        name: What it is called.
+        sample_size: How many rows determine it.
+        fewest: How many rows a refit needs.
+        columns: How many numbers a row has.
+        directions: In how many directions a row can leave the model (for `inlier_distance_for`).
+        unit: Of its distances.
+        degenerate_when: In words, when a sample determines no model.
+        solve: From samples (k, sample_size, columns) the estimates through them, in one list: none for a degenerate
+            sample, up to three for one sample of a fundamental matrix.
+        distances: From estimates (..., *shape) and rows (n, columns) the distances (..., n), never negative. Keeps float32.
+        refit: The estimate with the least squared distances over weighted rows, near `start` where that is given.
+    """
+
+    name: str
+    sample_size: int
+    fewest: int
+    columns: int
+    directions: int
+    unit: str
+    degenerate_when: str
+    solve: Callable[[np.ndarray], np.ndarray]
+    distances: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    refit: Refit
+
+
+def finite(estimates: Float[np.ndarray, "k ..."]) -> Float[np.ndarray, "j ..."]:
+    """Return the estimates without a NaN: the solvers mark a degenerate sample by it."""
+    return estimates[np.isfinite(estimates).all(axis=tuple(range(1, estimates.ndim)))]
+
+
+def from_points(solver: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndarray], np.ndarray]:
+    """Make a `Model.solve` of a function that takes one sample and gives one estimate, NaN for a degenerate one."""
+    return lambda samples: finite(np.stack([np.asarray(solver(sample), dtype=float) for sample in samples]))
+
+
+def rms_distance(model: Model, estimate: Float[np.ndarray, "..."], p: Float[np.ndarray, "n d"]) -> float:
+    """Return the root mean square distance of the rows to an estimate: its error, where the rows are free of noise."""
+    return float(np.sqrt(np.square(model.distances(estimate, p)).mean()))
+
+
+def _hyperplane_distances(hyperplane: np.ndarray, p: np.ndarray) -> np.ndarray:
+    signed = hyperplane_distances(hyperplane, p)
+    return np.abs(signed, out=signed)
+
+
+def _sphere_distances(sphere: np.ndarray, p: np.ndarray) -> np.ndarray:
+    return np.abs(sphere_distances(sphere, p))
+
+
+def _refit_hyperplane(p: np.ndarray, weights: np.ndarray | None = None, start: np.ndarray | None = None) -> np.ndarray:
+    """Fit in closed form; a start is not needed."""
+    return fit_hyperplane(p, weights)
+
+
+def _solve_homography(samples: np.ndarray) -> np.ndarray:
+    return finite(homographies_from_four(samples[..., :2], samples[..., 2:]))
+
+
+def _transfer_distances(H_b_a: np.ndarray, matches: np.ndarray) -> np.ndarray:
+    return transfer_distances(H_b_a, matches[:, :2], matches[:, 2:])
+
+
+def _refit_homography(
+    matches: np.ndarray, weights: np.ndarray | None = None, start: np.ndarray | None = None
+) -> np.ndarray:
+    uv_a, uv_b = matches[:, :2], matches[:, 2:]
+    start = fit_homography(uv_a, uv_b, weights) if start is None else start
+    return refine_homography(start, uv_a, uv_b, weights)
+
+
+def _solve_fundamental(samples: np.ndarray) -> np.ndarray:
+    uv_first, uv_second = samples[..., :2], samples[..., 2:]
+    F = fundamentals_from_seven(uv_first, uv_second)
+    of_sample, root = np.nonzero(np.isfinite(F).all(axis=(-2, -1)))
+    F = F[of_sample, root]
+    return F[orientation_agrees(F[:, None], uv_first[of_sample], uv_second[of_sample])[:, 0]]
+
+
+def _sampson_distances(F: np.ndarray, matches: np.ndarray) -> np.ndarray:
+    signed = sampson_distances(F, matches[:, :2], matches[:, 2:])
+    return np.abs(signed, out=signed)
+
+
+def _refit_fundamental(
+    matches: np.ndarray, weights: np.ndarray | None = None, start: np.ndarray | None = None
+) -> np.ndarray:
+    uv_first, uv_second = matches[:, :2], matches[:, 2:]
+    start = fit_fundamental(uv_first, uv_second, weights) if start is None else start
+    return refine_fundamental(start, uv_first, uv_second, weights)
+
+
+LINE = Model(
+    "line", 2, 2, 2, 1, "m", "the two points coincide",
+    lambda samples: finite(line_from_points(samples)), _hyperplane_distances, _refit_hyperplane,
+)  # fmt: skip
+PLANE = Model(
+    "plane", 3, 3, 3, 1, "m", "the three points lie on one line",
+    lambda samples: finite(plane_from_points(samples)), _hyperplane_distances, _refit_hyperplane,
+)  # fmt: skip
+CIRCLE = Model(
+    "circle", 3, 3, 2, 1, "m", "the three points lie on one line",
+    lambda samples: finite(circle_from_points(samples)), _sphere_distances, fit_sphere,
+)  # fmt: skip
+SPHERE = Model(
+    "sphere", 4, 4, 3, 1, "m", "the four points lie in one plane",
+    lambda samples: finite(sphere_from_points(samples)), _sphere_distances, fit_sphere,
+)  # fmt: skip
+HOMOGRAPHY = Model(
+    "homography", 4, 4, 4, 2, "px", "no camera can see both sets of four pixels as one plane",
+    _solve_homography, _transfer_distances, _refit_homography,
+)  # fmt: skip
+FUNDAMENTAL = Model(
+    "fundamental matrix", 7, 8, 4, 1, "px", "no two cameras can see the seven matches in front of them",
+    _solve_fundamental, _sampson_distances, _refit_fundamental,
+)  # fmt: skip
+MODELS = {model.name: model for model in (LINE, PLANE, CIRCLE, SPHERE, HOMOGRAPHY, FUNDAMENTAL)}

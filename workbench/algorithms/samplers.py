@@ -1,0 +1,71 @@
+"""Which points to try next: by chance alone, or the most trusted first."""
+
+from collections.abc import Iterator
+from math import ceil
+
+import numpy as np
+from jaxtyping import Float, Int
+
+
+def uniform_samples(n: int, size: int, rng: np.random.Generator) -> Iterator[Int[np.ndarray, " size"]]:
+    """Yield samples of `size` different rows out of n, all sets equally likely, without end.
+
+    Raises:
+        ValueError: If there are fewer rows than a sample needs.
+    """
+    while True:
+        yield draw_samples(n, size, 1, rng)[0]
+
+
+def prosac_samples(
+    quality: Float[np.ndarray, " n"], size: int, rng: np.random.Generator, *, grown_after: int = 20_000
+) -> Iterator[Int[np.ndarray, "..."]]:
+    """Yield samples from the most trusted rows first, from a pool that grows until it holds all rows.
+
+    Args:
+        quality: How much each row is trusted; more is better.
+        size: Rows in a sample.
+        rng: Where chance comes from.
+        grown_after: Draws after which the samples are as uniform as RANSAC's.
+
+    Raises:
+        ValueError: If there are fewer rows than a sample needs.
+    Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.2, eq. 3 (growth) and algorithm 1.
+    """
+    n, order = len(quality), np.argsort(-quality, kind="stable")
+    _check(n, size)
+    pool, until = size, 1
+    draws = grown_after * float(np.prod([(size - i) / (n - i) for i in range(size)]))
+    t = 0
+    while True:
+        t += 1
+        if t > until and pool < n:
+            grown = draws * (pool + 1) / (pool + 1 - size)  # eq. 3
+            pool, until, draws = pool + 1, until + ceil(grown - draws), grown
+        if t > until:  # every row is in the pool: uniform from here on
+            yield order[draw_samples(n, size, 1, rng)[0]]
+        else:
+            yield order[np.append(draw_samples(pool - 1, size - 1, 1, rng)[0], pool - 1)]
+
+
+def draw_samples(n: int, size: int, count: int, rng: np.random.Generator) -> Int[np.ndarray, "count size"]:
+    """Return `count` samples of `size` different rows out of n, each in random order.
+
+    Raises:
+        ValueError: If there are fewer rows than a sample needs.
+    """
+    _check(n, size)
+    if n <= 4 * size:
+        return np.argsort(rng.random((count, n)), axis=1)[:, :size]
+    samples = rng.integers(n, size=(count, size))
+    while True:
+        ordered = np.sort(samples, axis=1)
+        repeated = (ordered[:, 1:] == ordered[:, :-1]).any(axis=1)
+        if not repeated.any():
+            return samples
+        samples[repeated] = rng.integers(n, size=(np.count_nonzero(repeated), size))
+
+
+def _check(n: int, size: int) -> None:
+    if n < size:
+        raise ValueError(f"a sample needs {size} points, there are only {n}")

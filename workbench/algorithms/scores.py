@@ -1,0 +1,65 @@
+"""How good a candidate is, from the distances of all points to it: more is better, for every score.
+
+Each score takes the distances, never negative, of n points to one candidate, or of n points to k candidates in rows.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+import scipy
+from jaxtyping import Float, Shaped
+
+Score = Callable[[np.ndarray, float], np.ndarray]
+"""score(distances, inlier_distance) -> one number per row of distances."""
+
+
+def count_score(distances: Float[np.ndarray, "*k n"], inlier_distance: float) -> Shaped[np.ndarray, "*k"]:
+    """Count the points within the inlier distance, all of them alike: the score of RANSAC.
+
+    Reference: Fischler and Bolles, Random Sample Consensus, 1981, section II.
+    """
+    return np.asarray(np.count_nonzero(distances <= inlier_distance, axis=-1))
+
+
+def msac_score(distances: Float[np.ndarray, "*k n"], inlier_distance: float) -> Shaped[np.ndarray, "*k"]:
+    """Let each inlier count the more the nearer it is: 1 at distance 0, nothing from the inlier distance on.
+
+    It is n minus the truncated sum of squares of the paper, in units of the squared inlier distance.
+
+    Reference: Torr and Zisserman, MLESAC, 2000, section 4, eq. 16 and 17.
+    """
+    shares = distances / np.asarray(inlier_distance, distances.dtype)
+    np.multiply(shares, shares, out=shares)
+    return np.asarray(np.maximum(1 - shares, 0, out=shares).sum(axis=-1))
+
+
+def mlesac_score(
+    distances: Float[np.ndarray, "*k n"], inlier_distance: float, *, span: float, steps: int = 4
+) -> Shaped[np.ndarray, "*k"]:
+    """Return how much likelier the distances are than if all points were outliers, as a logarithm.
+
+    Inliers are normal around the model, with the standard deviation that puts 95 % of them within the inlier distance;
+    outliers are anywhere in a window of width `span`. The share of inliers is found by expectation maximisation.
+
+    Reference: Torr and Zisserman, MLESAC, 2000, section 5, eq. 18 to 20.
+    """
+    sigma = inlier_distance / 1.96
+    ratio = np.exp(-0.5 * np.square(distances / sigma)) * (span / (np.sqrt(2.0 * np.pi) * sigma))
+    share = np.full((*distances.shape[:-1], 1), 0.5)
+    for _ in range(steps):
+        share = (share * ratio / (share * ratio + 1.0 - share)).mean(axis=-1, keepdims=True)
+    return np.log(share * ratio + 1.0 - share).sum(axis=-1)
+
+
+def inlier_distance_for(sigma: float, *, directions: int = 1, kept: float = 0.95) -> float:
+    """Return the inlier distance that keeps a share of the inliers whose coordinates have normal noise.
+
+    Args:
+        sigma: Standard deviation of the noise of one coordinate, in the unit of the distances.
+        directions: In how many directions a point can leave the model: 1 for a line in the plane, a plane, a sphere,
+            an epipolar line; 2 for a point that must meet a point.
+        kept: The share of the inliers that shall stay.
+
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.7.1 and table 4.2.
+    """
+    return sigma * float(np.sqrt(scipy.stats.chi2.ppf(kept, directions)))

@@ -1,0 +1,91 @@
+"""Lines in the plane and planes in space: from the fewest points, from many, and how far points are from them.
+
+Convention: a line is (a, b, c) and a plane (a, b, c, d), a unit normal followed by an offset in metres; a point is on
+it where `p @ normal + offset = 0`, and the value of that sum is its signed distance.
+"""
+
+import numpy as np
+from jaxtyping import Float
+
+_FLAT = 1e-9
+
+
+def line_from_points(p: Float[np.ndarray, "*k 2 2"]) -> Float[np.ndarray, "*k 3"]:
+    """Return the line through each pair of points, metres; its normal is the direction turned left by a right angle.
+
+    Points that coincide give a row of NaN: every line through them fits.
+    """
+    v = p[..., 1, :] - p[..., 0, :]
+    normal = _unit(np.stack([-v[..., 1], v[..., 0]], axis=-1), smallest=0.0)
+    return _through(normal, p.mean(axis=-2))
+
+
+def plane_from_points(p: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 4"]:
+    """Return the plane through each three points, metres; they turn counter-clockwise seen from where its normal points.
+
+    Points on one line give a row of NaN: a whole pencil of planes fits. They count as such when the triangle's area
+    is below a billionth of its squared longest side.
+    """
+    v, w = p[..., 1, :] - p[..., 0, :], p[..., 2, :] - p[..., 0, :]
+    normal = v[..., [1, 2, 0]] * w[..., [2, 0, 1]] - v[..., [2, 0, 1]] * w[..., [1, 2, 0]]
+    normal = _unit(normal, smallest=_FLAT * _squared_extent(p))
+    return _through(normal, p.mean(axis=-2))
+
+
+def fit_hyperplane(
+    p: Float[np.ndarray, "n d"], weights: Float[np.ndarray, " n"] | None = None
+) -> Float[np.ndarray, " d+1"]:
+    """Return the line (d = 2) or plane (d = 3) with the smallest weighted sum of squared distances, metres.
+
+    The distances are perpendicular (total least squares), so the answer turns with the points. The sign of the normal is
+    such that its largest entry is positive.
+
+    Raises:
+        ValueError: If fewer than d points have a positive weight.
+
+    Note:
+        Points that leave a choice (all on one line in space) give one of the planes that fit.
+    Reference: Pearson, On lines and planes of closest fit to systems of points in space, 1901.
+    """
+    weights = np.ones(len(p)) if weights is None else weights
+    if np.count_nonzero(weights > 0.0) < p.shape[1]:
+        raise ValueError(
+            f"{p.shape[1]} points with a positive weight are needed, got {np.count_nonzero(weights > 0.0)}"
+        )
+    center = weights @ p / weights.sum()
+    v = np.ascontiguousarray((p - center).T)
+    normal = np.linalg.eigh((v * weights) @ v.T)[1][:, 0]
+    normal = normal * np.sign(normal[np.argmax(np.abs(normal))])
+    return np.append(normal, -normal @ center)
+
+
+def hyperplane_distances(
+    hyperplane: Float[np.ndarray, "*k d+1"], p: Float[np.ndarray, "n d"]
+) -> Float[np.ndarray, "*k n"]:
+    """Return each point's signed distance in metres, positive on the normal's side.
+
+    Several lines or planes give one row each. Works in the precision of its input.
+    """
+    return hyperplane[..., :-1] @ p.T + hyperplane[..., -1:]
+
+
+def angle_between_planes(plane_a: Float[np.ndarray, " d"], plane_b: Float[np.ndarray, " d"]) -> float:
+    """Return the angle between two planes (or two lines), from 0 to a right angle, radians; signs do not matter."""
+    n_a, n_b = plane_a[:-1], plane_b[:-1]
+    along = n_b * np.copysign(1.0, n_a @ n_b)
+    return float(2.0 * np.arctan2(np.linalg.norm(n_a - along), np.linalg.norm(n_a + along)))
+
+
+def _through(normal: np.ndarray, p: np.ndarray) -> np.ndarray:
+    return np.concatenate([normal, -(normal * p).sum(-1, keepdims=True)], axis=-1)
+
+
+def _unit(v: np.ndarray, smallest: float | np.ndarray) -> np.ndarray:
+    """Return the vectors at length one; NaN for those not longer than `smallest`."""
+    length = np.sqrt(np.square(v).sum(-1))
+    return v / np.where(length > smallest, length, np.nan)[..., None]
+
+
+def _squared_extent(p: np.ndarray) -> np.ndarray:
+    """Return the largest squared side of each triangle."""
+    return np.square(p - np.roll(p, 1, axis=-2)).sum(-1).max(-1)

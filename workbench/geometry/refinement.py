@@ -1,0 +1,59 @@
+"""Minimises a sum of squares step by step: Levenberg-Marquardt on any space that has a retraction."""
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+Unknown = TypeVar("Unknown")
+
+
+def levenberg_marquardt(
+    linearise: Callable[[Unknown], tuple[np.ndarray, np.ndarray]],
+    retract: Callable[[Unknown, np.ndarray], Unknown],
+    start: Unknown,
+    *,
+    steps: int = 20,
+    tolerance: float = 1e-7,
+) -> Unknown:
+    """Return the unknown near `start` whose residuals have the smallest sum of squares.
+
+    The damping scales with the diagonal of the normal matrix (Marquardt), so the answer does not depend on the
+    units of the single parameters.
+
+    Args:
+        linearise: Gives the residuals (n,) at an unknown, and their Jacobian (n, k) with respect to a small step.
+        retract: Gives the unknown that a small step (k,) leads to.
+        start: The first unknown, of any kind.
+        steps: Linear systems solved at most.
+        tolerance: Stop when a step lowers the cost by less than this fraction.
+
+    Note:
+        The cost never rises. A step that cannot be computed (singular or not finite) counts as one that failed.
+    Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 10.3.
+    """
+    unknown, damping = start, 1e-6
+    residuals, jacobian = linearise(unknown)
+    cost = residuals @ residuals
+    for _ in range(steps):
+        normal, gradient = jacobian.T @ jacobian, jacobian.T @ residuals
+        normal.flat[:: len(normal) + 1] *= 1.0 + damping
+        try:
+            step = np.linalg.solve(normal, -gradient)
+        except np.linalg.LinAlgError:
+            damping *= 100.0
+            continue
+        trial = retract(unknown, step)
+        trial_residuals, trial_jacobian = linearise(trial)
+        trial_cost = trial_residuals @ trial_residuals
+        if not trial_cost < cost:
+            if np.abs(step).max(initial=0.0) < 1e-14:
+                break
+            damping *= 10.0
+            continue
+        settled = cost - trial_cost <= tolerance * cost
+        unknown, residuals, jacobian, cost = trial, trial_residuals, trial_jacobian, trial_cost
+        damping *= 0.1
+        if settled:
+            break
+    return unknown
