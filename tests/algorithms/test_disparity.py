@@ -119,7 +119,7 @@ def test_a_shifted_picture_has_its_shift_as_disparity(compare, shift):
 
 def test_the_steps_are_all_there_and_in_order():
     _, left, right = made("planes")
-    states = list(match(left, right, 15, 5, (20.0, 60.0)))
+    states = list(match(left, right, 15, 5, lambda cost: (20.0, 60.0)))
     stages = [state.stage for state in states]
     assert stages == [Stage.COMPARE] * 16 + [Stage.AGGREGATE] + [Stage.PATHS] * 8 + [
         Stage.CHECK, Stage.REFINE, Stage.SMOOTH,
@@ -132,7 +132,7 @@ def test_the_steps_are_all_there_and_in_order():
 
 def test_stepping_and_the_fast_way_end_alike():
     _, left, right = made("spheres")
-    last = list(match(left, right, 31, 1, (P1, P2), census_cost_volume))[-1]
+    last = list(match(left, right, 31, 1, lambda cost: (P1, P2), census_cost_volume))[-1]
     disparity, matched = disparity_map(left, right, 31)
     assert np.array_equal(last.matched, matched)
     assert np.array_equal(last.disparity[matched], disparity[matched])
@@ -184,14 +184,16 @@ def test_small_and_bare_pictures_end_quietly(shape):
         disparity, matched = disparity_map(bare, bare, max_disparity)
         assert disparity.shape == matched.shape == shape
         assert (disparity == 0).all()
-        states = list(match(bare.astype(float), bare.astype(float), max_disparity, 3, (1.0, 2.0)))
+        states = list(match(bare.astype(float), bare.astype(float), max_disparity, 3, lambda cost: (1.0, 2.0)))
         assert np.isfinite(states[-1].disparity).all()
 
 
 def test_a_student_may_choose_in_floats():
     _, left, right = made("planes")
-    ours = list(match(left, right, 15, 3, (20.0, 60.0)))
-    theirs = list(match(left, right, 15, 3, (20.0, 60.0), choose=lambda cost: np.argmin(cost, 0).astype(np.float32)))
+    ours = list(match(left, right, 15, 3, lambda cost: (20.0, 60.0)))
+    theirs = list(
+        match(left, right, 15, 3, lambda cost: (20.0, 60.0), choose=lambda cost: np.argmin(cost, 0).astype(np.float32))
+    )
     assert all(np.array_equal(a.disparity, b.disparity, equal_nan=True) for a, b in zip(ours, theirs, strict=True))
 
 

@@ -24,6 +24,9 @@ from workbench.watch import watched
 Choose: TypeAlias = Callable[[np.ndarray], np.ndarray]
 """choose(cost (d, h, w)) -> disparity (h, w), whole pixels."""
 
+Penalties: TypeAlias = Callable[[np.ndarray], tuple[float, float]]
+"""penalties(cost (d, h, w)) -> P1, P2."""
+
 P1, P2 = CENSUS_BITS // 3, CENSUS_BITS
 """Penalties for census costs of single pixels: a jump costs as much as the worst match, a step of one a third of it."""
 
@@ -48,6 +51,8 @@ class Matching:
         cost: The volume the map was chosen from; while comparing, its disparities so far.
         disparity: The map so far, pixels, NaN where unknown.
         matched: Which pixels are left by the check against the right picture; before it, all.
+        summed: C(p, d), the matching costs summed over the window; None while comparing.
+        jumps: P1 and P2, zeros without paths.
         done: How many disparities were compared, or directions added, so far.
         direction: The direction (rows down, columns right) just added, if one was.
     """
@@ -56,8 +61,20 @@ class Matching:
     cost: Real[np.ndarray, "d h w"]
     disparity: Float[np.ndarray, "h w"]
     matched: Bool[np.ndarray, "h w"]
+    summed: Real[np.ndarray, "d h w"] | None = None
+    jumps: tuple[float, float] = (0.0, 0.0)
     done: int = 0
     direction: tuple[int, int] | None = None
+
+
+def usual_penalties(cost: Real[np.ndarray, "d h w"], smoothness: float) -> tuple[float, float]:
+    """Return P1 and P2 for costs of any unit: P2 is `smoothness` times the median cost, mostly that of wrong matches.
+
+    P1 is a third of P2.
+    """
+    some = cost[:, ::3, ::3]
+    P2 = smoothness * float(np.median(some[np.isfinite(some)]))
+    return P2 / 3.0, P2
 
 
 @watched
@@ -66,7 +83,7 @@ def match(
     right: Real[np.ndarray, "h w"],
     max_disparity: int,
     window: int,
-    penalties: tuple[float, float] | None,
+    penalties: Penalties | None,
     compare: CostVolume = sad_cost_volume,
     choose: Choose = winner_takes_all,
 ) -> Iterator[Matching]:
@@ -77,7 +94,7 @@ def match(
         right: Grey picture of the right one, of the same size; rows correspond.
         max_disparity: Largest disparity that is tried, pixels.
         window: Side of the window over which costs are summed, pixels, odd.
-        penalties: P1 and P2 of the semi-global paths, in the unit of the summed costs; None leaves the paths out.
+        penalties: P1 and P2 of the semi-global paths, from the summed costs; None leaves the paths out.
         compare: Makes the cost volume of two pictures, for a largest disparity and a window.
         choose: Takes a map from a cost volume.
     """
@@ -85,25 +102,26 @@ def match(
     single = compare(left, right, max_disparity, 1)
     for done in range(1, max_disparity + 2):
         cost = single[:done]
-        yield Matching(Stage.COMPARE, cost, choose(cost).astype(float), everywhere, done)
+        yield Matching(Stage.COMPARE, cost, choose(cost).astype(float), everywhere, done=done)
 
-    cost = single if window == 1 else compare(left, right, max_disparity, window)
-    yield Matching(Stage.AGGREGATE, cost, choose(cost).astype(float), everywhere)
+    cost = summed = single if window == 1 else compare(left, right, max_disparity, window)
+    jumps = (0.0, 0.0) if penalties is None else penalties(summed)
+    yield Matching(Stage.AGGREGATE, cost, choose(cost).astype(float), everywhere, summed, jumps)
 
-    if penalties is not None:
-        for done, paths in enumerate(semi_global(cost, *penalties), 1):
-            cost = paths.total
-            yield Matching(Stage.PATHS, cost, choose(cost).astype(float), everywhere, done, paths.direction)
+    for done, paths in enumerate(semi_global(summed, *jumps) if penalties else (), 1):
+        cost = paths.total
+        chosen = choose(cost).astype(float)
+        yield Matching(Stage.PATHS, cost, chosen, everywhere, summed, jumps, done, paths.direction)
 
     winner = choose(cost).astype(int)
     matched = agree(winner, choose(seen_from_right(cost)).astype(int))
-    yield Matching(Stage.CHECK, cost, np.where(matched, winner, np.nan), matched)
+    yield Matching(Stage.CHECK, cost, np.where(matched, winner, np.nan), matched, summed, jumps)
 
     refined = sub_pixel(cost, winner)
-    yield Matching(Stage.REFINE, cost, np.where(matched, refined, np.nan), matched)
+    yield Matching(Stage.REFINE, cost, np.where(matched, refined, np.nan), matched, summed, jumps)
 
     smooth = median3(fill(refined, matched))
-    yield Matching(Stage.SMOOTH, cost, np.where(matched, smooth, np.nan), matched)
+    yield Matching(Stage.SMOOTH, cost, np.where(matched, smooth, np.nan), matched, summed, jumps)
 
 
 def disparity_map(
