@@ -1,6 +1,6 @@
 """Experiments that break ICP, and what to predict before looking."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -18,8 +18,8 @@ OVERLAP_TIGHT = Params(
     start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="max-distance", max_distance=0.02
 )
 OVERLAP_ADAPTIVE = Params(start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="3-medians")
-OUTLIERS = Params(outliers=0.25, gate="all")
-OUTLIERS_TRIMMED = Params(outliers=0.25, keep=0.7)
+OUTLIERS = Params(outliers=0.3, gate="all")
+OUTLIERS_TRIMMED = Params(outliers=0.3, keep=0.65)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
@@ -70,20 +70,20 @@ PRESETS: tuple[Preset[Params], ...] = (
         OVERLAP_TIGHT, -1,
     ),
     Preset(
-        "outliers", "A quarter are outliers",
+        "outliers", "Three in ten are outliers",
         "Squared distances listen most to the farthest points: with every match in use, the outliers decide and ICP"
         " ends over 10° off.",
         OUTLIERS, 0,
     ),
     Preset(
-        "outliers-trimmed", "Outliers, trimmed to 70 %",
-        "Keep only the closest 70 % of the matches at each fit: the outliers fall out by themselves, and ICP comes home.",
+        "outliers-trimmed", "Outliers, trimmed to 65 %",
+        "Keep only the closest 65 % of the matches at each fit: the outliers fall out by themselves, and ICP comes home.",
         OUTLIERS_TRIMMED, 0,
     ),
 )  # fmt: skip
 
 
-def end(states: Sequence[State]) -> State:
+def end(states: Iterable[State]) -> State:
     """Return the last step of ICP itself, before other starts are tried."""
     return next(state for state in states if state.icp.stop is not None)
 
