@@ -75,18 +75,18 @@ def draw(state: State) -> Scene:
 
 def _curves(state: State) -> dict[str, Primitive]:
     now, params = state.icp, state.params
-    curves: dict[str, Primitive] = {
-        "rmse": Scalar(now.rmse, "RMSE of kept matches", "RMSE", "m"),
-        "kept": Scalar(100 * now.overlap, "kept matches", "Overlap", "%"),
-    }
+    curves: dict[str, Primitive] = {"rmse": Scalar(now.rmse, "RMSE of kept matches", "RMSE", "m")}
     if params.fit == "point-to-plane":
         curves["residual"] = Scalar(now.residual, "to tangent planes", "RMSE", "m", "other")
-    if state.scans.T_truth is not None:
+    known = state.scans.T_truth is not None
+    if known:  # the truth stands beside what is minimised
         curves["rotation error"] = Scalar(state.rotation_error, "rotation error", "Rotation error", "deg", "truth")
         curves["translation error"] = Scalar(
             state.translation_error, "translation error", "Translation error", "m", "truth"
         )
-        curves["right"] = Scalar(100 * state.right, "right matches among them", "Overlap", "%", "truth")
+    curves["kept"] = Scalar(100 * now.overlap, "kept", "Overlap", "%")
+    if known:
+        curves["right"] = Scalar(100 * state.right, "right among them", "Overlap", "%", "truth")
     return curves
 
 
@@ -124,7 +124,7 @@ def _caption(state: State) -> Caption:
         text += f"{kept:,} of {n:,} are kept" + (f" (up to {_length(now.limit)} apart)" if kept < n else "")
         text += f"; RMSE {rmse}."
         if np.isfinite(state.right):
-            text += f" {'Only ' if state.right < 0.5 else ''}{100 * state.right:.0f} % of them are right."
+            text += f" {_share(state.right)} right."
     else:
         text = f"Fit {now.iteration}: {_FITS[state.params.fit]} turns the source by {state.turned:.3g}°; "
         text += f"RMSE {_length(state.rmse_before)} → {rmse}"
@@ -190,7 +190,13 @@ def _arrow_pose(scans: Scans, T_target_source: np.ndarray) -> np.ndarray:
 
 
 def _radius(n: int) -> float:
-    return float(np.clip(0.3 / np.sqrt(n), 0.0015, 0.009))
+    return float(np.clip(0.24 / np.sqrt(n), 0.0015, 0.008))
+
+
+def _share(right: float) -> str:
+    if right < 0.005:
+        return "Hardly any of them is"
+    return f"{'Only ' if right < 0.5 else ''}{100 * right:.0f} % of them are"
 
 
 def _length(metres: float) -> str:

@@ -30,7 +30,7 @@ class Params:
     points: Annotated[int, Knob("Points of each built-in scan", 200, 20_000, step=100)] = 1500
     guess: Annotated[
         tuple[float, float, float, float, float, float],
-        Knob("Initial guess beside the start: place (m) and rotation vector (rad)", -3.2, 3.2, by=Gizmo(0.35)),
+        Knob("Initial guess beside the start: place (m) and rotation vector (rad)", -3.2, 3.2, by=Gizmo(0.25)),
     ] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz; metres")] = None
     source: Annotated[Path | None, Knob("Own source scan, moved onto the target")] = None

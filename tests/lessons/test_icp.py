@@ -177,7 +177,7 @@ class TestPicture:
         charts = {p.name: p for p in scene(HOME, 0).values() if isinstance(p, Scalar)}
         assert charts["rotation error"].value == pytest.approx(35)
         assert charts["rotation error"].color == "truth"
-        assert {"RMSE of kept matches", "translation error", "kept matches", "right matches among them"} <= set(charts)
+        assert {"RMSE of kept matches", "translation error", "kept", "right among them"} <= set(charts)
 
     def test_captions_carry_their_numbers(self):
         match, fit = caption(HOME, 0).text, caption(HOME, 1).text
