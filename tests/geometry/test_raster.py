@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.data.street import BALL_CENTER, BALL_RADIUS, street
-from workbench.geometry.cameras import camera_center, depths, intrinsics, look_at, pixel_rays, project
+from workbench.geometry.cameras import depths, intrinsics, look_at, pixel_rays, project
 from workbench.geometry.clipping import clip_segments, clip_to_rectangle, clip_triangles
 from workbench.geometry.distortion import NONE, Distortion
 from workbench.geometry.raster import Image, MeshItem, PointItem, SegmentItem, render
@@ -277,14 +277,13 @@ def test_the_street_is_drawn_whole_and_its_camera_sees_its_parts():
     K_street = intrinsics(260.0, 159.5, 119.5)
     items = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids.values()]
     image = render(items, T_camera_world, K_street, 320, 240)
-    for name in ("roof ridge", "tower top", "crate corner"):
-        p = scene.landmarks[name][None]
+    for p in scene.points[:3, None]:
         u, v = np.rint(project(p, T_camera_world, K_street))[0].astype(int)
         assert np.nanmin(image.depth[v - 2 : v + 3, u - 2 : u + 3]) == pytest.approx(
             depths(p, T_camera_world)[0], rel=0.1
         )
-    assert np.isnan(project(scene.landmarks["behind the camera"][None], T_camera_world, K_street)).all()
-    assert camera_center(T_camera_world)[1] < 0
+    assert np.isnan(project(scene.points[5:6], T_camera_world, K_street)).all()
+    assert scene.names[5] == "a lamp behind the camera"
 
 
 def test_the_solids_of_the_street_are_closed_and_face_outwards():

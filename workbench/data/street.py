@@ -1,5 +1,6 @@
 """A small street to look at with a camera: two rails to the horizon, sleepers, boxes, spheres and a house."""
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,15 +26,22 @@ class Solid:
 class Street:
     """The scene, metres, +Z up; the rails run along +Y and the camera usually stands at negative y.
 
-    `landmarks` are named points of it, `rails` two segments on the ground, `edges` the outlines of boxes and house.
+    Attributes:
+        solids: What stands there, by name.
+        rails: Two parallel segments.
+        edges: The outlines of boxes, house and roof.
+        points: Points worth following: those with a name first, then corners, and points along rails and on balls.
+        names: The names of the first points.
     """
 
     solids: dict[str, Solid]
     rails: Float[np.ndarray, "2 2 3"]
     edges: Float[np.ndarray, "e 2 3"]
-    landmarks: dict[str, Float[np.ndarray, "3"]]
+    points: Float[np.ndarray, "n 3"]
+    names: tuple[str, ...]
 
 
+@functools.cache
 def street() -> Street:
     """Return the street; it is the same each time."""
     house, roof, door = _box((4.6, 11.0, 0.0), (3.2, 4.0, 2.4)), _roof((4.6, 11.0, 2.4), (3.6, 4.4, 1.5)), _door()
@@ -41,26 +49,29 @@ def street() -> Street:
     sleepers = [_box((0.0, y, -0.02), (2.2, 0.25, 0.06)) for y in np.arange(1.0, 40.0, 1.5)]
     solids = {
         "ground": _ground(),
-        "sleepers": _lit(_merge(sleepers), (150, 128, 108)),
-        "crate": _lit(crate, (222, 176, 104)),
-        "tower": _lit(tower, (196, 190, 205)),
+        "sleepers": _lit(_merge(sleepers), (164, 154, 146)),
+        "crate": _lit(crate, (216, 202, 178)),
+        "tower": _lit(tower, (200, 198, 206)),
         "house": _lit(house, (232, 222, 204)),
-        "roof": _lit(roof, (178, 96, 78)),
-        "door": _lit(door, (110, 84, 66)),
-        "ball": _lit(_ball(BALL_CENTER, BALL_RADIUS), (120, 160, 200)),
-        "far ball": _lit(_ball(np.array([-2.6, 11.0, 0.9]), 0.9), (150, 190, 150)),
+        "roof": _lit(roof, (188, 160, 152)),
+        "door": _lit(door, (140, 130, 122)),
+        "ball": _lit(_ball(BALL_CENTER, BALL_RADIUS), (186, 196, 208)),
+        "far ball": _lit(_ball(np.array([-2.6, 11.0, 0.9]), 0.9), (194, 206, 192)),
     }
     rails = np.array([[[x, 0.0, 0.06], [x, RAIL_END, 0.06]] for x in (-RAIL_HALF_GAUGE, RAIL_HALF_GAUGE)])
     edges = np.concatenate([_box_edges(mesh) for mesh in (crate, tower, house)] + [_roof_edges(roof)])
-    landmarks = {
-        "roof ridge": roof[0][4],
-        "crate corner": crate[0][5],
-        "tower top": tower[0][5],
-        "rail, near": rails[1, 0] + (0.0, 2.0, 0.0),
-        "rail, far": rails[1, 0] + (0.0, 40.0, 0.0),
-        "behind the camera": np.array([0.6, -9.0, 2.6]),
+    named = {
+        "the roof's ridge": roof[0][4],
+        "the crate's corner": crate[0][5],
+        "the tower's top": tower[0][5],
+        "a near point of the rail": rails[1, 0] + np.array([0.0, 2.0, 0.0]),
+        "a far point of the rail": rails[1, 0] + np.array([0.0, 40.0, 0.0]),
+        "a lamp behind the camera": np.array([0.6, -9.0, 2.6]),
     }
-    return Street(solids, rails, edges, landmarks)
+    along = np.array([[x, y, 0.06] for x in (-RAIL_HALF_GAUGE, RAIL_HALF_GAUGE) for y in np.arange(3.0, 36.0, 3.0)])
+    balls = [solids[name].p_world[::40] for name in ("ball", "far ball")]
+    points = np.concatenate([list(named.values()), crate[0], tower[0], house[0], roof[0], along, *balls])
+    return Street(solids, rails, edges, points, tuple(named))
 
 
 Mesh = tuple[np.ndarray, np.ndarray]

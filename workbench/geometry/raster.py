@@ -24,6 +24,7 @@ ToPixels = Callable[[np.ndarray], np.ndarray]
 
 PIECE = 0.06  # longest normalised edge that is drawn straight through a bending lens: 1/8 px off at f = 300, k1 = -0.3
 FAVOUR = 1.002
+STRAY = 3.0  # how far beyond the true picture a given camera model may look
 SLACK = 1e-6, 0.1  # pixels that a row is longer at each end, so that neighbours leave no crack: straight, bent lens
 
 
@@ -118,8 +119,8 @@ def render(
         distortion: The lens.
         near: Depth in metres at which segments and triangles are cut, and below which points are not drawn.
         background: Colour where there is nothing.
-        to_pixels: Draws in place of `project` with the arguments above, which then only say what is near, what is in
-            front of what, and what cannot be in the picture.
+        to_pixels: Draws in place of `project` with the arguments above, which then only say what is near and what is
+            in front of what. Through a lens, what is three times as far out as the picture reaches is left out.
 
     Raises:
         ValueError: If the picture has no pixels or `near` is not positive.
@@ -129,7 +130,7 @@ def render(
     if not near > 0:
         raise ValueError(f"the near plane must lie in front of the camera, got {near} m")
     see = to_pixels or (lambda p_world: project(p_world, T_camera_world, K, distortion))
-    window = _window(K, width, height, distortion)
+    window = _window(K, width, height, distortion) * (1.0 if to_pixels is None else STRAY)
     eye = _Eye(see, T_camera_world, width, height, near, any(distortion), window)
     draw = {MeshItem: _draw_mesh, SegmentItem: _draw_segments, PointItem: _draw_points}
     return _resolve([draw[type(item)](item, eye) for item in items], width, height, background)

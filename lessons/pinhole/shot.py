@@ -1,0 +1,166 @@
+"""The true camera and its photograph: everything that holds whatever the functions under test do."""
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+
+from lessons.pinhole.params import Edit, Params
+from workbench.data.street import BALL_CENTER, BALL_RADIUS, street
+from workbench.errors import InputError
+from workbench.geometry.cameras import (
+    camera_center,
+    crop_intrinsics,
+    depths,
+    dolly,
+    intrinsics,
+    look_at,
+    normalize,
+    project,
+    project_orthographic,
+    resize_intrinsics,
+    sphere_outline,
+    vanishing_points,
+)
+from workbench.geometry.distortion import Distortion
+from workbench.geometry.raster import MeshItem, SegmentItem, render
+from workbench.scene import PALETTE
+
+WIDTH, HEIGHT = 320, 240
+CROP_LEFT, CROP_TOP = 60, 40
+FACTORS = np.geomspace(1.0, 50.0, 18)
+CRATE_EDGE = np.array([[-1.4, 5.5, 0.0], [-1.4, 5.5, 1.0]])
+TOWER_EDGE = np.array([[-3.7, 13.2, 0.0], [-3.7, 13.2, 5.0]])
+
+
+@dataclass(frozen=True, eq=False)
+class Shot:
+    """What the true camera sees.
+
+    Attributes:
+        T_camera_world: Where it is, the dolly included.
+        K: Its intrinsics, for the picture after the edit.
+        K_first: Its intrinsics before the edit.
+        lens: Its lens.
+        picture: The photograph after the edit, (h, w, 3).
+        uv: Pixels of the followed points, NaN where it does not see them.
+        xy: Ideal normalised coordinates of the points, NaN likewise.
+        subject_depth: Depth of the target, metres: the plane whose size the dolly keeps.
+        crate, tower: Heights of an edge in the picture before the edit, pixels, without the lens.
+        tower_before: The tower's at a dolly of 1.
+        ball_ratio: Length over width of the ball's outline, without the lens; NaN where it is not in the picture.
+        vanishing: Pixel in which the rails meet, NaN where they do not.
+        gaps: For each of FACTORS, how far the corners are from their orthographic pixels, at most.
+        gap: The same at the dolly of this shot.
+    """
+
+    T_camera_world: np.ndarray
+    K: np.ndarray
+    K_first: np.ndarray
+    lens: Distortion
+    picture: np.ndarray
+    uv: np.ndarray
+    xy: np.ndarray
+    subject_depth: float
+    crate: float
+    tower: float
+    tower_before: float
+    ball_ratio: float
+    vanishing: np.ndarray
+    gaps: np.ndarray
+    gap: float
+
+
+def shot_of(params: Params) -> Shot:
+    """Return the shot of these params; knobs that do not touch the camera find it taken already."""
+    lens = Distortion(params.k1, params.k2, params.p1, params.p2)
+    return _shot(params.camera, params.target, params.f, params.dolly, lens, params.edit)
+
+
+@functools.lru_cache(maxsize=64)
+def _shot(
+    camera: tuple[float, ...], target: tuple[float, ...], f: float, factor: float, lens: Distortion, edit: Edit
+) -> Shot:
+    p_world_eye, p_world_target = np.array(camera), np.array(target)
+    distance = float(np.linalg.norm(p_world_target - p_world_eye))
+    if distance < 1e-6:
+        raise InputError("the camera is at its own target: move one of the two")
+    T_near = look_at(p_world_eye, p_world_target)
+    K_near = intrinsics(f, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
+    T_camera_world, K_first = dolly(T_near, K_near, distance, factor)
+    photo = render(_scenery(), T_camera_world, K_first, WIDTH, HEIGHT, lens, background=(238, 243, 248))
+    picture, K = _edited(photo.colors, K_first, edit)
+    points = street().points
+    return Shot(
+        T_camera_world,
+        K,
+        K_first,
+        lens,
+        picture,
+        project(points, T_camera_world, K, lens),
+        normalize(project(points, T_camera_world, K), K),
+        distance * factor,
+        _height(CRATE_EDGE, T_camera_world, K_first),
+        _height(TOWER_EDGE, T_camera_world, K_first),
+        _height(TOWER_EDGE, T_near, K_near),
+        _ball_ratio(T_camera_world, K_first),
+        vanishing_points(np.array([[0.0, 1.0, 0.0]]), T_camera_world, K, lens)[0],
+        np.array([_gap(*dolly(T_near, K_near, distance, by), distance * by) for by in FACTORS]),
+        _gap(T_camera_world, K_first, distance * factor),
+    )
+
+
+def wires(T_camera_world: np.ndarray) -> np.ndarray:
+    """Return the outlines (n, 2, 3) of boxes, house, rails and ball, the last as this camera sees it."""
+    scene = street()
+    ball = np.zeros((0, 2, 3))
+    if np.linalg.norm(camera_center(T_camera_world) - BALL_CENTER) > 1.01 * BALL_RADIUS:
+        outline = sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 48)
+        ball = np.stack([outline, np.roll(outline, -1, axis=0)], axis=1)
+    return np.concatenate([scene.edges, scene.rails, ball])
+
+
+@functools.cache
+def _scenery() -> tuple[MeshItem | SegmentItem, ...]:
+    scene = street()
+    meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids.values()]
+    steel = np.tile(np.array([PALETTE["neutral"]], np.uint8), (2, 1))
+    return (*meshes, SegmentItem(scene.rails, steel, 2))
+
+
+def _edited(picture: np.ndarray, K: np.ndarray, edit: Edit) -> tuple[np.ndarray, np.ndarray]:
+    """Cut off columns and rows, average blocks of 2 x 2, and give K what it is due."""
+    if "cropped" in edit:
+        picture, K = picture[CROP_TOP:, CROP_LEFT:], crop_intrinsics(K, CROP_LEFT, CROP_TOP)
+    if "half" in edit:
+        h, w = picture.shape[0] // 2, picture.shape[1] // 2
+        picture = picture.reshape(h, 2, w, 2, 3).mean(axis=(1, 3)).round().astype(np.uint8)
+        K = resize_intrinsics(K, 0.5, 0.5)
+    return np.ascontiguousarray(picture), K
+
+
+def _height(ends: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> float:
+    low, high = project(ends, T_camera_world, K)
+    return float(np.linalg.norm(high - low))
+
+
+def _ball_ratio(T_camera_world: np.ndarray, K: np.ndarray) -> float:
+    """Measure the outline's longest and shortest radius; NaN where the ball's middle is not in the picture."""
+    u, v = project(BALL_CENTER[None], T_camera_world, K)[0]
+    inside = depths(BALL_CENTER[None], T_camera_world)[0] > 1.01 * BALL_RADIUS and 0 < u < WIDTH and 0 < v < HEIGHT
+    if not inside:
+        return float("nan")
+    uv = project(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 720), T_camera_world, K)
+    middle = 0.5 * (uv.max(axis=0) + uv.min(axis=0))  # of an ellipse: its centre
+    reach = np.linalg.norm(uv - middle, axis=1)
+    return float(reach.max() / reach.min())
+
+
+def _gap(T_camera_world: np.ndarray, K: np.ndarray, subject_depth: float) -> float:
+    """Return the largest distance in pixels between the corners' pixels and their orthographic ones."""
+    K_flat = K.copy()
+    K_flat[:2, :2] /= subject_depth
+    corners = street().edges.reshape(-1, 3)
+    miss = project(corners, T_camera_world, K) - project_orthographic(corners, T_camera_world, K_flat)
+    far = np.linalg.norm(miss, axis=1)
+    return float(np.nanmax(far)) if np.isfinite(far).any() else float("nan")

@@ -1,0 +1,403 @@
+"""Each promise of the pinhole lesson, in numbers: presets, questions, page, and the functions that drive it."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from lessons.pinhole import presets
+from lessons.pinhole.lesson import lesson, run
+from lessons.pinhole.params import Mistake, Params
+from lessons.pinhole.presets import BACK, DISTORT, DIVIDE, PIXELS
+from lessons.pinhole.shot import FACTORS, shot_of
+from lessons.pinhole.state import State
+from lessons.pinhole.words import back_error
+from workbench.data.street import BALL_CENTER, street
+from workbench.errors import InputError
+from workbench.geometry.cameras import camera_center, depths, intrinsics, project, vanishing_points
+from workbench.geometry.distortion import distort, invertible_radius
+from workbench.geometry.motions import inverse
+from workbench.knobs import fields_of
+from workbench.scene import PALETTE, Points, Segments
+from workbench.timeline import Timeline
+
+ORANGE = np.array(PALETTE["source"])
+
+
+def states(params: Params, **slots) -> list[State]:
+    return list(run(params, **slots))
+
+
+def preset(name: str) -> list[State]:
+    return states(lesson.preset(name).params)
+
+
+def orange(picture: np.ndarray) -> np.ndarray:
+    return (picture == ORANGE).all(axis=2)
+
+
+def tone(params: Params, step: int) -> str:
+    timeline = Timeline(lesson, params).complete()
+    assert timeline.stopped is None, timeline.failure
+    return timeline[step].caption.tone
+
+
+# The default run
+
+
+def test_the_default_run_is_right_at_every_stage():
+    run_ = states(Params())
+    assert [state.now.stage for state in run_] == ["world", "camera", "divide", "distort", "pixels", "back"]
+    for state in run_[DIVIDE:]:
+        assert state.error < 1e-9
+        assert state.missed == state.false == 0
+    assert back_error(run_[BACK]) < 1e-9
+    assert {tone(Params(), k) for k in range(6)} == {"info"}
+
+
+def test_the_stages_are_what_the_page_says():
+    params = Params(point=7)
+    final = states(params)[-1]
+    T, K = final.shot.T_camera_world, final.shot.K
+    p = street().points[7]
+    X, Y, Z = T[:3, :3] @ p + T[:3, 3]
+    x, y = X / Z, Y / Z
+    r2 = x * x + y * y
+    bent = np.array([x, y]) * (1 + params.k1 * r2 + params.k2 * r2**2)
+    np.testing.assert_allclose(final.now.p_camera[7], [X, Y, Z])
+    np.testing.assert_allclose(final.now.xy[7], [x, y])
+    np.testing.assert_allclose(final.now.xy_bent[7], bent)
+    np.testing.assert_allclose(final.now.uv[7], (K @ [*bent, 1.0])[:2])
+    np.testing.assert_allclose(final.now.p_back[7], p, atol=1e-12)
+    np.testing.assert_allclose(final.now.p_center, params.camera)
+
+
+def test_the_lens_moves_points_up_to_12_px():
+    state = states(Params())[DISTORT]
+    moved = np.linalg.norm(state.now.xy_bent - state.now.xy, axis=1) * state.shot.K[0, 0]
+    assert 11 < np.nanmax(moved) < 12
+
+
+def test_the_calculated_outlines_lie_on_the_photograph():
+    """The corners' true pixels are orange: photograph, lens and calculation agree."""
+    state = states(Params())[PIXELS]
+    u, v = np.rint(project(street().edges[:, 0], state.shot.T_camera_world, state.shot.K, state.shot.lens)).T.astype(
+        int
+    )
+    hit = [orange(state.picture)[b - 1 : b + 2, a - 1 : a + 2].any() for a, b in zip(u, v, strict=True)]
+    assert np.mean(hit) > 0.95
+
+
+def test_the_point_knob_reaches_every_point():
+    field = next(field for field in fields_of(Params) if field.name == "point")
+    assert (field.knob.low, field.knob.high) == (0, len(street().points) - 1)
+
+
+def test_four_points_on_one_ray_share_the_pixel():
+    timeline = Timeline(lesson, Params()).complete()
+    state, scene = timeline[BACK].state, timeline[BACK].scene
+    candidates = scene["candidates"]
+    assert isinstance(candidates, Points)
+    marks = candidates.p
+    assert len(marks) == 4
+    uv = project(marks, state.shot.T_camera_world, state.shot.K, state.shot.lens)
+    np.testing.assert_allclose(uv, np.tile(state.now.uv[state.params.point], (4, 1)), atol=1e-6)
+    np.testing.assert_allclose(depths(marks, state.shot.T_camera_world), [2, 4, 8, 16])
+
+
+def test_the_camera_may_not_stand_on_its_target():
+    with pytest.raises(InputError, match="target"):
+        states(Params(camera=(1.0, 2.0, 3.0), target=(1.0, 2.0, 3.0)))
+
+
+# Presets
+
+
+def test_dolly_keeps_the_crate_and_nearly_doubles_the_tower():
+    before, after = shot_of(dataclasses.replace(presets.DOLLY, dolly=1.0)), preset("dolly")[-1].shot
+    assert after.crate == pytest.approx(before.crate, rel=0.01)
+    assert round(after.crate) == 56
+    assert (round(after.tower_before), round(after.tower)) == (97, 172)
+    assert after.tower_before == pytest.approx(before.tower)
+    assert "97 px" in Timeline(lesson, presets.DOLLY).complete()[PIXELS].caption.text
+
+
+def test_doubling_f_doubles_every_distance_from_the_principal_point():
+    near, far = states(dataclasses.replace(presets.ZOOM, f=presets.ZOOM.f / 2))[-1], preset("zoom")[-1]
+    c = far.shot.K[:2, 2]
+    np.testing.assert_allclose(far.now.uv - c, 2 * (near.now.uv - c), atol=1e-9)
+    np.testing.assert_allclose(far.now.xy, near.now.xy, atol=1e-12)
+
+
+def test_orthographic_gap_shrinks_as_one_over_the_distance():
+    shot = preset("orthographic")[-1].shot
+    assert shot.gap < 3
+    assert shot.gaps[0] > 50
+    rate = np.diff(np.log(shot.gaps[-6:])) / np.diff(np.log(FACTORS[-6:]))
+    np.testing.assert_allclose(rate, -1.0, atol=0.05)
+    n = street().edges.reshape(-1, 3) - camera_center(shot.T_camera_world)
+    n /= np.linalg.norm(n, axis=1, keepdims=True)
+    assert np.degrees(np.arccos((n @ n.T).min())) < 2  # the rays are nearly parallel
+
+
+def test_rails_meet_where_the_formula_says_wherever_the_camera_stands():
+    run_ = preset("rails")
+    shot = run_[-1].shot
+    far = np.array([[x, 1e7, 0.06] for x in (-0.75, 0.75)])
+    np.testing.assert_allclose(project(far, shot.T_camera_world, shot.K), [shot.vanishing] * 2, atol=1e-3)
+    assert abs(presets.shift_of_vanishing(run_)) < 1e-9
+    moved = shot.T_camera_world.copy()
+    moved[:3, 3] = (7.0, -3.0, 2.0)
+    np.testing.assert_allclose(vanishing_points(np.array([[0.0, 1, 0]]), moved, shot.K)[0], shot.vanishing)
+    assert (shot.vanishing > 0).all()
+    assert (shot.vanishing < [320, 240]).all()
+
+
+def test_the_ball_is_an_ellipse_off_the_axis_and_round_on_it():
+    shot = preset("ball")[-1].shot
+    assert shot.ball_ratio > 1.35
+    on_axis = dataclasses.replace(presets.BALL, target=tuple(float(x) for x in BALL_CENTER))
+    assert shot_of(on_axis).ball_ratio == pytest.approx(1.0, abs=1e-9)
+
+
+def radial_moves(name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    state = preset(name)[DISTORT]
+    xy, move = state.now.xy, state.now.xy_bent - state.now.xy
+    seen = np.isfinite(xy).all(axis=1)
+    r = np.linalg.norm(xy[seen], axis=1)
+    outwards = np.einsum("ni,ni->n", move[seen], xy[seen]) / r
+    sideways = (move[seen, 0] * xy[seen, 1] - move[seen, 1] * xy[seen, 0]) / r
+    return r, outwards, sideways
+
+
+@pytest.mark.parametrize(("name", "sign"), [("barrel", -1), ("pincushion", 1)])
+def test_radial_lenses_move_along_the_radius_and_more_further_out(name, sign):
+    r, outwards, sideways = radial_moves(name)
+    assert (sign * outwards > 0).all()
+    np.testing.assert_allclose(sideways, 0.0, atol=1e-12)
+    assert (np.diff((sign * outwards)[np.argsort(r)]) > -1e-12).all()
+    assert np.abs(outwards).max() * 260 > 10
+
+
+def test_barrel_bows_edges_outwards_and_pincushion_inwards():
+    """The middle of a straight edge above the centre, against the line through its bent ends."""
+    edge = np.column_stack([[-0.5, 0.0, 0.5], [-0.4, -0.4, -0.4]])
+    for params, sign in ((presets.BARREL, 1), (presets.PINCUSHION, -1)):
+        ends = distort(edge, params.k1, params.k2)
+        bow = ends[[0, 2], 1].mean() - ends[1, 1]  # y points down: positive is outwards here
+        assert sign * bow > 0.005
+
+
+def test_tangential_shifts_are_not_along_the_radius_and_all_go_one_way():
+    r, outwards, sideways = radial_moves("tangential")
+    assert np.abs(sideways).max() > 0.3 * np.abs(outwards).max()
+    state = preset("tangential")[DISTORT]
+    move = state.now.xy_bent - state.now.xy
+    params = state.params
+    along = move[np.isfinite(move).all(axis=1)] @ np.array([params.p2, params.p1])
+    assert (along > 0).all()
+    order = np.argsort(r)
+    size = np.hypot(outwards, sideways)[order]
+    assert size[-10:].mean() > 5 * size[:10].mean()
+
+
+def test_beyond_the_fold_there_is_no_pixel():
+    run_ = preset("fold")
+    fold = invertible_radius(run_[0].shot.lens)
+    assert fold == pytest.approx(0.745, abs=5e-4)
+    assert run_[DISTORT].found < run_[DIVIDE].found - 10
+    r = np.linalg.norm(run_[DIVIDE].now.xy, axis=1)
+    np.testing.assert_array_equal(np.isfinite(run_[PIXELS].now.uv).all(axis=1), r < fold)
+    folded = distort(run_[DIVIDE].now.xy, *run_[0].shot.lens)[r > fold]
+    assert (np.abs(folded * 200) < [160, 120]).all(axis=1).any()  # it would have landed in the picture
+
+
+def test_a_lamp_behind_gets_a_pixel_in_the_middle_only_if_divided_anyway():
+    state = preset("behind")[PIXELS]
+    u, v = state.now.uv[5]
+    assert 80 < u < 240
+    assert 60 < v < 180
+    assert state.false == 1
+    assert state.now.p_camera[5, 2] < -6
+    assert np.isnan(states(Params(point=5))[PIXELS].now.uv[5]).all()
+    assert tone(presets.BEHIND, PIXELS) == "wrong"
+
+
+def test_the_inverted_pose_loses_nearly_every_point():
+    state = preset("inverted")[PIXELS]
+    assert state.missed == 83
+    assert (state.now.p_camera[:, 2] < 0).sum() >= 83
+    np.testing.assert_allclose(
+        state.now.p_camera[2], (inverse(state.shot.T_camera_world) @ [*street().points[2], 1])[:3]
+    )
+    assert tone(presets.INVERTED, 1) == "wrong"
+
+
+def test_opengl_axes_make_depths_negative_and_mirror_the_picture():
+    state = preset("opengl")[PIXELS]
+    seen = np.isfinite(state.shot.uv).all(axis=1)
+    assert (state.now.p_camera[seen, 2] < 0).all()
+    mirrored = state.shot.uv * [-1, 1] + [2 * state.shot.K[0, 2], 0]
+    np.testing.assert_allclose(state.now.uv[seen], mirrored[seen], atol=1e-9)
+
+
+def test_row_before_column_flips_about_the_diagonal_and_its_round_trip_closes():
+    run_ = preset("rows")
+    np.testing.assert_allclose(run_[PIXELS].now.uv, run_[PIXELS].shot.uv[:, ::-1], atol=1e-9)
+    assert run_[PIXELS].error > 50
+    assert run_[DISTORT].error < 1e-9
+    assert back_error(run_[BACK]) < 1e-6
+
+
+def test_a_lens_fed_with_pixels_is_off_by_millions():
+    run_ = preset("lens-on-pixels")
+    assert run_[DIVIDE].error < 1e-9
+    assert run_[DISTORT].error > 1e6
+    assert Timeline(lesson, presets.LENS_ON_PIXELS).complete()[PIXELS].caption.text.startswith("K makes the pixel")
+    assert not orange(run_[PIXELS].picture).any()
+
+
+def test_a_forgotten_k_is_shifted_and_twice_too_large():
+    wrong, right = preset("crop-wrong"), preset("crop-right")
+    assert wrong[DISTORT].error < 1e-9
+    assert wrong[PIXELS].error > 100
+    assert right[PIXELS].error < 1e-9
+    both = np.isfinite(right[PIXELS].now.uv).all(axis=1)
+    a, b = wrong[PIXELS].now.uv[both], right[PIXELS].now.uv[both]
+    np.testing.assert_allclose(np.ptp(a, axis=0), 2 * np.ptp(b, axis=0))
+    shot = right[-1].shot
+    assert shot.picture.shape == (100, 130, 3)
+    np.testing.assert_allclose(shot.K, intrinsics(130.0, 49.5, 39.5))
+    assert abs(shot.K[0, 2] - 64.5) > 10
+
+
+def test_the_edited_photograph_is_the_one_its_k_describes():
+    """Corners of the outline, drawn by the edited K, lie where the halved photograph has its own edges."""
+    full, half = shot_of(Params()), shot_of(presets.CROP_RIGHT)
+    np.testing.assert_allclose((half.uv + 0.5) * 2 - 0.5 + [60, 40], full.uv)
+    blocks = full.picture[40:, 60:].reshape(100, 2, 130, 2, 3).mean(axis=(1, 3))
+    assert np.abs(half.picture - blocks).max() <= 0.5
+
+
+def test_rays_from_t_miss_every_point_by_the_distance_to_the_camera():
+    state = preset("centre")[BACK]
+    T = state.shot.T_camera_world
+    off = np.linalg.norm(T[:3, 3] - camera_center(T))
+    miss = np.linalg.norm(state.now.p_back - state.now.p_world, axis=1)
+    np.testing.assert_allclose(miss[np.isfinite(miss)], off)
+    assert off > 4
+    assert state.error < 1e-9  # all pixels are right
+
+
+def test_ray_length_for_depth_pushes_points_out_more_off_the_axis():
+    state = preset("ray-length")[BACK]
+    r2 = (state.now.xy**2).sum(axis=1)
+    z = depths(state.now.p_world, state.shot.T_camera_world)
+    beyond = depths(state.now.p_back, state.shot.T_camera_world) / z
+    seen = np.isfinite(r2)
+    np.testing.assert_allclose(beyond[seen], np.sqrt(1 + r2[seen]))
+    assert beyond[seen].max() > 1.05
+    assert state.error < 1e-9
+
+
+@pytest.mark.parametrize("name", [p.name for p in lesson.presets])
+def test_a_preset_is_called_wrong_where_its_mistake_shows_and_only_then(name):
+    params = lesson.preset(name).params
+    timeline = Timeline(lesson, params).complete()
+    tones = {step.caption.tone for step in timeline.known()}
+    broken = params.mistake != "none" or not params.k_follows
+    assert tones == ({"info", "wrong"} if broken else {"info"})
+    opening = timeline[lesson.preset(name).step or 0].caption
+    assert (opening.tone == "wrong") == broken
+    assert max(len(step.caption.text) for step in timeline.known()) <= 400
+
+
+# Questions
+
+
+@pytest.mark.parametrize(
+    ("name", "right"),
+    [
+        ("predict-dolly", 0),
+        ("predict-behind", 2),
+        ("predict-centre", pytest.approx(1.7)),
+        ("predict-rails", 1),
+        ("predict-crop", pytest.approx(49.5)),
+    ],
+)
+def test_questions_are_answered_by_their_runs(name, right):
+    question = next(question for question in lesson.questions if question.name == name)
+    assert question.answer(states(question.params)) == right
+
+
+def test_the_text_of_the_centre_question_states_the_t_of_the_default_camera():
+    question = next(question for question in lesson.questions if question.name == "predict-centre")
+    t = shot_of(Params()).T_camera_world[:3, 3]
+    assert "(" + ", ".join(f"{x:.2f}" for x in t) + ")" in question.text
+
+
+# The functions of the exercises
+
+
+def test_a_wrong_project_shows_in_every_later_stage_and_in_the_picture():
+    def upside_down(p_world, T_camera_world, K):
+        return project(p_world, T_camera_world, K) * [1, -1] + [0, 2 * K[1, 2]]
+
+    run_, right = states(Params(), project=upside_down), states(Params())
+    assert all(state.error > 20 for state in run_[DIVIDE:])
+    assert run_[1].now.p_camera is not None
+    flipped = orange(run_[-1].picture)[::-1]
+    assert (flipped & orange(right[-1].picture)).sum() > 0.5 * flipped.sum()
+
+
+def test_a_wrong_distort_shows_from_the_lens_on():
+    run_ = states(Params(), distort=lambda xy, k1, k2, p1, p2: xy)
+    assert run_[DIVIDE].error < 1e-9
+    assert run_[DISTORT].error > 0.5
+    assert (run_[-1].picture != states(Params())[-1].picture).any()
+    assert back_error(run_[BACK]) > 0.01
+
+
+def test_a_wrong_camera_center_shows_on_the_way_back():
+    run_ = states(Params(), camera_center=lambda T: camera_center(T) + np.array([0, 0, 1.0]))
+    assert run_[PIXELS].error < 1e-9
+    assert back_error(run_[BACK]) == pytest.approx(1.0)
+
+
+def test_a_function_that_answers_nothing_is_shown_not_raised():
+    slots = {"project": lambda p, T, K: np.full((len(p), 2), np.nan)}
+    timeline = Timeline(lesson, Params(), slots).complete()
+    assert timeline.stopped is None, timeline.failure
+    assert timeline[PIXELS].caption.tone == "wrong"
+    assert timeline[PIXELS].state.found == 0
+
+
+def test_the_given_functions_are_asked_few_times():
+    """Each call goes to another process when a student's function runs."""
+    calls = {"project": 0, "distort": 0, "camera_center": 0}
+
+    def counted(name, function):
+        def wrapper(*args):
+            calls[name] += 1
+            return function(*args)
+
+        return wrapper
+
+    slots = {"project": project, "distort": distort, "camera_center": camera_center}
+    states(Params(), **{name: counted(name, function) for name, function in slots.items()})
+    assert calls["project"] == calls["distort"] == 3
+    assert calls["camera_center"] == 1
+
+
+def test_every_mistake_has_its_sentence():
+    from lessons.pinhole.words import MISTAKES
+
+    assert {*Mistake.__args__} == {"none", *MISTAKES}
+
+
+def test_rays_of_the_division_start_in_the_camera():
+    timeline = Timeline(lesson, Params()).complete()
+    rays = timeline[DIVIDE].scene["rays"]
+    assert isinstance(rays, Segments)
+    np.testing.assert_allclose(rays.ends[:, 0], np.tile(Params().camera, (len(rays.ends), 1)), atol=1e-9)
+    assert len(rays.ends) == 83
