@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from workbench.data.surfaces import SURFACES, plane, scaled, sphere, torus, with_noise
+from workbench.data.surfaces import SURFACES, inside_out, plane, scaled, sphere, torus, with_noise
 from workbench.errors import InputError
-from workbench.geometry.meshes import check_mesh, corners, euler_characteristic, face_areas
+from workbench.geometry.meshes import check_mesh, corners, euler_characteristic, face_areas, vertex_normals
 
 NAMES = tuple(SURFACES)
 
@@ -90,6 +90,15 @@ def test_scaled_surfaces_and_noise():
     off = with_noise(ring, 0.01, np.random.default_rng(0)).p - ring.p
     np.testing.assert_allclose(np.cross(off, ring.normals), 0, atol=1e-12)
     assert np.sqrt(np.mean((off**2).sum(axis=1))) == pytest.approx(0.01, rel=0.2)
+
+
+def test_inside_out_turns_h_and_not_k():
+    ring, turned = torus(300), inside_out(torus(300))
+    np.testing.assert_allclose(turned.gaussian, ring.gaussian)
+    np.testing.assert_allclose(turned.mean, -ring.mean)
+    assert (turned.k1 >= turned.k2).all()
+    np.testing.assert_allclose(vertex_normals(turned.p, turned.faces), -vertex_normals(ring.p, ring.faces), atol=1e-12)
+    np.testing.assert_allclose(-normal_curvature("torus", ring.p, turned.along_k1), turned.k1, atol=1e-6)
 
 
 @pytest.mark.parametrize("jitter", [-0.1, 0.26, np.nan])

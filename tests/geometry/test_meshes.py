@@ -136,12 +136,16 @@ def test_one_ring_refuses_what_has_none():
             meshes.one_ring(faces, 0)
 
 
-def test_unused_vertices_are_dropped_and_the_shape_stays():
+def test_welding_closes_seams_and_keeps_the_shape():
     p, faces = TETRAHEDRON
-    more = np.insert(p, [0, 2], [[9.0, 9, 9]], axis=0)
-    kept, renamed = meshes.without_unused(more, np.array([1, 2, 4, 5])[faces])
+    soup = p[faces].reshape(-1, 3)
+    loose = np.vstack([soup, [[9.0, 9.0, 9.0]]])
+    apart = np.vstack([np.arange(12).reshape(-1, 3), [[0, 3, 1]]])  # vertices 0 and 3 are at one place
+    assert meshes.on_boundary(apart[:4], 13).any()
+    kept, renamed = meshes.welded(loose, apart)
+    assert len(kept) == len(renamed) == 4
     np.testing.assert_array_equal(kept[renamed], p[faces])
-    assert len(kept) == 4
+    meshes.check_mesh(kept, renamed)
 
 
 GOOD = TETRAHEDRON

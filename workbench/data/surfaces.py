@@ -139,6 +139,14 @@ def scaled(surface: Surface, factor: float) -> Surface:
     return replace(surface, p=factor * surface.p, k1=surface.k1 / factor, k2=surface.k2 / factor)
 
 
+def inside_out(surface: Surface) -> Surface:
+    """Return the surface with its outside in: normals turn round, k1 and k2 change sign and places, K stays."""
+    along = np.cross(surface.normals, surface.along_k1)
+    return replace(
+        surface, faces=surface.faces[:, ::-1], normals=-surface.normals, k1=-surface.k2, k2=-surface.k1, along_k1=along
+    )
+
+
 def with_noise(surface: Surface, sigma: float, rng: np.random.Generator) -> Surface:
     """Move every vertex along its normal by Gaussian noise of sigma metres; the analytic values stay the smooth ones."""
     return replace(surface, p=surface.p + sigma * rng.standard_normal(len(surface.p))[:, None] * surface.normals)

@@ -102,7 +102,7 @@ def mean_from_normals(mean_normals: Points, normals: Points) -> PerVertex:
 def principal_curvatures(gaussian: PerVertex, mean: PerVertex) -> tuple[PerVertex, PerVertex]:
     """Return k1 >= k2 = H +- sqrt(H^2 - K); a negative H^2 - K, which no surface has, counts as 0.
 
-    Reference: Meyer et al. 2003, equation 11 and the remark on its discriminant.
+    Reference: Meyer et al. 2003, section 5.1.
     """
     spread = np.sqrt(np.maximum(mean**2 - gaussian, 0))
     return mean + spread, mean - spread

@@ -33,7 +33,7 @@ def mixed_areas(p: Points, faces: Faces) -> Float[np.ndarray, " v"]:
     A face is shared out along the bisectors of its edges (Voronoi); where that would reach outside it because it is
     obtuse, half of it goes to the obtuse corner and a quarter to each of the others.
 
-    Reference: Meyer, Desbrun, Schroeder, Barr, Discrete differential-geometry operators, 2003, section 3.3, figure 4.
+    Reference: Meyer, Desbrun, Schroeder, Barr, Discrete differential-geometry operators, 2003, figure 4.
     """
     return mixed_areas_of(corners(p, faces))
 

@@ -167,11 +167,18 @@ def euler_characteristic(faces: Faces) -> int:
     return len(np.unique(faces)) - len(edges(faces)) + len(faces)
 
 
-def without_unused(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Faces]:
-    """Drop the vertices that no face uses; the order of the others stays."""
-    used = np.zeros(len(p), dtype=bool)
+def welded(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
+    """Make one vertex of those at the same place, and drop faces that thereby lose a corner, and unused vertices.
+
+    Files often list a vertex once per face or texture; across such seams a mesh would seem to have borders.
+    """
+    at, name = np.unique(p, axis=0, return_inverse=True)
+    faces = name.reshape(-1)[faces]
+    a, b, c = faces.T
+    faces = faces[(a != b) & (b != c) & (c != a)]
+    used = np.zeros(len(at), dtype=bool)
     used[faces] = True
-    return p[used], (np.cumsum(used) - 1)[faces]
+    return at[used], (np.cumsum(used) - 1)[faces]
 
 
 def check_mesh(p: Points, faces: Faces) -> None:
