@@ -11,7 +11,7 @@ from lessons.icp.params import Params
 from lessons.icp.scans import Scans, scans_of
 from workbench.algorithms.icp import Align, Gate, icp
 from workbench.geometry.alignment import align_affine, align_rigid, align_similarity
-from workbench.geometry.motions import exp_so3, inverse, motion
+from workbench.geometry.motions import inverse
 
 ANGLES = tuple(range(0, 181, 15))
 POINTS, MAX_ITERATIONS, TOLERANCE = 300, 100, 1e-4
@@ -61,11 +61,10 @@ def align_of(params: Params, align: Align = align_rigid) -> Align:
 def _try(params: Params, angle: float) -> Try:
     scans = scans_of(params)
     assert scans.T_truth is not None
-    R, c = exp_so3(np.array([0.0, 0.0, np.radians(angle)])), scans.centre
     states = inspect.unwrap(icp)(  # unwatched: nobody looks at the lines of these runs
         scans.p_target,
         thinned(scans),
-        motion(R, c - R @ c) @ scans.T_truth,
+        scans.about_centre(np.array([0.0, 0.0, np.radians(angle)])) @ scans.T_truth,
         n_target=scans.n_target() if params.fit == "point-to-plane" else None,
         gate=gate_of(params),
         align=align_of(params),

@@ -9,7 +9,7 @@ from lessons.icp.params import Params
 from lessons.icp.scans import Scans
 from workbench.algorithms import icp
 from workbench.geometry.motions import apply, inverse
-from workbench.scene import Caption, Classes, Curve, Points, Primitive, Scalar, Scene, Segments
+from workbench.scene import Caption, Classes, Curve, Label, Points, Primitive, Scalar, Scene, Segments
 
 MOST_LINES = 1500
 ARROW = np.array([[[0.0, 0.0, 0.0], [0.62, 0.0, 0.0]], [[0.62, 0.0, 0.0], [0.54, 0.035, 0.0]],
@@ -57,6 +57,9 @@ def draw(state: State) -> Scene:
         ),
         "caption": _caption(state),
     }
+    if scans.scale != 1.0:
+        size = f"a metre of this picture is {_length(1 / scans.scale)} of the scans"
+        scene["size"] = Label(size, np.array([0.0, 0.0, -0.75]))
     if scans.T_truth is not None:
         scene["true arrow"] = Segments(
             ARROW, "truth", 2.5, _arrow_pose(scans, scans.T_truth), 0.8, name="where it belongs"

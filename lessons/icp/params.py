@@ -8,6 +8,7 @@ from workbench.knobs import Gizmo, Knob
 
 Shape = Literal["rabbit", "vase", "corner"]
 Fit = Literal["point-to-point", "point-to-plane", "similarity", "affine"]
+Up = Literal["z", "y", "-y"]
 GateName = Literal["all", "trimmed", "max-distance", "3-medians"]
 
 
@@ -35,6 +36,7 @@ class Params:
     target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz; metres")] = None
     source: Annotated[Path | None, Knob("Own source scan, moved onto the target")] = None
     truth: Annotated[Path | None, Knob("Known pose of the source in the target's frame: 4x4 or list of poses")] = None
+    up: Annotated[Up, Knob("Which axis of own scans points up")] = "z"
     own_points: Annotated[
         int, Knob("Points drawn from an own source scan; the target keeps all", 100, 50_000, step=100)
     ] = 10_000

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from lessons.icp.params import Params
+from lessons.icp.params import Params, Up
 from workbench.data.clouds import pair
 from workbench.data.files import read_cloud, read_pose
 from workbench.errors import InputError
@@ -29,6 +29,7 @@ class Scans:
         T_start: The initial guess of T_target_source.
         centre: The middle of the target, target frame; the picture is about it.
         scale: The picture's metres per metre of the scans: own scans are shown about 1.2 m wide.
+        R_world_target: How the target is set upright in the picture.
         spacing: Typical distance between neighbouring target points, metres.
         p_target_shown: The target as the picture has it.
         p_source_shown: The source as the picture has it, in its own frame.
@@ -42,15 +43,21 @@ class Scans:
     T_start: np.ndarray
     centre: np.ndarray
     scale: float
+    R_world_target: np.ndarray
     spacing: float
     p_target_shown: np.ndarray
     p_source_shown: np.ndarray
     n_target: Callable[[], np.ndarray]
 
     def shown(self, T_target_source: np.ndarray) -> np.ndarray:
-        """Return the pose of `p_source_shown` in the picture: the same motion about the centre, scaled."""
-        R, t = T_target_source[:3, :3], T_target_source[:3, 3]
-        return motion(R, self.scale * (R @ self.centre + t - self.centre))
+        """Return the pose of `p_source_shown` in the picture: the same motion about the centre, scaled and upright."""
+        A, Q = T_target_source[:3, :3], self.R_world_target
+        return motion(Q @ A @ Q.T, self.scale * Q @ (apply(T_target_source, self.centre) - self.centre))
+
+    def about_centre(self, w_world: np.ndarray) -> np.ndarray:
+        """Return the turn by a rotation vector of the picture about its middle, as a motion of the target frame."""
+        R = exp_so3(self.R_world_target.T @ w_world)
+        return motion(R, self.centre - R @ self.centre)
 
     def errors(self, T_target_source: np.ndarray) -> tuple[float, float]:
         """Return how far a motion is from the truth: degrees, and metres at the middle of the source."""
@@ -78,10 +85,10 @@ def scans_of(params: Params) -> Scans:
     """
     own = (params.target, params.source, params.truth) != (None, None, None)
     scans = _own(params) if own else _built_in(params)
-    v, w = np.array(params.guess[:3]), np.array(params.guess[3:])
-    c = scans.centre  # the handle turns about the middle of the picture
-    R = exp_so3(w)
-    return replace(scans, T_start=motion(R, v / scans.scale + c - R @ c))
+    v_world, w_world = np.array(params.guess[:3]), np.array(params.guess[3:])
+    T_start = scans.about_centre(w_world)  # the handle turns about the middle of the picture
+    T_start[:3, 3] += scans.R_world_target.T @ v_world / scans.scale
+    return replace(scans, T_start=T_start)
 
 
 def _built_in(params: Params) -> Scans:
@@ -99,8 +106,9 @@ def _sampled(shape: str, points: int, overlap: float, noise: float, outliers: fl
     scans = pair(shape, points, np.eye(4), rng, overlap=overlap, noise=noise, outliers=outliers)
     p, q = scans.p_target, scans.p_source
     return Scans(
-        p, q, scans.is_outlier, np.eye(4), np.eye(4), np.zeros(3), 1.0, _spacing(p), p, q, _normals_when_asked(p)
-    )
+        p, q, scans.is_outlier, np.eye(4), np.eye(4), np.zeros(3), 1.0, np.eye(3), _spacing(p), p, q,
+        _normals_when_asked(p),
+    )  # fmt: skip
 
 
 def _own(params: Params) -> Scans:
@@ -110,12 +118,12 @@ def _own(params: Params) -> Scans:
         read_cloud(scan)  # so that a bad file is refused before anything else
     T_truth = None if params.truth is None else read_pose(params.truth, params.target, params.source)
     changed = (params.target.stat().st_mtime_ns, params.source.stat().st_mtime_ns)
-    scans = _prepared(params.target, params.source, changed, params.own_points, params.seed)
+    scans = _prepared(params.target, params.source, changed, params.own_points, params.seed, params.up)
     return replace(scans, T_truth=T_truth)
 
 
 @functools.lru_cache(maxsize=8)
-def _prepared(target: Path, source: Path, _changed: tuple[int, int], own_points: int, seed: int) -> Scans:
+def _prepared(target: Path, source: Path, _changed: tuple[int, int], own_points: int, seed: int, up: Up) -> Scans:
     """Thin an own source, and bring both into the picture; anew when a file has changed."""
     p_target, p_source = read_cloud(target), read_cloud(source)
     rng = np.random.default_rng(seed)
@@ -124,10 +132,12 @@ def _prepared(target: Path, source: Path, _changed: tuple[int, int], own_points:
     low, high = np.percentile(p_target, [2, 98], axis=0)  # a few far points must not shrink the picture
     centre = (low + high) / 2
     scale = 1.2 / max(float((high - low).max()), 1e-9)
+    R_world_target = exp_so3(np.array([{"z": 0.0, "y": np.pi / 2, "-y": -np.pi / 2}[up], 0.0, 0.0]))
     nobody = np.zeros(len(p_source), bool)
     return Scans(
-        p_target, p_source, nobody, None, np.eye(4), centre, scale, _spacing(p_target),
-        scale * (p_target - centre), scale * (p_source - centre), _normals_when_asked(p_target),
+        p_target, p_source, nobody, None, np.eye(4), centre, scale, R_world_target, _spacing(p_target),
+        scale * (p_target - centre) @ R_world_target.T, scale * (p_source - centre) @ R_world_target.T,
+        _normals_when_asked(p_target),
     )  # fmt: skip
 
 

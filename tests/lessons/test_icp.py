@@ -17,7 +17,7 @@ from lessons.icp.presets import HOME, end, rmse_falls
 from workbench.algorithms.icp import Stop, nearest
 from workbench.errors import InputError
 from workbench.geometry.alignment import align_rigid
-from workbench.geometry.motions import apply
+from workbench.geometry.motions import apply, exp_so3, motion
 from workbench.scene import Caption, Scalar
 from workbench.timeline import Timeline
 
@@ -246,6 +246,26 @@ class TestOwnScans:
         state, source = states(two_files)[-1], scene(two_files, -1)["source"]
         gap = np.linalg.norm(apply(source.T_world_object, source.p) - p[state.icp.indices], axis=1)
         np.testing.assert_allclose(gap, state.scans.scale * state.icp.distances, atol=1e-9)
+
+    @pytest.mark.parametrize(("up", "axis"), [("z", [0, 0, 1]), ("y", [0, 1, 0]), ("-y", [0, -1, 0])])
+    def test_they_stand_upright(self, two_files, up, axis):
+        params = replace(two_files, up=up)
+        scans, shown = states(params)[0].scans, scene(params, 0)
+        middle = scans.p_target.mean(axis=0)
+        above = int(np.argmax(scans.p_target @ axis))
+        height = (scans.p_target[above] - middle) @ axis
+        p = shown["target"].p
+        assert p[above, 2] - p[:, 2].mean() == pytest.approx(scans.scale * height)
+        for k in (0, -1):
+            state, source = states(params)[k], scene(params, k)["source"]
+            gap = np.linalg.norm(apply(source.T_world_object, source.p) - p[state.icp.indices], axis=1)
+            np.testing.assert_allclose(gap, scans.scale * state.icp.distances, atol=1e-9)
+        assert "of the scans" in shown["size"].text
+
+    def test_the_handle_turns_about_the_middle_of_the_picture(self, two_files):
+        guess = (0.1, 0.0, 0.0, 0.0, 0.0, 1.0)
+        T = scene(replace(two_files, up="y", guess=guess), 0)["source"].T_world_object
+        np.testing.assert_allclose(T, motion(exp_so3(np.array([0.0, 0.0, 1.0])), np.array([0.1, 0.0, 0.0])), atol=1e-9)
 
     def test_a_known_pose_is_the_truth(self, two_files, tmp_path):
         shift = np.eye(4)
