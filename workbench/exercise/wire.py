@@ -1,0 +1,118 @@
+"""Values as plain bytes, for the pipe between the grader and a student's process: nothing is unpickled on either side.
+
+A message is 8 bytes of lengths (header, payload), a JSON header that describes the value, and the payload: the raw
+bytes of all arrays, in order. Used by both processes, so it imports nothing of ours.
+"""
+
+import json
+import struct
+from typing import Any
+
+import numpy as np
+
+MOST_BYTES = 64 * 2**20
+MOST_PARTS = 10_000
+_KINDS = "biuf"
+
+
+class WireError(ValueError):
+    """A value that cannot cross the pipe, or bytes that are no message."""
+
+
+def pack(message: dict[str, Any]) -> bytes:
+    """Return the bytes of a message: a dict whose values are None, bools, numbers, text, arrays, or lists of these.
+
+    Raises:
+        WireError: If a value is of another kind; says which.
+    """
+    blobs: list[bytes] = []
+    header = json.dumps({key: _describe(value, blobs, 0) for key, value in message.items()}).encode()
+    payload = b"".join(blobs)
+    if len(payload) > MOST_BYTES or len(header) > MOST_BYTES:
+        raise WireError(f"{len(payload) >> 20} MB is more than the {MOST_BYTES >> 20} MB a result may have")
+    return struct.pack("<QQ", len(header), len(payload)) + header + payload
+
+
+def lengths(start: bytes) -> tuple[int, int]:
+    """Return the lengths of header and payload from the first 16 bytes.
+
+    Raises:
+        WireError: If they are out of bounds.
+    """
+    header, payload = struct.unpack("<QQ", start)
+    if header > MOST_BYTES or payload > MOST_BYTES:
+        raise WireError("the lengths are out of bounds")
+    return header, payload
+
+
+def unpack(header: bytes, payload: bytes) -> dict[str, Any]:
+    """Return the message; arrays are plain ndarrays that own their memory.
+
+    Raises:
+        WireError: If the bytes are no message.
+    """
+    try:
+        described = json.loads(header)
+        if not isinstance(described, dict):
+            raise WireError("not a message")
+        reader = _Reader(memoryview(payload))
+        return {str(key): reader.value(value, 0) for key, value in described.items()}
+    except WireError:
+        raise
+    except (ValueError, TypeError, KeyError, RecursionError) as error:
+        raise WireError(f"not a message: {type(error).__name__}") from None
+
+
+def _describe(value: Any, blobs: list[bytes], depth: int) -> Any:
+    if depth > 8 or len(blobs) > MOST_PARTS:
+        raise WireError("the value has too many parts")
+    kind = type(value)
+    if value is None or kind is bool or kind is str:
+        return {"v": value}
+    if kind is int and abs(value) < 2**63:
+        return {"v": value}
+    if kind is float:
+        return {"f": value.hex()}  # JSON has no NaN
+    if isinstance(value, (np.ndarray, np.generic)):
+        array = np.array(value, copy=True, subok=False)  # a subclass leaves its own ideas behind
+        if array.dtype.kind not in _KINDS or array.dtype.itemsize > 8:
+            raise WireError(f"an array of {array.dtype} cannot be a result; use numbers")
+        array = np.ascontiguousarray(array.astype(array.dtype.newbyteorder("<")))
+        if array.nbytes > MOST_BYTES:
+            raise WireError(f"{array.nbytes >> 20} MB is more than the {MOST_BYTES >> 20} MB a result may have")
+        blobs.append(array.tobytes())
+        return {"a": array.dtype.str, "s": list(np.shape(value))}
+    if isinstance(value, (list, tuple)):
+        return {"l": [_describe(item, blobs, depth + 1) for item in value]}
+    raise WireError(f"a {kind.__name__} cannot cross; return arrays and numbers")
+
+
+class _Reader:
+    def __init__(self, payload: memoryview):
+        self._payload, self._at, self._parts = payload, 0, 0
+
+    def value(self, described: Any, depth: int) -> Any:
+        self._parts += 1
+        if depth > 8 or self._parts > MOST_PARTS or not isinstance(described, dict):
+            raise WireError("not a message")
+        if "v" in described:
+            value = described["v"]
+            if value is not None and not isinstance(value, (bool, int, str)):
+                raise WireError("not a message")
+            return value
+        if "f" in described:
+            return float.fromhex(described["f"])
+        if "l" in described:
+            return [self.value(item, depth + 1) for item in described["l"]]
+        dtype = np.dtype(described["a"])
+        shape = tuple(int(n) for n in described["s"])
+        if dtype.kind not in _KINDS or any(n < 0 for n in shape) or len(shape) > 8:
+            raise WireError("not a message")
+        size = dtype.itemsize
+        for n in shape:
+            size *= n
+        if self._at + size > len(self._payload):
+            raise WireError("an array is longer than what came")
+        data = bytes(self._payload[self._at : self._at + size])
+        self._at += size
+        return np.frombuffer(data, dtype).reshape(shape).copy()
