@@ -1,8 +1,8 @@
-"""The whole way from two pictures to a disparity map: in steps for a screen, or at once.
+"""The whole way from two pictures to disparities and depths: in steps for a screen, or at once.
 
 `match` stops after every disparity compared and every direction summed; `disparity_map` and `block_matching` run the same
-pieces without stops. Maps are (h, w), pixels, for the left picture: d = x_left - x_right. NaN is unknown; 0 is a disparity
-like any other, that of something infinitely far.
+pieces without stops. `reconstruct` turns a map into depths. Maps are (h, w), pixels, for the left picture: d = x_left -
+x_right. NaN is unknown; 0 is a disparity like any other, that of something infinitely far.
 
 Reference: Scharstein and Szeliski, A taxonomy and evaluation of dense two-frame stereo correspondence algorithms, IJCV 2002,
 section 3; Hirschmueller, PAMI 2008, section 2.
@@ -19,6 +19,7 @@ from jaxtyping import Bool, Float, Real
 from workbench.algorithms.cost_volume import CENSUS_BITS, CostVolume, census_cost_volume, sad_cost_volume
 from workbench.algorithms.disparity_map import agree, fill, median3, seen_from_right, sub_pixel, winner_takes_all
 from workbench.algorithms.semiglobal import semi_global, semi_global_total
+from workbench.geometry.stereo import depth_from_disparity, depth_uncertainty
 from workbench.watch import watched
 
 Choose: TypeAlias = Callable[[np.ndarray], np.ndarray]
@@ -26,6 +27,9 @@ Choose: TypeAlias = Callable[[np.ndarray], np.ndarray]
 
 Penalties: TypeAlias = Callable[[np.ndarray], tuple[float, float]]
 """penalties(cost (d, h, w)) -> P1, P2."""
+
+DepthOf: TypeAlias = Callable[[np.ndarray, float, float], np.ndarray]
+"""depth_of(disparity, f in pixels, baseline in metres) -> depth in metres."""
 
 P1, P2 = CENSUS_BITS // 3, CENSUS_BITS
 """Penalties for census costs of single pixels: a jump costs as much as the worst match, a step of one a third of it."""
@@ -151,3 +155,35 @@ def _finish(cost: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     winner = winner_takes_all(cost)
     matched = agree(winner, winner_takes_all(seen_from_right(cost)))
     return median3(fill(sub_pixel(cost, winner), matched)), matched
+
+
+@dataclass(frozen=True, eq=False)
+class Depths:
+    """A step of `reconstruct`: the depth per pixel, metres, and how far a disparity error moves it, where already known."""
+
+    depth: Float[np.ndarray, "h w"]
+    uncertainty: Float[np.ndarray, "h w"] | None = None
+
+
+@watched
+def reconstruct(
+    disparity: Float[np.ndarray, "h w"],
+    f: float,
+    baseline: float,
+    disparity_error: float,
+    depth_of: DepthOf = depth_from_disparity,
+) -> Iterator[Depths]:
+    """Turn disparities into depths, then say how sure they are.
+
+    Args:
+        disparity: The map, pixels, doffs added where the principal points differ; NaN is unknown.
+        f: Focal length, pixels.
+        baseline: Distance between the cameras, metres.
+        disparity_error: The error of a disparity, pixels.
+        depth_of: depth_of(d, f, baseline), metres.
+    """
+    Z = depth_of(disparity, f, baseline)  # Z = f B / d
+    yield Depths(Z)
+
+    uncertainty = depth_uncertainty(Z, f, baseline, disparity_error)  # |dZ/dd| sigma_d = Z² / (f B) sigma_d
+    yield Depths(Z, uncertainty)

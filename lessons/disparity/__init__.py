@@ -1,0 +1,1 @@
+"""Disparity: depth from two eyes."""

@@ -1,0 +1,38 @@
+"""Small pictures of pictures: a window framed, and two windows side by side."""
+
+import numpy as np
+
+from workbench.scene import PALETTE
+
+GAP = 2
+
+
+def framed(picture: np.ndarray, center: tuple[int, int], window: int) -> np.ndarray:
+    """Return a copy of an RGB picture with a frame around the window at `center` (u, v), as far as it is inside."""
+    u, v = center
+    half = max(window // 2, 1) + 1
+    h, w = picture.shape[:2]
+    marked = picture.copy()
+    rows, columns = np.mgrid[v - half : v + half + 1, u - half : u + half + 1]
+    edge = np.maximum(np.abs(rows - v), np.abs(columns - u)) == half
+    inside = edge & (rows >= 0) & (rows < h) & (columns >= 0) & (columns < w)
+    marked[rows[inside], columns[inside]] = PALETTE["highlight"]
+    return marked
+
+
+def patches(left: np.ndarray, right: np.ndarray, uv: tuple[int, int], d: int, window: int) -> np.ndarray:
+    """Return the windows around left (u, v) and right (u - d, v) side by side; what lies outside the pictures is grey."""
+    u, v = uv
+    half = max(window // 2, 3) + 1
+    one, two = (_cut(framed(picture, (x, v), window), x, v, half) for picture, x in ((left, u), (right, u - d)))
+    gap = np.full((one.shape[0], GAP, 3), 255, np.uint8)
+    return np.concatenate([one, gap, two], axis=1)
+
+
+def _cut(picture: np.ndarray, u: int, v: int, half: int) -> np.ndarray:
+    h, w = picture.shape[:2]
+    rows, columns = np.mgrid[v - half : v + half + 1, u - half : u + half + 1]
+    inside = (rows >= 0) & (rows < h) & (columns >= 0) & (columns < w)
+    cut = np.full((*rows.shape, 3), 128, np.uint8)
+    cut[inside] = picture[rows[inside], columns[inside]]
+    return cut

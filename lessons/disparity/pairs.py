@@ -1,0 +1,119 @@
+"""The pair of pictures that a run starts from, with the mistake that was asked for."""
+
+import functools
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from lessons.disparity.params import Params
+from workbench.data.stereo import StereoPair, grey, motorcycle_pair, read_pair, shrunk, synthetic_pair
+from workbench.errors import InputError
+from workbench.geometry.stereo import StereoCamera
+
+SIZE = (160, 120)
+MOST_CELLS = 5_000_000
+ROWS_OFF = 2
+DARKER = 0.7
+
+
+@dataclass(frozen=True, eq=False)
+class Setup:
+    """What stays the same for the length of a run.
+
+    Args:
+        params: What was asked for.
+        pair: The pictures as they are matched, and the truth about the left one.
+        left, right: Their brightness, 0 .. 255.
+        f: The focal length with which depths are made: the camera's, but for the mistake of not rescaling it.
+        pixel: The pixel (u, v) that is followed, inside the picture.
+        max_disparity: The largest that is tried: below the width of the pictures.
+        far: Depth up to which things are drawn, metres.
+    """
+
+    params: Params
+    pair: StereoPair
+    left: np.ndarray
+    right: np.ndarray
+    f: float
+    pixel: tuple[int, int]
+    max_disparity: int
+    far: float
+
+
+def setup_of(params: Params) -> Setup:
+    """Return the pair of a run.
+
+    Raises:
+        InputError: If own files are no pair, or the cost volume would be too large.
+    """
+    if params.left is not None and params.right is not None:
+        stamps = tuple(_stamp(path) for path in (params.left, params.right))
+        size = (params.focal_length, params.baseline, params.doffs)
+        pair, shrink = _own(params.left, params.right, stamps, size, params.shrink), params.shrink
+    elif params.scene == "Motorcycle":
+        pair, shrink = _motorcycle(params.shrink), params.shrink
+    else:
+        pair, shrink = _made(params.scene, params.focal_length, params.baseline, params.noise, params.seed), 1
+    h, w = pair.left.shape[:2]
+    max_disparity = min(params.max_disparity, w - 1)
+    cells = h * w * (max_disparity + 1)
+    if cells > MOST_CELLS:
+        raise InputError(
+            f"{w} x {h} pixels with {max_disparity + 1} disparities are {cells:,} costs, at most {MOST_CELLS:,} are shown"
+            f" step by step: raise shrink (now {shrink}) or lower max_disparity"
+        )
+    pair = _mistaken(pair, params)
+    times = shrink if params.mistake == "f not rescaled" else 1
+    return Setup(
+        params=params,
+        pair=pair,
+        left=grey(pair.left),
+        right=grey(pair.right),
+        f=pair.camera.f * times,
+        pixel=(min(params.pixel[0], w - 1), min(params.pixel[1], h - 1)),
+        max_disparity=max_disparity,
+        far=_far(pair, max_disparity) * times,
+    )
+
+
+def _mistaken(pair: StereoPair, params: Params) -> StereoPair:
+    if params.mistake == "pictures exchanged":
+        return replace(pair, left=pair.right, right=pair.left)
+    if params.mistake == "rows off by 2 px":
+        return replace(pair, right=np.concatenate([pair.right[:1]] * ROWS_OFF + [pair.right])[: len(pair.right)])
+    if params.mistake == "right picture darker":
+        return replace(pair, right=np.rint(DARKER * pair.right).astype(np.uint8))
+    return pair
+
+
+def _far(pair: StereoPair, max_disparity: int) -> float:
+    """Return the depth up to which the scene goes: the truth's, or that of a tenth of the largest disparity."""
+    camera = pair.camera
+    d = max_disparity / 10 if pair.disparity is None else np.nanmin(pair.disparity[pair.disparity > 0.1])
+    return 1.25 * camera.f * camera.baseline / max(float(d) + camera.doffs, 0.5)
+
+
+@functools.lru_cache(maxsize=8)
+def _made(scene: str, f: float, baseline: float, noise: float, seed: int) -> StereoPair:
+    camera = StereoCamera(f, (SIZE[0] - 1) / 2, (SIZE[1] - 1) / 2, baseline)
+    return synthetic_pair(scene, camera, SIZE, noise, np.random.default_rng(seed))
+
+
+@functools.lru_cache(maxsize=2)
+def _motorcycle(shrink: int) -> StereoPair:
+    return shrunk(motorcycle_pair(), shrink)
+
+
+@functools.lru_cache(maxsize=2)
+def _own(left: Path, right: Path, _stamps: tuple, camera: tuple[float, float, float], shrink: int) -> StereoPair:
+    return shrunk(read_pair(left, right, *camera), shrink)
+
+
+def _stamp(path: Path) -> tuple[int, int]:
+    """Return what changes when a file changes."""
+    try:
+        status = path.stat()
+    except OSError:
+        return (0, 0)
+    return status.st_mtime_ns, status.st_size

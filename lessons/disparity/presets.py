@@ -1,0 +1,281 @@
+"""Experiments that show where matching fails and why, and what to predict before looking."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import scipy
+
+from lessons.disparity.pairs import setup_of
+from lessons.disparity.params import Params
+from lessons.disparity.states import State
+from lessons.disparity.words import flat_parts
+from workbench.algorithms.disparity import Stage
+from workbench.lesson import Preset, Question
+
+HOME = Params()
+BARE = Params(scene="plain wall", smoothness=0.0, pixel=(62, 60))
+BARE_SMOOTH = Params(scene="plain wall", smoothness=4.0, pixel=(62, 60))
+STRIPES = Params(scene="repeated pattern", smoothness=0.0, pixel=(80, 60))
+STRIPES_PATHS = Params(scene="repeated pattern", pixel=(80, 60))
+POSTS = Params(scene="posts", pixel=(73, 60))
+SMALL = Params(smoothness=0.0, noise=12.0)
+LARGE = Params(smoothness=0.0, noise=12.0, window=21, pixel=(120, 20))
+HALF = Params(scene="planes", baseline=0.05, pixel=(80, 50))
+PLANES = Params(scene="planes", pixel=(80, 50))
+DOUBLE = Params(scene="planes", baseline=0.2, pixel=(80, 50))
+BOARDS = Params(scene="boards at 1, 5, 20 m", focal_length=700.0, baseline=0.12, max_disparity=90, pixel=(118, 30))
+ONE_PIXEL = Params(
+    scene="boards at 1, 5, 20 m",
+    focal_length=700.0,
+    baseline=0.12,
+    max_disparity=90,
+    pixel=(118, 30),
+    disparity_error=1.0,
+)
+SKY = Params(scene="boards at 1, 5, 20 m", focal_length=700.0, baseline=0.12, max_disparity=90, pixel=(80, 5))
+DARK = Params(mistake="right picture darker")
+DARK_CENSUS = Params(mistake="right picture darker", cost="census")
+EXCHANGED = Params(mistake="pictures exchanged")
+ROWS = Params(mistake="rows off by 2 px")
+MOTORCYCLE = Params(scene="Motorcycle", cost="census", max_disparity=20, pixel=(104, 58))
+WRONG_F = Params(scene="Motorcycle", cost="census", max_disparity=20, pixel=(104, 58), mistake="f not rescaled")
+
+LAST_CHOICE, CHECKED, DEPTH, LAST = -6, -5, -2, -1
+"""Where the last map before the check, the check, the depths and their error are, from the end of every run."""
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "spheres", "Three balls",
+        "One pixel alone matches by chance: over 70 % wrong. Windows of 3 × 3 leave 7 %, the paths 2 %, and the check finds"
+        " most of what is hidden.",
+        HOME,
+    ),
+    Preset(
+        "textureless", "A wall without texture",
+        "On the bare wall the cost curve is flat, for every shift fits as well: noise decides, and over 90 % of it is"
+        " wrong at a low cost.",
+        BARE, LAST_CHOICE,
+    ),
+    Preset(
+        "textureless-smooth", "The same, jumps forbidden",
+        "With a high P2 the paths carry the disparity in from where there is texture. The bare wall is right, though its"
+        " own costs still know nothing.",
+        BARE_SMOOTH, LAST_CHOICE,
+    ),
+    Preset(
+        "repeated", "A pattern that repeats",
+        "Stripes 6 px apart give the curve a valley every 6 px, all equally deep: on most of the pattern a wrong one wins.",
+        STRIPES, LAST_CHOICE,
+    ),
+    Preset(
+        "repeated-paths", "The same with paths",
+        "Around the pattern the disparity is clear. The paths bring it in and no stripe is wrong: the context decides, not"
+        " the curve.",
+        STRIPES_PATHS, LAST_CHOICE,
+    ),
+    Preset(
+        "occlusion", "Hidden from one camera",
+        "Left of each post is a band that only the left camera sees. No answer there is right; the check gives up most of"
+        " it, not all.",
+        POSTS, CHECKED,
+    ),
+    Preset(
+        "window-3", "Window 3: noise",
+        "Nine pixels are too few against this noise: over a third of the map is wrong, scattered everywhere.",
+        SMALL, LAST_CHOICE,
+    ),
+    Preset(
+        "window-21", "Window 21: fattened edges",
+        "The scatter is gone, and the balls have grown: a window across an edge sees two depths and can give only one.",
+        LARGE, LAST_CHOICE,
+    ),
+    Preset(
+        "baseline-half", "Half the baseline",
+        "Cameras 5 cm apart: half the disparity everywhere, so half as much is hidden, and an error of a pixel is worth"
+        " twice the depth.",
+        HALF, LAST,
+    ),
+    Preset(
+        "baseline-double", "Twice the baseline",
+        "Cameras 20 cm apart: depths are twice as exact, but twice as much is hidden from one of them, and the search is"
+        " twice as long.",
+        DOUBLE, LAST,
+    ),
+    Preset(
+        "one-pixel", "One pixel at 1, 5 and 20 m",
+        "Every disparity is 1 px too large. By Z² / (f B) that is 1.2 cm at 1 m, 30 cm at 5 m and 4.8 m at 20 m: quadratic,"
+        " not linear.",
+        ONE_PIXEL, LAST,
+    ),
+    Preset(
+        "sky", "d = 0 is an answer",
+        "The sky does not shift between the pictures: d = 0 means infinitely far. What is missing is NaN, and drawn grey.",
+        SKY, DEPTH,
+    ),
+    Preset(
+        "darker", "The right picture is darker",
+        "Another exposure changes every grey value by 30 %. SAD compares grey values, and over 90 % of the map is wrong.",
+        DARK, LAST_CHOICE,
+    ),
+    Preset(
+        "darker-census", "The same with census",
+        "Census only asks which neighbours are darker than the middle, and a darker picture does not change that: 2 %"
+        " wrong.",
+        DARK_CENSUS, LAST_CHOICE,
+    ),
+    Preset(
+        "exchanged", "The sign: pictures exchanged",
+        "With left and right exchanged the partner lies at u + |d|, and the search runs the other way: nothing is found.",
+        EXCHANGED, LAST_CHOICE,
+    ),
+    Preset(
+        "rows-off", "Rows that do not correspond",
+        "The right picture is 2 rows too low. Matching only looks along the row, where the partner is not: most is wrong.",
+        ROWS, LAST_CHOICE,
+    ),
+    Preset(
+        "motorcycle", "A real motorcycle",
+        "Two photographs, a quarter of their size: f and doffs shrink with them, the baseline does not. Over 90 % of what"
+        " both see is right.",
+        MOTORCYCLE, DEPTH,
+    ),
+    Preset(
+        "f-not-rescaled", "f of the large pictures",
+        "The same disparities with the f of the full-size pictures: the cloud looks fine, and everything is 4 times too"
+        " far.",
+        WRONG_F, DEPTH,
+    ),
+)  # fmt: skip
+
+
+def of_stage(states: Sequence[State], stage: Stage) -> State:
+    """Return the last state of a stage."""
+    return [state for state in states if state.stage is stage][-1]
+
+
+def last_choice(states: Sequence[State]) -> State:
+    """Return the state of the last map before the check."""
+    return states[LAST_CHOICE]
+
+
+def near_edges(state: State, reach: int = 10) -> tuple[float, float]:
+    """Return the share of the wrong pixels, and of all pixels, within `reach` px of a jump of the true disparity."""
+    truth, visible = state.setup.pair.disparity, state.setup.pair.visible
+    assert truth is not None
+    assert visible is not None
+    size = (2 * reach + 1,) * 2
+    jump = scipy.ndimage.maximum_filter(truth, 3) - scipy.ndimage.minimum_filter(truth, 3) > 2.0
+    near = scipy.ndimage.maximum_filter(jump, size)
+    wrong = (np.abs(state.disparity - truth) > 1.0) & visible
+    return float(near[wrong].mean()) if wrong.any() else 0.0, float(near[visible].mean())
+
+
+def hidden(params: Params) -> float:
+    """Return the share of left pixels that the right camera does not see."""
+    visible = setup_of(params).pair.visible
+    assert visible is not None
+    return 1.0 - float(visible.mean())
+
+
+def boards(state: State) -> dict[float, float]:
+    """Return the median depth that was found for every board, by its true depth, metres."""
+    return {round(true): true + float(np.median(off)) for true, off in flat_parts(state).items()}
+
+
+def _quarter(states: Sequence[State]) -> float:
+    return boards(states[DEPTH])[20]
+
+
+def _quarter_why(states: Sequence[State]) -> str:
+    found = boards(states[DEPTH])
+    return (
+        "Z = f B / d: a quarter of the disparity is four times the depth. The boards were found at"
+        f" {found[5]:.2f} m and {found[20]:.1f} m."
+    )
+
+
+def _nearer(states: Sequence[State]) -> float:
+    return 20.0 - boards(states[DEPTH])[20]
+
+
+def _nearer_why(states: Sequence[State]) -> str:
+    near, far = 1.0 - boards(states[DEPTH])[1], _nearer(states)
+    return (
+        f"It came {far:.2f} m nearer, {far / near:.0f} times as much as the board at 1 m ({100 * near:.1f} cm): the error"
+        " grows with Z², 400-fold to first order, not 20-fold."
+    )
+
+
+def mean_depths(states: Sequence[State]) -> tuple[float, float]:
+    """Return the mean of the boards' depths, and the depth of their mean disparity, metres."""
+    found, camera = boards(states[DEPTH]), states[DEPTH].setup.pair.camera
+    fB = camera.f * camera.baseline
+    return float(np.mean(list(found.values()))), fB / float(np.mean([fB / z for z in found.values()]))
+
+
+def _averages(states: Sequence[State]) -> float:
+    of_depths, of_disparities = mean_depths(states)
+    return 2.0 if abs(of_depths - of_disparities) < 0.1 else 0.0 if of_depths > of_disparities else 1.0
+
+
+def _averages_why(states: Sequence[State]) -> str:
+    of_depths, of_disparities = mean_depths(states)
+    return (
+        f"The mean depth is {of_depths:.1f} m, the mean disparity stands for {of_disparities:.1f} m: 1 / d is not linear,"
+        " and the near board has by far the largest d."
+    )
+
+
+def _hidden(states: Sequence[State]) -> float:
+    times = hidden(states[0].setup.params) / hidden(PLANES)
+    return 0.0 if times < 0.75 else 1.0 if times < 1.5 else 2.0
+
+
+def _hidden_why(states: Sequence[State]) -> str:
+    return (
+        f"{100 * hidden(PLANES):.1f} % became {100 * hidden(states[0].setup.params):.1f} %. The depths of the rest are"
+        " twice as exact: a longer baseline is a trade, not a gain."
+    )
+
+
+def _edges(states: Sequence[State]) -> float:
+    of_wrong, of_all = near_edges(last_choice(states))
+    return 1.0 if of_wrong > 0.8 and of_wrong > 1.5 * of_all else 0.0
+
+
+def _edges_why(states: Sequence[State]) -> str:
+    state = last_choice(states)
+    of_wrong, of_all = near_edges(state)
+    return (
+        f"{100 * state.wrong:.0f} % of the map is wrong, and {100 * of_wrong:.0f} % of that lies within 10 px, half a"
+        f" window, of an edge, where only {100 * of_all:.0f} % of all pixels are."
+    )
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        "quarter", "The board at 5 m has a disparity of 16.8 px. Another has 4.2 px, a quarter of that. How far away is it?",
+        _quarter, _quarter_why, BOARDS, unit="m", tolerance=1.0, step=DEPTH,
+    ),
+    Question(
+        "nearer",
+        "Every disparity is measured 1 px too large, and the board at 1 m comes 1.2 cm nearer. How much nearer does the"
+        " board at 20 m come?",
+        _nearer, _nearer_why, ONE_PIXEL, unit="m", tolerance=1.0, step=LAST,
+    ),
+    Question(
+        "averages",
+        "Three boards at 1, 5 and 20 m. Average their depths, or average their disparities and take the depth of that:"
+        " which is further?",
+        _averages, _averages_why, BOARDS,
+        choices=("the mean of the depths", "the depth of the mean disparity", "both are the same"), step=DEPTH,
+    ),
+    Question(
+        "baseline", "The cameras move apart to twice the baseline. How many pixels does the right camera not see now?",
+        _hidden, _hidden_why, DOUBLE, choices=("about half as many", "about as many", "about twice as many"), step=CHECKED,
+    ),
+    Question(
+        "window", "A window of 21 px instead of 3 against noise, without paths. Where are the pixels that stay wrong?",
+        _edges, _edges_why, LARGE, choices=("scattered everywhere", "beside the edges of things"), step=LAST_CHOICE,
+    ),
+)  # fmt: skip

@@ -1,0 +1,214 @@
+"""Captions: what a step did, with the number that changed."""
+
+import math
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from lessons.disparity.states import State
+from workbench.algorithms.disparity import Stage
+from workbench.scene import Caption
+
+Tone: TypeAlias = Literal["info", "good", "wrong"]
+WAYS = {
+    (0, 1): "to the right", (0, -1): "to the left", (1, 0): "down", (-1, 0): "up",
+    (1, 1): "down and right", (-1, -1): "up and left", (1, -1): "down and left", (-1, 1): "up and right",
+}  # fmt: skip
+
+
+def caption(state: State) -> Caption:
+    """Return the caption of one step."""
+    if state.stage is None:
+        return _of_error(state) if state.uncertainty is not None else _of_depth(state)
+    words = {
+        Stage.COMPARE: _compared,
+        Stage.AGGREGATE: _aggregated,
+        Stage.PATHS: _path,
+        Stage.CHECK: _checked,
+        Stage.REFINE: _refined,
+        Stage.SMOOTH: _smoothed,
+    }[state.stage](state)
+    return Caption(words)
+
+
+def _compared(state: State) -> str:
+    d, n = state.done - 1, state.disparity.size
+    fresh = int((state.disparity == d).sum())
+    start = (
+        f"d = {d}: left (u, v) against right (u − {d}, v). "
+        if d
+        else "d = 0: both pictures lie on each other as they are. "
+    )
+    found = (
+        "so far each pixel keeps this one"
+        if d == 0
+        else f"{fresh:,} pixels ({100 * fresh / n:.1f} %) fit better than at any smaller shift"
+    )
+    return f"{start}{found[0].upper()}{found[1:]}; the mean lowest cost is {state.lowest:.3g}."
+
+
+def _aggregated(state: State) -> str:
+    window, cost = state.setup.params.window, state.setup.params.cost
+    if window == 1:
+        return (
+            f"A window of one pixel sums nothing: the winner of each {cost} curve stays as it was{_wrong_now(state)}."
+        )
+    return (
+        f"{cost} over {window} × {window} pixels: a whole window must fit, not one pixel by chance"
+        f"{_change(state, ': wrong pixels {} → {} %')}."
+    )
+
+
+def _path(state: State) -> str:
+    assert state.direction is not None
+    fell = "" if state.before is None else f"energy {state.before.energy:.4g} → {state.energy:.4g} per pixel"
+    P1, P2 = state.jumps
+    return (
+        f"Path {state.done} of 8, {WAYS[state.direction]}: a step of 1 px costs P1 = {P1:.3g}, a jump P2 = {P2:.3g}; "
+        f"{fell}{_change(state, ', wrong pixels {} → {} %')}."
+    )
+
+
+def _checked(state: State) -> str:
+    lost = int(np.isnan(state.disparity).sum())
+    text = (
+        "The right picture chooses too: where the two differ by over 1 px, the pixel is given up: "
+        f"{lost:,} ({100 * state.unknown:.1f} %)"
+    )
+    visible = state.setup.pair.visible
+    truth = state.setup.pair.disparity
+    if visible is not None and truth is not None and (np.isfinite(truth) & ~visible).any():
+        hidden = np.isnan(state.disparity[np.isfinite(truth) & ~visible]).mean()
+        text += f", {100 * hidden:.0f} % of what the right camera cannot see"
+    return f"{text}{_change(state, '; wrong pixels {} → {} %')}."
+
+
+def _refined(state: State) -> str:
+    known = np.isfinite(state.disparity)
+    moved = np.abs(state.disparity - np.rint(state.disparity))[known]
+    mean = float(moved.mean()) if known.any() else 0.0
+    return (
+        "The lowest point of the parabola through three costs lies between pixels: "
+        f"{mean:.2f} px from whole ones on average{_error(state)}."
+    )
+
+
+def _smoothed(state: State) -> str:
+    return f"The median of each 3 × 3 neighbourhood drops single outliers and keeps edges{_error(state)}{_wrong_now(state)}."
+
+
+def _of_depth(state: State) -> Caption:
+    setup = state.setup
+    camera, (u, v) = setup.pair.camera, setup.pixel
+    depth = float(state.depth[v, u])
+    d = "d" if camera.doffs == 0 else f"(d + {camera.doffs:.3g})"
+    law = f"Z = f B / {d} with f = {setup.f:.4g} px, B = {camera.baseline:.3g} m"
+    if math.isnan(depth):
+        here = f"left pixel ({u}, {v}) is unknown and stays so"
+    elif math.isinf(depth):
+        here = f"left pixel ({u}, {v}) has d = 0: infinitely far, not missing"
+    else:
+        true = _true_depth(state)
+        here = f"left pixel ({u}, {v}), d = {state.chosen:.2f} px, is {depth:.3f} m away" + (
+            f" (truth {true:.3f} m)" if math.isfinite(true) else ""
+        )
+    infinite = int(np.isinf(state.depth).sum())
+    more = f" {infinite:,} pixels are infinitely far." if infinite else ""
+    extra = (
+        "" if not setup.params.disparity_error else f" {setup.params.disparity_error:+g} px was added to every d first."
+    )
+    return Caption(f"{law}: {here}.{more}{extra}", _tone(state))
+
+
+def _of_error(state: State) -> Caption:
+    known = np.isfinite(state.depth) & (state.depth <= state.setup.far)
+    if not known.any():
+        return Caption("No pixel has a depth, so there is no error to show.", "wrong")
+    e, fB = state.disparity_error, state.setup.f * state.setup.pair.camera.baseline
+    flat = flat_parts(state)
+    at = (
+        list(flat)
+        if 1 < len(flat) <= 4 and max(flat) > 1.2 * min(flat)
+        else [float(z) for z in np.percentile(state.depth[known], [2, 98])]
+    )
+    moved = ", ".join(f"{z:.3g} m by {_length(z * z / fB * e)}" for z in at)
+    text = f"To first order {e:g} px of error moves a depth by Z² / (f B) · {e:g} px: {moved}."
+    if state.setup.params.disparity_error and at == list(flat):
+        text += f" Measured: {', '.join(_length(abs(float(np.median(off)))) for off in flat.values())}."
+    off = depth_errors(state)
+    if len(off):
+        text += f" Half of all points are within {_length(float(np.median(off)))} of the truth."
+    return Caption(text, _tone(state))
+
+
+def flat_parts(state: State) -> dict[float, np.ndarray]:
+    """Return, for every depth that hundreds of pixels share exactly, how far theirs is off, metres; empty without truth."""
+    setup = state.setup
+    truth, visible, camera = setup.pair.disparity, setup.pair.visible, setup.pair.camera
+    if truth is None or visible is None:
+        return {}
+    d = np.round(truth + camera.doffs, 6)
+    values, counts = np.unique(d[visible & (d > 0)], return_counts=True)
+    parts = {}
+    for value in values[counts > 300][::-1]:
+        depth = camera.f * camera.baseline / float(value)
+        here = visible & (d == value) & np.isfinite(state.depth)
+        if here.any():
+            parts[depth] = state.depth[here] - depth
+    return parts
+
+
+def depth_errors(state: State) -> np.ndarray:
+    """Return how far the depths that are known are from the true ones, metres; empty without truth."""
+    found, true = _known_depths(state)
+    return np.abs(found - true)
+
+
+def _known_depths(state: State) -> tuple[np.ndarray, np.ndarray]:
+    """Return the depths found and the true ones, metres, of the pixels where both are known and finite."""
+    setup = state.setup
+    truth, camera = setup.pair.disparity, setup.pair.camera
+    if truth is None:
+        return np.zeros(0), np.zeros(0)
+    known = np.isfinite(state.depth) & np.isfinite(truth) & (truth + camera.doffs > 0)
+    return state.depth[known], camera.f * camera.baseline / (truth[known] + camera.doffs)
+
+
+def _true_depth(state: State) -> float:
+    setup = state.setup
+    if setup.pair.disparity is None:
+        return math.nan
+    u, v = setup.pixel
+    d = float(setup.pair.disparity[v, u]) + setup.pair.camera.doffs
+    return setup.pair.camera.f * setup.pair.camera.baseline / d if d > 0 else math.nan
+
+
+def _tone(state: State) -> Tone:
+    """Judge the depths: good within 3 % in the median and with few wrong pixels, wrong beyond 10 % or with many."""
+    found, true = _known_depths(state)
+    if not len(found):
+        return "info"
+    relative = float(np.median(np.abs(found / true - 1.0)))
+    if relative > 0.1 or state.wrong > 0.2:
+        return "wrong"
+    return "info" if relative > 0.03 or state.wrong > 0.05 else "good"
+
+
+def _wrong_now(state: State) -> str:
+    return "" if math.isnan(state.wrong) else f"; {100 * state.wrong:.1f} % are wrong"
+
+
+def _change(state: State, text: str) -> str:
+    if state.before is None or math.isnan(state.wrong):
+        return ""
+    return text.format(f"{100 * state.before.wrong:.1f}", f"{100 * state.wrong:.1f}")
+
+
+def _error(state: State) -> str:
+    if state.before is None or math.isnan(state.error) or math.isnan(state.before.error):
+        return ""
+    return f"; mean error of the right ones {state.before.error:.3f} → {state.error:.3f} px"
+
+
+def _length(metres: float) -> str:
+    return f"{1000 * metres:.1f} mm" if metres < 0.01 else f"{100 * metres:.1f} cm" if metres < 1 else f"{metres:.2f} m"
