@@ -50,6 +50,7 @@ class Knob:
         unit: Written behind the value: `m`, `deg`, `px`. Degrees are converted in the first lines of `run`.
         step: The slider's step; None picks a fine one.
         label: The words on the control; None makes them from the field's name.
+        parts: What the entries of a tuple are called, where x, y, z would mislead.
         by: A Gizmo or a Pick where the scene sets it too.
     """
 
@@ -59,6 +60,7 @@ class Knob:
     unit: str = ""
     step: float | None = None
     label: str | None = None
+    parts: tuple[str, ...] = ()
     by: Gizmo | Pick | None = None
 
 

@@ -1,7 +1,7 @@
 """Second readings of the same numbers: each the picture of one mistake, or of two names for one thing."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -24,16 +24,25 @@ from workbench.geometry.rotations import (
 from workbench.scene import Role
 
 SAME = 1e-9  # metres: what rounding leaves of two names for one motion
+BEHIND, ALONG = np.array([-1.6, 1.4, 0.0]), np.array([0.95, 0.58, 0.0])  # a row across the first view, metres
 CONVENTIONS: tuple[EulerOrder, ...] = ("xyz", "XYZ", "ZYX", "ZXZ")
 
 
 @dataclass(frozen=True, eq=False)
 class Ghost:
-    """The body under another reading: its 4x4, and how far its farthest vertex is from ours, metres."""
+    """The body under another reading.
+
+    Attributes:
+        name: The reading.
+        T: Its 4x4.
+        distance: How far its farthest vertex is from ours, metres.
+        apart: By how much it is drawn aside, where several would stand in each other's way, metres.
+    """
 
     name: str
     T: np.ndarray
     distance: float
+    apart: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     @property
     def color(self) -> Role:
@@ -53,10 +62,13 @@ def ghosts_of(params: Params, body: Body, numbers: Numbers, A: np.ndarray) -> tu
     make = _READINGS.get(params.compare)
     p_ours = transform(numbers.motion() @ A, body.solid.p)
     if params.compare == "best rigid motion":
-        return (_ghost("as near as a rigid motion comes", align_rigid(p_ours, body.solid.p), body, p_ours),)
+        return (_ghost("best rigid motion", align_rigid(p_ours, body.solid.p), body, p_ours),)
     if make is None:
         return ()
-    return tuple(_ghost(name, other @ A, body, p_ours) for name, other in make(numbers))
+    ghosts = tuple(_ghost(name, other @ A, body, p_ours) for name, other in make(numbers))
+    if params.compare == "four conventions":  # in a row behind the body
+        return tuple(replace(g, apart=BEHIND + (k - 1.5) * ALONG) for k, g in enumerate(ghosts))
+    return ghosts
 
 
 def undo_ghosts_of(params: Params, body: Body, T_world_body: np.ndarray, A: np.ndarray) -> tuple[Ghost, ...]:

@@ -7,7 +7,7 @@ from lessons.transforms.compare import Ghost
 from lessons.transforms.states import Built, Moved, State
 from lessons.transforms.tables import in_other_numbers, invariants, matrix, one_point
 from lessons.transforms.words import caption_of_build, caption_of_move
-from workbench.geometry.affine import transform, transform_directions
+from workbench.geometry.affine import transform, transform_directions, translation
 from workbench.geometry.rotations import euler_axes, gimbal_margin
 from workbench.scene import Axes, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments
 
@@ -23,7 +23,7 @@ def _draw_build(state: Built) -> Scene:
     body, T, T_body = state.body, state.T, state.T_world_body
     scene: dict[str, Primitive] = {
         **_shown("start", body, np.eye(4), "target", 0.15, "start"),
-        **_shown("body", body, T, "source", 0.9, "body now"),
+        **_shown("body", body, T, "source", 0.85, "body now"),
         "world": Axes(None, 0.4, name="world axes"),
         "vertex": Label(f"vertex {body.point}", state.trail[-1], "highlight"),
         "volume": Scalar(float(np.linalg.det(T[:3, :3])) if _affine(T) else np.nan, "det T", "det T", "", "source"),
@@ -49,7 +49,7 @@ def _draw_build(state: Built) -> Scene:
         wrong = transform(T, FRONT[None])[0]
         p_door = transform(T, body.p_door[None])[0]
         scene["wrong front"] = Segments(np.array([[p_door, p_door + 0.5 * wrong]]), "wrong", 3, name="with w = 1")
-    if state.factor.kind == "turn":
+    if state.factor.kind == "turn" or (state.complete and _shows_lock(state)):
         scene |= _turning_axes(state)
     for i, ghost in enumerate(state.ghosts):
         scene |= _ghost(i, ghost, body)
@@ -66,7 +66,7 @@ def _draw_move(state: Moved) -> Scene:
     scene: dict[str, Primitive] = {
         **_shown("start", body, state.T_world_start, "target", 0.15, "start"),
         **_shown("end", body, state.T_world_end, "target", 0.15, "end"),
-        **_shown("body", body, state.T_world_body, "source", 0.9, f"by {state.params.method}"),
+        **_shown("body", body, state.T_world_body, "source", 0.85, f"by {state.params.method}"),
         "shortest": _lines(body, state.T_world_shortest, "truth", "shortest turn"),
         "shortest path": Segments(_steps(state.shortest.path), "truth", 2, name="its path"),
         "vertex": Label(f"vertex {body.point}", way.path[-1], "highlight"),
@@ -107,13 +107,13 @@ def _lines(body: Body, T: np.ndarray, color: Role, name: str) -> Segments:
 
 
 def _ghost(i: int, ghost: Ghost, body: Body) -> dict[str, Primitive]:
-    p = transform(ghost.T, body.solid.p)
-    beside = "ends the same" if ghost.color == "truth" else f"ends {ghost.distance:.2f} m off"
+    T = translation(ghost.apart) @ ghost.T
+    p = transform(T, body.solid.p)
+    p_label = p[np.argmax(p[:, 2])] + [0.0, 0.0, 0.08 + (0.0 if ghost.apart.any() else 0.1 * i)]
+    ends = "ends the same" if ghost.color == "truth" else f"ends {ghost.distance:.2f} m off"
     return {
-        f"ghost {i}": _lines(body, ghost.T, ghost.color, ghost.name),
-        f"ghost {i} name": Label(
-            f"{ghost.name}: {beside}", p[np.argmax(p[:, 2])] + [0, 0, 0.08 + 0.1 * i], ghost.color
-        ),
+        f"ghost {i}": _lines(body, T, ghost.color, ghost.name),
+        f"ghost {i} name": Label(f"{ghost.name}: {ends}", p_label, ghost.color),
     }
 
 
@@ -127,16 +127,21 @@ def _arrow(p: np.ndarray, T: np.ndarray, color: Role, name: str) -> Segments:
 def _turning_axes(state: Built) -> dict[str, Primitive]:
     """Return the directions about which the three angles now turn the body; the one turned last is thick."""
     axes = euler_axes(state.angles, state.params.order)
+    last = state.params.first == "rotate, then translate"  # the turns came first and were carried along since
+    middle = state.T_world_body[:3, 3] if last else np.zeros(3)
     scene: dict[str, Primitive] = {}
     for k, (axis, letter) in enumerate(zip(axes, state.params.order, strict=True)):
-        reach = (1.5, 1.3, 1.1)[k]
-        width = 5.0 if k == state.turns - 1 else 2.0
-        role = AXIS_ROLES["xyz".index(letter.lower())]
-        scene[f"axis {k + 1}"] = Segments(
-            np.array([[-0.4 * axis, reach * axis]]), role, width, name=f"angle {k + 1} ({letter}) turns about this"
-        )
-        scene[f"axis {k + 1} name"] = Label(f"angle {k + 1} ({letter})", reach * axis, role)
+        up = (1.6, 1.35, 1.1)[k] * (axis if axis[2] > -1e-9 else -axis)
+        width = 6.0 if k == state.turns - 1 else 3.0
+        role, name = AXIS_ROLES["xyz".index(letter.lower())], f"angle {k + 1} ({letter})"
+        ends = np.array([[middle - 0.7 * up, middle + up]])
+        scene[f"axis {k + 1}"] = Segments(ends, role, width, name=f"{name} turns about this line")
+        scene[f"axis {k + 1} name"] = Label(name, middle + up, role)
     return scene
+
+
+def _shows_lock(state: Built) -> bool:
+    return state.params.compare == "other triples" or gimbal_margin(state.angles, state.params.order) < 0.1
 
 
 def _gimbal_curve(state: Built) -> Curve:

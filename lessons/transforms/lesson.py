@@ -144,7 +144,7 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=100,
-    view=View(eye=(3.4, -3.6, 2.4), target=(0.8, 0.2, 0.5), grid=0.5),
+    view=View(eye=(4.1, -4.6, 3.0), target=(1.1, 0.3, 0.15), grid=0.5),
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=5,

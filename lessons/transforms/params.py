@@ -34,8 +34,9 @@ class Params:
     half: Annotated[Half, Knob("Build one map factor by factor, or go from one pose to another")] = "build a map"
     angles: Annotated[
         tuple[float, float, float],
-        Knob("Three turns, in the order of the letters below; the start when moving", -180, 180, unit="deg", step=1),
-    ] = (30.0, 20.0, 60.0)
+        Knob("Three turns, in the order of the letters below; the start pose when moving", -180, 180, unit="deg", step=1,
+             label="Angle", parts=("1", "2", "3")),
+    ] = (30.0, 20.0, 60.0)  # fmt: skip
     order: Annotated[
         EulerOrder, Knob("Axes of the three turns: lower case fixed in the world, upper case carried by the body")
     ] = "xyz"
@@ -55,8 +56,9 @@ class Params:
     compare: Annotated[Compare, Knob("A second reading drawn beside, while building")] = "nothing"
     angles_end: Annotated[
         tuple[float, float, float],
-        Knob("The three turns of the end pose, when moving", -180, 180, unit="deg", step=1),
-    ] = (0.0, 0.0, -110.0)
+        Knob("The three turns of the end pose, when moving", -180, 180, unit="deg", step=1,
+             label="End angle", parts=("1", "2", "3")),
+    ] = (0.0, 0.0, -110.0)  # fmt: skip
     method: Annotated[Method, Knob("What runs at constant speed between the two poses")] = "slerp + lerp"
     steps: Annotated[int, Knob("Steps from one pose to the other", 2, 120)] = 30
     point: Annotated[int, Knob("The vertex that is followed", 0, 11, by=Pick("body"))] = 8

@@ -45,11 +45,11 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "gimbal", "Gimbal lock: pitch 90°", "Angles 1 and 3 turn about one axis. The pose is still reached, even by a whole"
         " family of triples; what is lost is a direction to turn in.",
-        GIMBAL, 3,
+        GIMBAL, -2,
     ),
     Preset(
-        "conventions", "Three numbers, four readings", "(40, 30, 70)° are four different rotations under four conventions:"
-        " a triple without its order says nothing.",
+        "conventions", "Three numbers, four readings", "(40, 30, 70)° are four different rotations under four conventions,"
+        " drawn in a row behind: a triple without its order says nothing.",
         CONVENTIONS, -2,
     ),
     Preset(
@@ -183,7 +183,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=GIMBAL,
         choices=("1", "2", "3"),
-        step=3,
+        step=-2,
     ),
     Question(
         "sheared-volume",

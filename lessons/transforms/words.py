@@ -70,8 +70,7 @@ def _factor_caption(state: Built) -> Caption:
         text = f"Turned {words}: vertex {point} moved {moved:.2f} m, and every length, angle and volume survived."
         if not moved and kind_of(state.factor.matrix) is Kind.IDENTITY:
             text = f"Turned {words}, that is not at all: nothing moved."
-        text += _lock_words(state) if kind == "turn" and state.turns == 3 else ""
-    return Caption(text)
+    return Caption(text + (_lock_words(state) if state.turns == 3 else ""))
 
 
 def _lock_words(state: Built) -> str:

@@ -35,7 +35,7 @@ def not_half_a_turn(T_start, T_end):
 @given(poses, poses)
 def test_slerp_and_lerp_agree_with_scipy(T_start, T_end):
     if not_half_a_turn(T_start, T_end):
-        Rs = Slerp([0, 1], Rotation.from_matrix([T_start[:3, :3], T_end[:3, :3]]))(TIMES).as_matrix()
+        Rs = Slerp([0, 1], Rotation.from_matrix(np.stack([T_start[:3, :3], T_end[:3, :3]])))(TIMES).as_matrix()
         ts = T_start[:3, 3] + TIMES[:, None] * (T_end[:3, 3] - T_start[:3, 3])
         Ts = np.array(slerped(T_start, T_end))
         np.testing.assert_allclose(Ts[:, :3, :3], Rs, atol=1e-9)

@@ -64,7 +64,7 @@ class KnobPanel:
             widgets = [gui.add_dropdown(label + unit, field.choices, initial_value=value, hint=knob.hint)]
         else:
             parts = _parts(field, value)
-            names = [label] if len(parts) == 1 else [f"{label} {_part_name(i, len(parts))}" for i in range(len(parts))]
+            names = [label] if len(parts) == 1 else [f"{label} {part}" for part in _part_names(field)]
             whole = field.kind in ("int", "ints")
             low, high = knob.low or 0, knob.high or 0
             ends = (
@@ -118,6 +118,7 @@ def _parts(field: Field, value: Any) -> list[Any]:
     return list(value) if field.kind in ("floats", "ints") else [value]
 
 
-def _part_name(i: int, n: int) -> str:
-    names = {2: "xy", 3: "xyz", 6: ("x", "y", "z", "turn x", "turn y", "turn z")}.get(n)
-    return names[i] if names else str(i + 1)
+def _part_names(field: Field) -> tuple[str, ...]:
+    n = field.length
+    known = {2: ("x", "y"), 3: ("x", "y", "z"), 6: ("x", "y", "z", "turn x", "turn y", "turn z")}
+    return field.knob.parts or known.get(n) or tuple(str(i + 1) for i in range(n))

@@ -211,7 +211,7 @@ class ViserSink:
         roof = np.array([[corners[0], up], [up, corners[1]]])
         ends = np.concatenate([rim, spokes, roof])
         frame = self.scene.add_frame(name, show_axes=False)
-        color = self._faded(np.array(PALETTE[camera.color]), camera.opacity)
+        color = _as_light(self._faded(np.array(PALETTE[camera.color]), camera.opacity))
         self.scene.add_line_segments(
             name + "/lines",
             _placed(camera, ends).astype(np.float32),
@@ -260,15 +260,22 @@ class ViserSink:
 
     def _end_colors(self, segments: Segments) -> np.ndarray:
         if isinstance(segments.color, str):
-            rgb = self._faded(np.array(PALETTE[segments.color]), segments.opacity)
+            rgb = _as_light(self._faded(np.array(PALETTE[segments.color]), segments.opacity))
             return np.broadcast_to(rgb, (len(segments.ends), 2, 3))
-        rgb = self._faded(color_rows(segments.color, len(segments.ends)), segments.opacity)
+        rgb = _as_light(self._faded(color_rows(segments.color, len(segments.ends)), segments.opacity))
         return np.repeat(rgb[:, None], 2, 1)
 
     def _faded(self, rgb: np.ndarray, opacity: float) -> np.ndarray:
         if opacity >= 1:
             return np.asarray(rgb, np.uint8)
         return (opacity * rgb + (1 - opacity) * np.array(self.backdrop)).round().astype(np.uint8)
+
+
+def _as_light(rgb: np.ndarray) -> np.ndarray:
+    """Return sRGB colours as linear light, for which the browser's lines take theirs; else they come out too bright."""
+    level = np.asarray(rgb) / 255.0
+    light = np.where(level <= 0.04045, level / 12.92, ((level + 0.055) / 1.055) ** 2.4)
+    return (255.0 * light).round().astype(np.uint8)
 
 
 def _poseable(primitive: Spatial) -> bool:
