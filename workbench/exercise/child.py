@@ -126,27 +126,20 @@ def main() -> None:
     function: Callable[..., Any] | None = None
     while True:
         start = read(16)
-        header, payload = (read(count) for count in sizes(start))
+        header_size, payload_size = sizes(start)
+        header, payload = read(header_size), read(payload_size)
         request = unpack(header, payload)
         nonce = request["nonce"]
         try:
             if request["do"] == "load":
                 function = load(request["source"], request["file"], request["name"])
-                reply: dict[str, Any] = {"nonce": nonce, "value": None, "changed": False}
+                reply = pack({"nonce": nonce, "value": None, "changed": False})
             else:
-                args, options = request["args"], dict(request["options"])
-                before = pack({"args": args, "options": list(options.items())})
-                value = function(*args, **options)  # type: ignore[misc]
-                changed = pack({"args": args, "options": list(options.items())}) != before
-                reply = {"nonce": nonce, "value": value, "changed": changed}
-                pack(reply)
+                value = function(*request["args"], **dict(request["options"]))  # type: ignore[misc]
+                reply = pack({"nonce": nonce, "value": value, "changed": pack(request) != start + header + payload})
         except BaseException as error:
-            reply = {
-                "nonce": nonce,
-                "error": type(error).__name__,
-                "message": _said(error),
-                "line": _line(error, request["file"]),
-            }
+            said = {"error": type(error).__name__, "message": _said(error), "line": _line(error, request["file"])}
+            reply = pack({"nonce": nonce} | said)
         answer(reply)
 
 
