@@ -1,0 +1,113 @@
+"""A function under test: calls the student's function, holds its results to the contract, and remembers every call."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from workbench.exercise.model import Function
+from workbench.exercise.sandbox import StudentError
+
+
+@dataclass(frozen=True)
+class Call:
+    """One call of a candidate: what it was given, and what it gave or raised."""
+
+    args: tuple[Any, ...]
+    value: Any
+    error: str
+
+
+class Candidate:
+    """A function whose results have the shape, kind and finiteness of the reference's, else a StudentError says why not.
+
+    Args:
+        function: The student's function in its process, or one of ours (a mistake, an alternative).
+        reference: Ours, called with the same arguments for the shape of the answer.
+    """
+
+    def __init__(self, function: Function, reference: Function):
+        self.function, self._reference = function, reference
+        self.calls: list[Call] = []
+        self.__name__ = getattr(reference, "__name__", "candidate")
+
+    def __call__(self, *args: Any) -> Any:
+        """Return the function's answer as plain float64, int64 or bool values.
+
+        Raises:
+            StudentError: If it gave no answer, or one of another shape or kind than the contract says.
+        """
+        given = tuple(np.array(arg, copy=True) if isinstance(arg, np.ndarray) else arg for arg in args)
+        try:
+            value = self.function(*given)
+        except StudentError as error:
+            self.calls.append(Call(args, None, error.error or error.kind))
+            raise
+        except Exception as error:  # one of our own functions, which may be wrong on purpose
+            self.calls.append(Call(args, None, type(error).__name__))
+            raise StudentError(
+                f"{self.__name__} raised {type(error).__name__}: {error}", "raised", type(error).__name__
+            ) from None
+        self.calls.append(Call(args, value, ""))
+        return held_to_contract(value, self._expected(args), self.__name__)
+
+    @property
+    def changed_inputs(self) -> bool:
+        """Whether the last call changed what it was given; only a student's process can tell."""
+        return bool(getattr(self.function, "changed_inputs", False))
+
+    def _expected(self, args: tuple[Any, ...]) -> Any:
+        try:
+            return self._reference(*(np.array(arg, copy=True) if isinstance(arg, np.ndarray) else arg for arg in args))
+        except Exception:
+            return None  # degenerate input on which the contract asks for an error: nothing to hold the answer to
+
+
+def held_to_contract(value: Any, expected: Any, name: str) -> Any:
+    """Return a value as plain float64, int64 or bool, if it has the shape and kind of what is expected.
+
+    Raises:
+        StudentError: Says what came and what the contract asks for.
+    """
+    if expected is None:
+        return value
+    if isinstance(expected, (tuple, list)):
+        if not isinstance(value, (tuple, list)) or len(value) != len(expected):
+            raise StudentError(
+                f"{name} returned {_kind(value)}; the contract asks for {len(expected)} values", "result"
+            )
+        return tuple(
+            held_to_contract(v, e, f"{name}[{i}]") for i, (v, e) in enumerate(zip(value, expected, strict=True))
+        )
+    wanted = np.asarray(expected)
+    if value is None or isinstance(value, str):
+        raise StudentError(
+            f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}. Is a return missing?", "result"
+        )
+    try:
+        got = np.asarray(value)
+    except ValueError:
+        raise StudentError(
+            f"{name} returned rows of unequal length; the contract asks for {_kind(expected)}", "result"
+        ) from None
+    if got.shape != wanted.shape:
+        raise StudentError(f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}", "result")
+    if got.dtype.kind not in "biuf" or (wanted.dtype.kind in "iu" and got.dtype.kind not in "iu"):
+        raise StudentError(f"{name} returned {got.dtype} values; the contract asks for {_kind(expected)}", "result")
+    if wanted.dtype.kind == "b" and got.dtype.kind != "b":
+        raise StudentError(f"{name} returned {got.dtype} values; the contract asks for true or false", "result")
+    plain = got.astype({"b": np.bool_, "i": np.int64, "u": np.int64}.get(wanted.dtype.kind, np.float64))
+    if wanted.dtype.kind == "f" and np.isfinite(wanted).all() and not np.isfinite(plain).all():
+        raise StudentError(f"{name} returned {int((~np.isfinite(plain)).sum())} values that are not finite", "result")
+    return plain if isinstance(expected, np.ndarray) else plain.item()
+
+
+def _kind(value: Any) -> str:
+    if value is None:
+        return "nothing"
+    if isinstance(value, np.ndarray) and value.ndim:
+        what = {"b": "true or false", "i": "whole numbers", "u": "whole numbers"}.get(value.dtype.kind, "numbers")
+        return f"an array {value.shape} of {what}"
+    if isinstance(value, (list, tuple)):
+        return f"{len(value)} values"
+    return "a text" if isinstance(value, str) else "a whole number" if isinstance(value, int) else "a number"

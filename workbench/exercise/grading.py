@@ -1,0 +1,153 @@
+"""Judges a function by an exercise's checks, each on its own, and names the mistake it makes."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from workbench.exercise.candidate import Call, Candidate
+from workbench.exercise.model import Check, Exercise, Function, Mistake, Verdict, fail
+from workbench.exercise.sandbox import Student, StudentError
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one check found."""
+
+    check: Check
+    verdict: Verdict
+
+    @property
+    def points(self) -> float:
+        """What was earned."""
+        return self.check.points * self.verdict.share
+
+
+@dataclass(frozen=True)
+class Report:
+    """What grading one function found.
+
+    Attributes:
+        exercise: What was asked.
+        file: The student's file, as it was named.
+        outcomes: One per check that was run.
+        not_run: Checks that were not run here.
+        mistake: The known mistake that the function makes, if it fails and one was recognised.
+        printed: The end of what the student's code printed.
+    """
+
+    exercise: Exercise
+    file: str
+    outcomes: tuple[Outcome, ...]
+    not_run: tuple[Check, ...] = ()
+    mistake: Mistake | None = None
+    printed: str = field(default="", repr=False)
+
+    @property
+    def points(self) -> float:
+        """What was earned."""
+        return sum(outcome.points for outcome in self.outcomes)
+
+    @property
+    def possible(self) -> float:
+        """What the checks that were run are worth."""
+        return sum(outcome.check.points for outcome in self.outcomes)
+
+    @property
+    def is_full(self) -> bool:
+        """Whether every check that was run earned all its points."""
+        return all(outcome.verdict.share == 1.0 for outcome in self.outcomes)
+
+
+def grade_file(path: Path, exercise: Exercise, *, hidden: bool = True) -> Report:
+    """Grade a student's file in a child process.
+
+    Raises:
+        InputError: If the file cannot be read or does not load; the message names the line.
+    """
+    with Student(path, exercise.name, seconds=exercise.seconds) as student:
+        student.start()
+        return grade_function(student, exercise, hidden=hidden, file=path.name)
+
+
+def grade_function(function: Function, exercise: Exercise, *, hidden: bool = True, file: str = "") -> Report:
+    """Grade a callable: a student's function in its process, or one of ours.
+
+    Args:
+        function: Called with the checks' arguments.
+        exercise: What is asked of it.
+        hidden: Whether hidden checks are run too.
+        file: How the report names it.
+    """
+    outcomes, calls = [], []
+    for check in exercise.checks:
+        if check.public or hidden:
+            candidate = Candidate(function, exercise.reference)
+            outcomes.append(Outcome(check, _judged(check, candidate)))
+            calls += candidate.calls
+    failed = any(outcome.verdict.share < 1.0 for outcome in outcomes)
+    mistake = recognised(calls, exercise) if failed else None
+    not_run = tuple(check for check in exercise.checks if not (check.public or hidden))
+    printed = function.printed() if isinstance(function, Student) else ""
+    return Report(exercise, file, tuple(outcomes), not_run, mistake, printed)
+
+
+def _judged(check: Check, candidate: Candidate) -> Verdict:
+    """One failure, crash or time-out costs this check only."""
+    try:
+        return check.judge(candidate)
+    except StudentError as error:
+        return fail(str(error))
+    except Exception as error:  # a check of ours that stumbles over an odd answer must not stop a batch
+        return fail(f"The answer could not be judged ({type(error).__name__}: {' '.join(str(error).split())}).")
+
+
+def recognised(calls: Iterable[Call], exercise: Exercise) -> Mistake | None:
+    """Return the mistake whose answers equal those of the calls, wherever the right answer differs; None if none does."""
+    calls = list(calls)
+    best, most = None, 0
+    for mistake in exercise.mistakes:
+        telling = 0
+        for call in calls:
+            theirs = (call.value, call.error)
+            wrong, right = _answer(mistake.function, call.args), _answer(exercise.reference, call.args)
+            if not _alike(theirs, wrong):
+                break
+            telling += not _alike(wrong, right)
+        else:
+            if telling > most:
+                best, most = mistake, telling
+    return best
+
+
+def _answer(function: Function, args: tuple[Any, ...]) -> tuple[Any, str]:
+    try:
+        with np.errstate(all="ignore"):
+            return function(*(np.array(arg, copy=True) if isinstance(arg, np.ndarray) else arg for arg in args)), ""
+    except Exception as error:
+        return None, type(error).__name__
+
+
+def _alike(a: tuple[Any, str], b: tuple[Any, str]) -> bool:
+    (value_a, error_a), (value_b, error_b) = a, b
+    if error_a or error_b:
+        return error_a == error_b
+    return values_alike(value_a, value_b)
+
+
+def values_alike(a: Any, b: Any) -> bool:
+    """Tell whether two answers are the same within rounding: nested tuples, arrays, numbers."""
+    if isinstance(a, (tuple, list)) or isinstance(b, (tuple, list)):
+        listed = isinstance(a, (tuple, list)) and isinstance(b, (tuple, list)) and len(a) == len(b)
+        if listed:
+            return all(values_alike(x, y) for x, y in zip(a, b, strict=True))
+    try:
+        first, second = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    except (TypeError, ValueError):
+        return a is None and b is None
+    scale = max(1e-12, float(np.nanmax(np.abs(second), initial=0.0)))
+    return first.shape == second.shape and bool(
+        np.allclose(first, second, rtol=1e-6, atol=1e-7 * scale, equal_nan=True)
+    )
