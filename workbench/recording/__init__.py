@@ -1,0 +1,19 @@
+"""Recordings (`.rrd`) of runs: written, read back, replayed, compared. The only importer of rerun, and lazily."""
+
+from typing import Any
+
+_WHERE = {
+    "record": "workbench.recording.write",
+    "record_bytes": "workbench.recording.write",
+    "open_recording": "workbench.recording.read",
+    "Recording": "workbench.recording.read",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import what is asked for when it is asked for: rerun takes half a second."""
+    if name not in _WHERE:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(_WHERE[name]), name)

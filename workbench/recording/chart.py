@@ -1,0 +1,206 @@
+"""Charts, colour bars and the legend, drawn with Rerun's lines and words in two dimensions.
+
+Rerun plots numbers over time only, so a `Curve` is drawn here: frame, ticks, curves and marks, on a canvas of
+`WIDTH` x `HEIGHT` with y down. The colours are the palette's; everything else is a grey that can be read on white and
+on black.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import rerun as rr
+
+from workbench.recording.glyphs import safe
+from workbench.scene import PALETTE, Curve, Field, color_map
+
+WIDTH, HEIGHT = 300.0, 186.0
+LEFT, RIGHT, TOP, BOTTOM = 40.0, 290.0, 24.0, 138.0  # the frame of a chart on its canvas
+LEGEND_WIDTH, LEGEND_ROW = 760.0, 38.0
+GREY = (115, 121, 129)
+
+Named = tuple[str, Any]
+"""A name below the chart's entity, and the archetype that is logged there."""
+
+
+@dataclass(frozen=True)
+class _Scale:
+    """Numbers from `low` to `high` laid onto `start` to `end` of the canvas."""
+
+    low: float
+    high: float
+    start: float
+    end: float
+
+    def __call__(self, value: Any) -> Any:
+        return self.start + (np.asarray(value) - self.low) / (self.high - self.low) * (self.end - self.start)
+
+
+def chart(curves: Sequence[Curve]) -> list[Named]:
+    """Return one chart of all curves that share it."""
+    x, y = _scales(curves)
+    drawn: list[Named] = [("frame", _frame(x, y)), ("words", _words(x, y, curves))]
+    strips: list[np.ndarray] = []
+    colors: list[tuple[int, int, int]] = []
+    dots: list[np.ndarray] = [np.empty((0, 2))]
+    dot_colors: list[tuple[int, int, int]] = []
+    for curve in curves:
+        known = np.isfinite(curve.y)
+        at = np.column_stack([x(curve.x), y(np.where(known, curve.y, 0.0))])
+        if curve.kind == "dots":
+            dots.append(at[known])
+            dot_colors += [PALETTE[curve.color]] * int(known.sum())
+        else:
+            pieces = _bars(curve, x, y) if curve.kind == "bars" else _pieces(at, known)
+            strips += pieces
+            colors += [PALETTE[curve.color]] * len(pieces)
+        for mark in curve.marks:
+            strips.append(np.array([[x(mark), TOP], [x(mark), BOTTOM]]))
+            colors.append(PALETTE["highlight"])
+    drawn.append(("curves", rr.LineStrips2D(strips, colors=colors, radii=rr.Radius.ui_points(0.9), draw_order=20.0)))
+    size = rr.Radius.ui_points(2.5)
+    drawn.append(("dots", rr.Points2D(np.concatenate(dots), colors=dot_colors, radii=size, draw_order=21.0)))
+    return drawn
+
+
+def color_bar(field: Field, x: float, y: float, width: float, height: float = 10.0) -> list[Named]:
+    """Return a colour bar from (x, y) to the right and down, with its ends, title and unit below it."""
+    n = 64
+    left = x + np.arange(n) * width / n
+    middle = np.full(n, y + height / 2)
+    strips = np.stack([np.column_stack([left, middle]), np.column_stack([left + width / n, middle])], 1)
+    colors = color_map(field.map, np.linspace(0, 1, n))
+    below = y + 1.4 * height
+    words = [number(field.low), _with_unit(field.title, field.unit), number(field.high)]
+    places = np.array([[x, below], [x + width / 2, below], [x + width, below]])
+    return [
+        ("bar", rr.LineStrips2D(strips, colors=colors, radii=height / 2, draw_order=20.0)),
+        ("ends", _text(places, words)),
+    ]
+
+
+def legend(entries: Sequence[tuple[str, tuple[int, int, int]]], fields: Sequence[Field]) -> list[Named]:
+    """Return coloured dots with names, and one colour bar per field, in rows of `LEGEND_WIDTH`."""
+    places, rows = _legend_places(entries)
+    words, colors = [safe(name) for name, _ in entries], [color for _, color in entries]
+    dots = rr.Points2D(places, labels=words, colors=colors, radii=rr.Radius.ui_points(5.0), show_labels=True)
+    drawn: list[Named] = [("names", dots)]
+    room = LEGEND_WIDTH / max(len(fields), 2)
+    for i, field in enumerate(fields):
+        bar = color_bar(field, 30.0 + i * room, rows * LEGEND_ROW, room - 60.0)
+        drawn += [(f"{name}{i}", what) for name, what in bar]
+    return drawn
+
+
+def legend_height(entries: Sequence[tuple[str, tuple[int, int, int]]], bars: int) -> float:
+    """Return how high a legend is on its canvas."""
+    return LEGEND_ROW * (_legend_places(entries)[1] + (1 if bars else 0))
+
+
+def _legend_places(entries: Sequence[tuple[str, tuple[int, int, int]]]) -> tuple[list[tuple[float, float]], int]:
+    places: list[tuple[float, float]] = []
+    x, row = 0.0, 0
+    for name, _ in entries:
+        room = 30.0 + 7.5 * len(name)
+        if x > 0 and x + room > LEGEND_WIDTH:
+            x, row = 0.0, row + 1
+        places.append((x + room / 2, row * LEGEND_ROW + 8.0))
+        x += room
+    return places, row + 1 if places else 0
+
+
+def ticks(low: float, high: float, most: int = 5) -> np.ndarray:
+    """Return round numbers inside [low, high], at most `most` of them."""
+    raw = (high - low) / max(most - 1, 1)
+    power = 10.0 ** np.floor(np.log10(raw))
+    step = next(factor * power for factor in (1, 2, 5, 10) if factor * power >= raw * (1 - 1e-9))
+    return np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1) * step + 0.0
+
+
+def number(value: float) -> str:
+    """Return a number in few characters, with a true minus sign."""
+    return f"{value:.4g}".replace("-", "−")
+
+
+def _scales(curves: Sequence[Curve]) -> tuple[_Scale, _Scale]:
+    xs = np.concatenate([*(curve.x for curve in curves), *(np.array(curve.marks) for curve in curves)]).astype(float)
+    ys = np.concatenate([curve.y for curve in curves]).astype(float)
+    ys = ys[np.isfinite(ys)] if np.isfinite(ys).any() else np.array([0.0])
+    widths = [_bar_width(curve) / 2 for curve in curves if curve.kind == "bars"]
+    x_low, x_high = _apart(xs.min() - max(widths, default=0.0), xs.max() + max(widths, default=0.0))
+    y_low, y_high = _apart(min(ys.min(), 0.0) if widths else ys.min(), ys.max())
+    room = 0.04 * (y_high - y_low)
+    y_low, y_high = y_low - (room if y_low < 0 or not widths else 0.0), y_high + room
+    return _Scale(x_low, x_high, LEFT, RIGHT), _Scale(y_low, y_high, BOTTOM, TOP)
+
+
+def _apart(low: float, high: float) -> tuple[float, float]:
+    if high - low > 1e-12 * max(abs(low), abs(high)) and high > low:
+        return float(low), float(high)
+    room = max(abs(high) * 0.1, 1e-6)
+    return float(low - room), float(high + room)
+
+
+def _bar_width(curve: Curve) -> float:
+    gaps = np.diff(np.sort(curve.x))
+    gaps = gaps[gaps > 0]
+    return float(gaps.min()) if len(gaps) else 1.0
+
+
+def _bars(curve: Curve, x: _Scale, y: _Scale) -> list[np.ndarray]:
+    """Return outlines of bars, hatched by one line down their middle, so that they read as solid."""
+    half, pieces = 0.45 * _bar_width(curve), []
+    for at, value in zip(curve.x, curve.y, strict=True):
+        if np.isfinite(value):
+            left, right, top, foot = x(at - half), x(at + half), y(value), y(max(min(0.0, y.high), y.low))
+            pieces.append(np.array([[left, foot], [left, top], [right, top], [right, foot], [left, foot]]))
+    return pieces
+
+
+def _pieces(at: np.ndarray, known: np.ndarray) -> list[np.ndarray]:
+    """Return the stretches of a line between gaps."""
+    starts = np.flatnonzero(known & ~np.r_[False, known[:-1]])
+    ends = np.flatnonzero(known & ~np.r_[known[1:], False]) + 1
+    return [at[start:end] for start, end in zip(starts, ends, strict=True) if end - start > 1]
+
+
+def _frame(x: _Scale, y: _Scale) -> Any:
+    strips = [np.array([[LEFT, TOP], [LEFT, BOTTOM], [RIGHT, BOTTOM]])]
+    strips += [np.array([[x(tick), BOTTOM], [x(tick), BOTTOM + 4]]) for tick in ticks(x.low, x.high)]
+    strips += [np.array([[LEFT - 4, y(tick)], [LEFT, y(tick)]]) for tick in ticks(y.low, y.high, 4)]
+    return rr.LineStrips2D(strips, colors=GREY, radii=rr.Radius.ui_points(0.5), draw_order=10.0)
+
+
+def _words(x: _Scale, y: _Scale, curves: Sequence[Curve]) -> Any:
+    along, up = ticks(x.low, x.high), ticks(y.low, y.high, 4)
+    places = [(x(tick), BOTTOM + 3) for tick in along] + [(LEFT - 20, y(tick) - 8) for tick in up]
+    words = [number(tick) for tick in (*along, *up)]
+    places.append(((LEFT + RIGHT) / 2, BOTTOM + 24))
+    words.append(curves[0].x_label)
+    colors: list[tuple[int, int, int]] = [GREY] * len(places)
+    at = LEFT
+    for curve in curves:
+        name = _with_unit(curve.name, curve.y_label if curve.y_label != curve.name else "")
+        room = 18.0 + 6.6 * len(name)
+        places.append((at + room / 2, 0.0))
+        words.append(name)
+        colors.append(PALETTE[curve.color])
+        at += room
+    return _text(np.array(places), words, colors)
+
+
+def _text(places: np.ndarray, words: Sequence[str], colors: Any = GREY) -> Any:
+    """Return words, each centred below its place."""
+    keep = [i for i, word in enumerate(words) if word]
+    return rr.Points2D(
+        places[keep],
+        labels=[safe(words[i]) for i in keep],
+        colors=[colors[i] for i in keep] if isinstance(colors, list) else colors,
+        radii=0.01,
+        show_labels=True,
+    )
+
+
+def _with_unit(title: str, unit: str) -> str:
+    return f"{title} ({unit})" if unit else title

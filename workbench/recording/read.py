@@ -1,0 +1,217 @@
+"""Reads a recording back: lesson, params, scalars per step, captions; without a viewer, and wary of damaged files."""
+
+import json
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rerun.chunk import RrdReader
+
+from workbench import __version__, knobs
+from workbench.errors import InputError
+from workbench.lesson import Lesson, find
+
+FORMAT = 1
+"""What this version writes and reads; it grows when an older version could not read a new recording."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """What a recording says of its run.
+
+    Attributes:
+        path: The file.
+        lesson: The lesson's name.
+        title: The lesson's title.
+        params: Field name to value, as JSON has them; `Params` themselves come from `typed_params`.
+        preset: Where the params come from, or None.
+        seed: The seed, or None where the lesson has none.
+        status: `complete`, or why the run ended before its end.
+        format: The format's number.
+        version: The version of the workbench that wrote it.
+        captions: What happened, step by step.
+        tones: `info`, `good` or `wrong`, step by step.
+        scalars: One column per curve, by path, NaN where a step has none; with `step` first, a table.
+        names: The curves' names as they are drawn, by path.
+    """
+
+    path: Path
+    lesson: str
+    title: str
+    params: Mapping[str, Any]
+    preset: str | None
+    seed: int | None
+    status: str
+    format: int
+    version: str
+    captions: tuple[str, ...]
+    tones: tuple[str, ...]
+    scalars: Mapping[str, np.ndarray]
+    names: Mapping[str, str]
+
+    def __len__(self) -> int:
+        """Return the number of steps."""
+        return len(self.captions)
+
+    @property
+    def complete(self) -> bool:
+        """Whether the run was recorded to its end."""
+        return self.status == "complete"
+
+    def typed_params(self, lesson: Lesson) -> Any:
+        """Return the params as the lesson's own Params; raise InputError where they do not fit."""
+        return knobs.make(lesson.params, self.params)
+
+
+def open_recording(path: str | Path) -> Recording:
+    """Read a recording.
+
+    Raises:
+        InputError: One line, if the file is missing, empty, damaged, cut short, or no recording of a run.
+    """
+    path = Path(path)
+    chunks = read_chunks(path)
+    try:
+        return _recording(path, chunks)
+    except InputError:
+        raise
+    except Exception as error:  # whatever a damaged file makes of its values
+        raise InputError(f"{path}: is damaged ({type(error).__name__})") from error
+
+
+def reopening(path: Path) -> tuple[Lesson, Any, list[str]]:
+    """Return the lesson and the params of a recording, and a line for everything that is not as it was.
+
+    Raises:
+        InputError: If the file cannot be read or its lesson is not here.
+    """
+    recording = open_recording(path)
+    try:
+        lesson = find(recording.lesson)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    lines = []
+    if recording.version != __version__:
+        lines.append(f"{path}: recorded by version {recording.version}, this is {__version__}; the run may differ")
+    if recording.format > FORMAT:
+        lines.append(f"{path}: format {recording.format} is newer than this version's {FORMAT}; trying all the same")
+    fields = {field.name: field for field in knobs.fields_of(lesson.params)}
+    values = {}
+    for name, value in recording.params.items():
+        if name not in fields:
+            lines.append(f"{path}: the lesson has no parameter {name} any more; left out")
+            continue
+        try:
+            values[name] = fields[name].clean(value)
+        except InputError as error:
+            lines.append(f"{path}: {error}; left at its default")
+    return lesson, knobs.make(lesson.params, values), lines
+
+
+def read_chunks(path: Path) -> list[Any]:
+    """Return the chunks of the one recording in a file, layouts left out.
+
+    Raises:
+        InputError: If the file is missing, empty, damaged or foreign.
+    """
+    if not path.is_file():
+        raise InputError(f"{path}: no such file")
+    if path.stat().st_size == 0:
+        raise InputError(f"{path}: is empty")
+    try:
+        reader = RrdReader(path)
+        stores = reader.recordings()
+        chunks = [chunk for store in stores for chunk in reader.stream(store=store)]
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from error
+    except Exception as error:
+        raise InputError(f"{path}: is no Rerun recording, or is damaged") from error
+    except BaseException as error:  # rerun's panics are no Exceptions
+        if type(error).__name__ != "PanicException":
+            raise
+        raise InputError(f"{path}: is damaged") from error
+    if len(stores) != 1:
+        raise InputError(f"{path}: holds {len(stores)} recordings, one is expected")
+    return chunks
+
+
+def digest(params: str, captions: Sequence[str], scalars: Mapping[str, np.ndarray]) -> str:
+    """Return a fingerprint of what is read back; the format itself has no checksum."""
+    told = sha256(json.dumps([params, list(captions), list(scalars)]).encode())
+    for values in scalars.values():
+        told.update(np.ascontiguousarray(values, dtype="<f8").tobytes())
+    return told.hexdigest()
+
+
+def _recording(path: Path, chunks: Sequence[Any]) -> Recording:
+    facts, result = _properties(chunks, "run"), _properties(chunks, "result")
+    if not facts:
+        raise InputError(f"{path}: is a Rerun recording, but not of a run of the workbench")
+    if not result:
+        raise InputError(f"{path}: is cut short: its end is missing")
+    n = int(result["steps"])
+    captions = _column(chunks, "/caption", "caption", n)
+    paths = [chunk.entity_path for chunk in chunks if chunk.entity_path.startswith("/scalars/") and not chunk.is_static]
+    found = {_scene_path(entity): np.array(_column(chunks, entity, "Scalars:scalars", n), float) for entity in paths}
+    abouts = {path: _static(chunks, entity) for path, entity in zip(found, paths, strict=True)}
+    order = sorted(found, key=lambda path: int(abouts[path]["order"]))
+    scalars = {path: found[path] for path in order}
+    if any(caption is None for caption in captions) or digest(facts["params"], captions, scalars) != result["digest"]:
+        raise InputError(f"{path}: is damaged: its content does not fit its fingerprint")
+    params = json.loads(facts["params"])
+    return Recording(
+        path=path,
+        lesson=facts["lesson"],
+        title=facts["title"],
+        params=params,
+        preset=facts.get("preset") or None,
+        seed=int(facts["seed"]) if "seed" in params else None,
+        status=result["status"],
+        format=int(facts["format"]),
+        version=facts["version"],
+        captions=tuple(captions),
+        tones=tuple(_column(chunks, "/caption", "tone", n)),
+        scalars={"step": np.arange(n), **scalars},
+        names={path: abouts[path]["name"] for path in order},
+    )
+
+
+def _properties(chunks: Sequence[Any], name: str) -> dict[str, Any]:
+    return _static(chunks, f"/__properties/{name}")
+
+
+def _static(chunks: Sequence[Any], entity: str) -> dict[str, Any]:
+    """Return the static values of an entity, the first of each component."""
+    values: dict[str, Any] = {}
+    for chunk in chunks:
+        if chunk.entity_path == entity and chunk.is_static:
+            for name, column in chunk.to_record_batch().to_pydict().items():
+                known = [cell[0] for cell in column if isinstance(cell, list) and cell]
+                if known:
+                    values[name] = known[-1]
+    return values
+
+
+def _column(chunks: Sequence[Any], entity: str, component: str, n: int) -> list[Any]:
+    """Return one component of an entity, step by step; None where a step has none."""
+    values: list[Any] = [None] * n
+    for chunk in chunks:
+        if chunk.entity_path == entity and not chunk.is_static:
+            columns = chunk.to_record_batch().to_pydict()
+            for step, cell in zip(columns["step"], columns.get(component, ()), strict=False):
+                if cell:
+                    values[step] = cell[0]
+    return values
+
+
+def _scene_path(entity: str) -> str:
+    """Return a scene's path from an entity's, where special signs stand behind a backslash or as `\\u{code}`."""
+    return re.sub(
+        r"\\u\{([0-9A-Fa-f]+)\}|\\(.)",
+        lambda match: chr(int(match[1], 16)) if match[1] else match[2],
+        entity.removeprefix("/scalars/"),
+    )

@@ -1,0 +1,221 @@
+"""Writes runs to recordings: into a file that is there whole or not at all, into a pipe, or into bytes."""
+
+import json
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TextIO
+from uuid import uuid4
+
+import numpy as np
+import rerun as rr
+
+from workbench import __version__, knobs
+from workbench.errors import InputError
+from workbench.lesson import Lesson, find
+from workbench.recording.glyphs import safe
+from workbench.recording.layout import blueprint, contents_of, later, plotted
+from workbench.recording.page import plain_page
+from workbench.recording.read import FORMAT, digest
+from workbench.recording.sink import RerunSink, document, entity_of
+from workbench.recording.streams import application_id, send_blueprint, stream_bytes
+from workbench.scene import PALETTE
+from workbench.timeline import Series, Timeline
+
+Progress = Callable[[str, int, int | None], None]
+"""progress(what is done, how much is done, of how much or None)."""
+
+
+def record(
+    lesson: Lesson | str, path: str | Path, params: Any = None, *, preset: str | None = None, force: bool = False
+) -> Path:
+    """Run a lesson and write the run to a recording.
+
+    Args:
+        lesson: The lesson, its name, or the path of a file that defines one.
+        path: Where to write, `.rrd`.
+        params: The inputs; None means those of the preset, or the defaults.
+        preset: Where the params come from; kept in the recording.
+        force: Replace a file that is there.
+
+    Raises:
+        InputError: If the run fails, or the file is there or cannot be written; then nothing has changed.
+    """
+    lesson = find(lesson) if isinstance(lesson, str) else lesson
+    if params is None:
+        params = lesson.params() if preset is None else lesson.preset(preset).params
+    return record_file(lesson, params, Path(path), preset=preset, force=force)
+
+
+def record_file(
+    lesson: Lesson,
+    params: Any,
+    path: Path,
+    *,
+    preset: str | None = None,
+    force: bool = False,
+    progress: TextIO | None = None,
+) -> Path:
+    """Run a lesson, write the run to `path`, and return it; a bar is drawn on `progress` where that is a terminal."""
+    _check_place(path, force)
+    with _bar(progress) as tell:
+        data = _run_bytes(lesson, params, preset, tell)
+    _write(path, data)
+    return path
+
+
+def record_to_stdout(lesson: Lesson, params: Any, *, preset: str | None = None) -> None:
+    """Run a lesson and write the recording to standard output."""
+    if sys.stdout.isatty():
+        raise InputError("standard output is a terminal: pipe it somewhere, or write -o FILE.rrd")
+    sys.stdout.buffer.write(_run_bytes(lesson, params, preset, lambda what, done, of: None))
+
+
+def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Progress | None = None) -> bytes:
+    """Return a recording of the steps of a run that are known so far.
+
+    Raises:
+        InputError: If no step is known.
+    """
+    steps = tuple(timeline.known())
+    if not steps:
+        raise InputError(timeline.stopped or "there is no step to record yet")
+    lesson = timeline.lesson
+    application = application_id(lesson.name)
+
+    def fill(stream: Any) -> None:
+        contents = contents_of([step.scene for step in steps])
+        send_blueprint(stream, application, blueprint(lesson, contents, len(steps)))
+        stream.send_recording_name(safe(_title(timeline, preset)))
+        stream.send_property("run", rr.AnyValues(**_facts(timeline, preset)))
+        stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
+        stream.log("page", document(plain_page(_page_of(lesson))), static=True)
+        sink, series = RerunSink(stream, later(contents)), timeline.series()
+        for k, step in enumerate(steps):
+            sink.show(k, step.scene)
+            if k == 0:
+                stream.flush()  # a viewer opens at the first step it meets in the file,
+                for order, (path, one) in enumerate(series.items()):
+                    _send_series(stream, path, one, order)
+                stream.flush()  # and shows the curves before the later steps have arrived
+            if progress is not None:
+                progress("recorded", k + 1, len(steps))
+        captions = [step.caption.text for step in steps]
+        status = "complete" if timeline.finished and timeline.stopped is None else timeline.stopped or "unfinished"
+        check = digest(knobs.to_json(timeline.params), captions, {path: one.values for path, one in series.items()})
+        stream.send_property("result", rr.AnyValues(status=status, steps=len(steps), digest=check))
+
+    return stream_bytes(application, fill)
+
+
+def _run_bytes(lesson: Lesson, params: Any, preset: str | None, tell: Progress) -> bytes:
+    timeline = Timeline(lesson, params)
+    while timeline.extend():
+        tell("computed", len(timeline), None)
+        if timeline.stopped is not None:  # cut at a bound, after a good step: what there is, is kept
+            return record_bytes(timeline, preset=preset, progress=tell)
+    if timeline.stopped is not None:
+        at = f" (at step {len(timeline)})" if len(timeline) else ""
+        raise InputError(f"{timeline.stopped}{at}; nothing was written")
+    return record_bytes(timeline, preset=preset, progress=tell)
+
+
+def _title(timeline: Timeline, preset: str | None) -> str:
+    words = [timeline.lesson.title]
+    if preset is not None:
+        words.append(timeline.lesson.preset(preset).title)
+    else:
+        words += [f"{name} {value}" for name, value in list(knobs.changed(timeline.params).items())[:3]]
+    return ", ".join(words)
+
+
+def _facts(timeline: Timeline, preset: str | None) -> dict[str, Any]:
+    params = timeline.params
+    return {
+        "lesson": timeline.lesson.name,
+        "title": timeline.lesson.title,
+        "params": knobs.to_json(params),
+        "preset": preset or "",
+        "seed": int(getattr(params, "seed", -1)),
+        "format": FORMAT,
+        "version": __version__,
+        "versions": json.dumps({"workbench": __version__, "rerun": rr.__version__, "numpy": np.__version__}),
+    }
+
+
+def _page_of(lesson: Lesson) -> str:
+    return lesson.page.read_text(encoding="utf-8") if lesson.page.is_file() else f"# {lesson.title}\n\n{lesson.summary}"
+
+
+def _send_series(stream: Any, path: str, series: Series, order: int) -> None:
+    """Send one scalar over all steps, how it is drawn, and its logarithm where that is what is drawn."""
+    scalar, values = series.scalar, series.values.astype(float)
+    steps = rr.TimeColumn("step", sequence=np.arange(len(values)))
+    entity = entity_of("scalars", path)
+    about = rr.AnyValues(
+        name=scalar.name,
+        chart=scalar.chart,
+        unit=scalar.unit,
+        role=scalar.color,
+        logarithmic=scalar.log,
+        order=order,
+    )
+    stream.send_columns(entity, [steps], rr.Scalars.columns(scalars=values))
+    stream.log(entity, about, static=True)
+    shown, name = plotted(path, scalar), scalar.name
+    if scalar.log:
+        positive = np.where(values > 0, values, np.nan)
+        stream.send_columns(shown, [steps], rr.Scalars.columns(scalars=np.log10(positive)))
+        name = f"log10 {scalar.name}"
+    style = rr.SeriesLines(colors=[PALETTE[scalar.color]], names=safe(name), widths=2.0)
+    stream.log(shown, style, static=True)
+
+
+def _check_place(path: Path, force: bool) -> None:
+    """Raise InputError before a long run where its end would be for nothing."""
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: is not a file")
+    if path.exists() and not force:
+        raise InputError(f"{path}: exists already; --force replaces it")
+    folder = path.absolute().parent
+    if not folder.is_dir():
+        raise InputError(f"{folder}: no such folder")
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"{folder}: cannot be written to")
+
+
+def _write(path: Path, data: bytes) -> None:
+    """Put the whole file in place, or nothing: whatever stood there stays until the new file is complete."""
+    final = path.resolve()
+    half = final.with_name(f".{final.name}.{uuid4().hex[:8]}.part")
+    try:
+        with half.open("xb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(half, final)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error
+    finally:
+        half.unlink(missing_ok=True)
+
+
+@contextmanager
+def _bar(stream: TextIO | None) -> Iterator[Progress]:
+    """Draw how far a recording is on one line of a terminal, and wipe it at the end."""
+    if stream is None or not stream.isatty():
+        yield lambda what, done, of: None
+        return
+
+    def tell(what: str, done: int, of: int | None) -> None:
+        share = f"[{'#' * (30 * done // of):.<30}] {done}/{of}" if of else f"{done} steps"
+        stream.write(f"\r\x1b[K{share} {what}")
+        stream.flush()
+
+    try:
+        yield tell
+    finally:
+        stream.write("\r\x1b[K")
+        stream.flush()
