@@ -6,7 +6,6 @@ FUNDAMENTAL, a pixel of the first image and its match in the second.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from jaxtyping import Float
@@ -28,16 +27,6 @@ from workbench.geometry.homography import (
 from workbench.geometry.lines_planes import fit_hyperplane, hyperplane_distances, line_from_points, plane_from_points
 
 
-class Refit(Protocol):
-    """Fits a model to many rows by least squares."""
-
-    def __call__(
-        self, p: np.ndarray, /, weights: np.ndarray | None = None, start: np.ndarray | None = None
-    ) -> np.ndarray:
-        """Return the estimate with the least squared distances over the rows, weighted, near `start` if given."""
-        ...
-
-
 @dataclass(frozen=True)
 class Model:
     """A kind of model. An estimate of it is an array whose shape depends on the kind.
@@ -53,7 +42,8 @@ class Model:
         solve: From samples (k, sample_size, columns) the estimates through them, in one list: none for a degenerate
             sample, up to three for one sample of a fundamental matrix.
         distances: From estimates (..., *shape) and rows (n, columns) the distances (..., n), never negative. Keeps float32.
-        refit: The estimate with the least squared distances over weighted rows, near `start` where that is given.
+        refit: `refit(p, weights=None, start=None)`: the estimate with the least squared distances over weighted rows, near
+            `start` where that is given.
     """
 
     name: str
@@ -65,7 +55,7 @@ class Model:
     degenerate_when: str
     solve: Callable[[np.ndarray], np.ndarray]
     distances: Callable[[np.ndarray, np.ndarray], np.ndarray]
-    refit: Refit
+    refit: Callable[..., np.ndarray]
 
 
 def finite(estimates: Float[np.ndarray, "k ..."]) -> Float[np.ndarray, "j ..."]:

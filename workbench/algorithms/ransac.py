@@ -113,14 +113,36 @@ def iterations_needed(inlier_ratio: float, sample_size: int, confidence: float) 
     return max(1.0, np.ceil(np.log1p(-confidence) / np.log1p(-clean)))
 
 
+@dataclass(frozen=True, eq=False)
+class Judge:
+    """Says how all rows take an estimate.
+
+    Attributes:
+        p: The rows: points, or matches.
+        model: What the estimates are of.
+        inlier_distance: How far an inlier may be, in the unit of the model's distances.
+        score: How good a candidate is.
+    """
+
+    p: Float[np.ndarray, "n d"]
+    model: Model
+    inlier_distance: float
+    score: Score = count_score
+
+    def __call__(self, estimate: Float[np.ndarray, "..."]) -> Fit:
+        """Return the estimate's distances, inliers and score."""
+        distances = self.model.distances(estimate, self.p)
+        inliers = distances <= self.inlier_distance
+        return Fit(estimate, distances, inliers, float(self.score(distances, self.inlier_distance)))
+
+
 @watched
 def ransac(
     p: Float[np.ndarray, "n d"],
     model: Model,
     samples: Iterator[np.ndarray],
+    judge: Callable[[np.ndarray], Fit],
     *,
-    inlier_distance: float,
-    score: Score = count_score,
     needed_for: Callable[[float, int, float], float] = iterations_needed,
     confidence: float = 0.99,
     max_iterations: int = 1000,
@@ -132,8 +154,7 @@ def ransac(
         p: The rows: points, or matches.
         model: What to fit.
         samples: Rows to try, from `uniform_samples`, `prosac_samples`, or chosen.
-        inlier_distance: How far an inlier may be, in the unit of the model's distances.
-        score: How good a candidate is.
+        judge: Says how all rows take an estimate: `Judge(p, model, inlier_distance, score)`.
         needed_for: The number of samples for an inlier ratio, a sample size and a confidence.
         confidence: With which probability one sample at least shall be free of outliers.
         max_iterations: Samples drawn at most.
@@ -153,32 +174,24 @@ def ransac(
             yield State("degenerate", iteration, needed, sample, None, None, best)
         for estimate in estimates:  # seven matches give up to three fundamental matrices
             yield State("model", iteration, needed, sample, estimate, None, best)
-            trial = judge(p, model, estimate, inlier_distance, score)
+            trial = judge(estimate)
             yield State("inliers", iteration, needed, sample, estimate, trial, best)
             if trial.score > (best.score if best else 0.0):
-                best = polished(p, model, trial, inlier_distance, score) if local_refit else trial
+                best = polished(p, model, trial, judge) if local_refit else trial
                 needed = min(max_iterations, needed_for(best.count / len(p), model.sample_size, confidence))  # eq. 4.18
                 yield State("best", iteration, needed, sample, best.estimate, best, best)
         if iteration >= needed:
             stop = Stop.MAX_ITERATIONS if needed == max_iterations else Stop.ENOUGH
             break
 
-    for refit in refit_rounds(p, model, best, inlier_distance, score) if best else ():
+    for refit in refit_rounds(p, model, best, judge) if best else ():
         best = refit
         yield State("refit", iteration, needed, sample, best.estimate, best, best)
     yield State("stop", iteration, needed, sample, None, None, best, stop if best else Stop.NO_MODEL)
 
 
-def judge(
-    p: Float[np.ndarray, "n d"], model: Model, estimate: Float[np.ndarray, "..."], inlier_distance: float, score: Score
-) -> Fit:
-    """Return how all points take one estimate."""
-    distances = model.distances(estimate, p)
-    return Fit(estimate, distances, distances <= inlier_distance, float(score(distances, inlier_distance)))
-
-
 def refit_rounds(
-    p: Float[np.ndarray, "n d"], model: Model, fit: Fit, inlier_distance: float, score: Score, changing: float = 0.0
+    p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit], changing: float = 0.0
 ) -> Iterator[Fit]:
     """Yield fits, each the least-squares fit to the inliers of the one before, until the inliers stay the same, ten at most.
 
@@ -192,8 +205,7 @@ def refit_rounds(
     for _ in range(10):
         if fit.count < model.fewest:
             return
-        kept = np.compress(fit.inliers, p, axis=0)
-        again = judge(p, model, model.refit(kept, start=fit.estimate), inlier_distance, score)
+        again = judge(model.refit(np.compress(fit.inliers, p, axis=0), start=fit.estimate))
         if not np.isfinite(again.estimate).all():
             return
         yield again
@@ -202,9 +214,9 @@ def refit_rounds(
         fit = again
 
 
-def polished(p: Float[np.ndarray, "n d"], model: Model, fit: Fit, inlier_distance: float, score: Score) -> Fit:
+def polished(p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit]) -> Fit:
     """Return the fit after its refit rounds, or as it was if they lower its score."""
-    *_, last = fit, *refit_rounds(p, model, fit, inlier_distance, score)
+    *_, last = fit, *refit_rounds(p, model, fit, judge)
     return last if last.score >= fit.score else fit
 
 

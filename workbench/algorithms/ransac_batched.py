@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.algorithms.models import Model
-from workbench.algorithms.ransac import Fit, Stop, check_rows, iterations_needed, judge, refit_rounds
+from workbench.algorithms.ransac import Fit, Judge, Stop, check_rows, iterations_needed, refit_rounds
 from workbench.algorithms.robust import mixture_fit
 from workbench.algorithms.samplers import draw_samples
 from workbench.algorithms.scores import Score, msac_score
@@ -59,6 +59,7 @@ def ransac_batched(
         Fixing the Locally Optimized RANSAC, 2012 (the local refit).
     """
     check_rows(p, model)
+    judge = Judge(p, model, inlier_distance, score)
     rows = scoring_rows(p, inlier_distance)
     preview = rows[rng.permutation(len(rows))[:_PREVIEW]] if len(rows) > 2 * _PREVIEW else rows
     best, drawn, needed, batch = None, 0, float(max_iterations), 80
@@ -67,15 +68,15 @@ def ransac_batched(
         drawn, batch = drawn + count, min(2 * batch, 512)
         estimates = model.solve(p[draw_samples(len(p), model.sample_size, count, rng)])
         for estimate in promising(estimates, preview, rows, model, inlier_distance, score):
-            trial = judge(p, model, estimate, inlier_distance, score)
+            trial = judge(estimate)
             if trial.score > (best.score if best else 0.0):
-                best = locally_refitted(p, model, trial, inlier_distance, score, rng)
+                best = locally_refitted(trial, judge, rng)
                 needed = min(max_iterations, iterations_needed(best.count / len(p), model.sample_size, confidence))
     if best is None:
         return Answer(None, drawn, Stop.NO_MODEL)
-    *_, last = best, *refit_rounds(p, model, best, inlier_distance, score, changing=0.002)
+    *_, last = best, *refit_rounds(p, model, best, judge, changing=0.002)
     estimate = mixture_fit(p, model, last.estimate, inlier_distance=inlier_distance)
-    best = judge(p, model, estimate, inlier_distance, score)
+    best = judge(estimate)
     return Answer(best, drawn, Stop.MAX_ITERATIONS if needed == max_iterations else Stop.ENOUGH)
 
 
@@ -89,9 +90,7 @@ def promising(
     return estimates
 
 
-def scored(
-    estimates: np.ndarray, rows: np.ndarray, model: Model, inlier_distance: float, score: Score
-) -> Float[np.ndarray, " k"]:
+def scored(estimates: np.ndarray, rows: np.ndarray, model: Model, inlier_distance: float, score: Score) -> np.ndarray:
     """Return the score of each estimate, in blocks small enough to stay in the cache."""
     estimates = estimates.astype(rows.dtype)
     block = max(1, _BLOCK // len(rows))
@@ -100,19 +99,18 @@ def scored(
     ])  # fmt: skip
 
 
-def locally_refitted(
-    p: np.ndarray, model: Model, fit: Fit, inlier_distance: float, score: Score, rng: np.random.Generator
-) -> Fit:
+def locally_refitted(fit: Fit, judge: Judge, rng: np.random.Generator) -> Fit:
     """Return the fit after refits to rows within a distance that shrinks to the inlier distance; as it was if better."""
+    p, model = judge.p, judge.model
     estimate, distances = fit.estimate, fit.distances
     for width in _WIDTHS:
-        near = np.flatnonzero(distances <= width * inlier_distance)
+        near = np.flatnonzero(distances <= width * judge.inlier_distance)
         if len(near) < model.fewest:
             return fit
         few = near if len(near) <= _REFITTED else rng.choice(near, _REFITTED, replace=False)
         estimate = model.refit(p[few], start=estimate)
         distances = model.distances(estimate, p)
-    last = judge(p, model, estimate, inlier_distance, score)
+    last = judge(estimate)
     return last if last.score > fit.score else fit
 
 

@@ -133,8 +133,10 @@ def mixture_fit(
         share = weights.mean()
         sigma = np.sqrt(weights @ distances**2 / (model.directions * weights.sum()))
         sigma = min(max(sigma, 1e-6 * inlier_distance), inlier_distance)
-        before, estimate = distances, model.refit(near, weights, estimate)  # maximisation
-        distances = model.distances(estimate, near)
+        refit = model.refit(near, weights, estimate)  # maximisation
+        if not np.isfinite(refit).all():
+            break
+        before, estimate, distances = distances, refit, model.distances(refit, near)
         if (weights * np.abs(distances - before)).max() <= tolerance * sigma:
             break
     return estimate

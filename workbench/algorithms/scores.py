@@ -48,7 +48,7 @@ def mlesac_score(
     share = np.full((*distances.shape[:-1], 1), 0.5)
     for _ in range(steps):
         share = (share * ratio / (share * ratio + 1.0 - share)).mean(axis=-1, keepdims=True)
-    return np.log(share * ratio + 1.0 - share).sum(axis=-1)
+    return np.asarray(np.log(share * ratio + 1.0 - share).sum(axis=-1))
 
 
 def inlier_distance_for(sigma: float, *, directions: int = 1, kept: float = 0.95) -> float:

@@ -81,7 +81,7 @@ def fit_sphere(
     return np.append(sphere[:-1] + origin, abs(sphere[-1]))
 
 
-def sphere_distances(sphere: Float[np.ndarray, "*k d+1"], p: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "*k n"]:
+def sphere_distances(sphere: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "*k n"]:
     """Return each point's signed distance in metres from the circle or the sphere, negative inside.
 
     Several spheres give one row each. Works in the precision of its input.

@@ -77,7 +77,7 @@ def fundamentals_from_seven(
 ) -> Float[np.ndarray, "*k 3 3 3"]:
     """Return the one or three fundamental matrices through each sample of seven matches.
 
-    The seven constraints leave a line of matrices, G + root (F - G); its singular ones are the roots of a cubic.
+    The seven constraints leave a line of matrices, G + root D; its singular ones are the roots of a cubic.
 
     Note:
         Rows of NaN take the place of roots that are not real, and of samples whose seven constraints are not independent.
@@ -91,12 +91,13 @@ def fundamentals_from_seven(
     independent = diagonal.min(-1) > 1e-9 * diagonal.max(-1)
     G, D = (np.ascontiguousarray(basis[..., k]).reshape(*x.shape[:-2], 3, 3) for k in (7, 8))
     cofactors_G, cofactors_D = _cofactors(G), _cofactors(D)
-    roots = real_cubic_roots(
+    cubic = (  # of det(G + root D), highest power first
         (D[..., 0, :] * cofactors_D[..., 0, :]).sum(-1),
         (G * cofactors_D).sum((-2, -1)),
         (D * cofactors_G).sum((-2, -1)),
         (G[..., 0, :] * cofactors_G[..., 0, :]).sum(-1),
     )
+    roots = real_cubic_roots(np.stack(cubic, axis=-1))
     roots = np.where(independent[..., None], roots, np.nan)
     F = G[..., None, :, :] + roots[..., None, None] * D[..., None, :, :]
     F = T.T @ F @ T
@@ -198,9 +199,7 @@ def refine_fundamental(
     return F / np.linalg.norm(F)
 
 
-def real_cubic_roots(
-    a: Float[np.ndarray, "*k"], b: Float[np.ndarray, "*k"], c: Float[np.ndarray, "*k"], d: Float[np.ndarray, "*k"]
-) -> Float[np.ndarray, "*k 3"]:
+def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarray, "*k 3"]:
     """Return the real roots of a x^3 + b x^2 + c x + d, in closed form; NaN where a root is not real.
 
     A leading coefficient of zero gives NaN only.
@@ -208,14 +207,14 @@ def real_cubic_roots(
     Reference: Press et al., Numerical Recipes, 3rd ed., 5.6, eq. 5.6.10 to 5.6.18.
     """
     with np.errstate(all="ignore"):
-        b, c, d = b / a, c / a, d / a
+        b, c, d = np.moveaxis(coefficients[..., 1:] / coefficients[..., :1], -1, 0)
         Q, R = (b * b - 3.0 * c) / 9.0, (2.0 * b**3 - 9.0 * b * c + 27.0 * d) / 54.0
         three = R * R < Q**3
         third = np.arccos(np.clip(R / np.sqrt(np.abs(Q)) ** 3, -1.0, 1.0)) / 3.0
-        trigonometric = -2.0 * np.sqrt(np.abs(Q)) * np.cos(third + _THIRDS[:, *([None] * a.ndim)])
+        trigonometric = -2.0 * np.sqrt(np.abs(Q)) * np.cos(third + _THIRDS[:, *([None] * b.ndim)])
         A = -np.copysign(np.cbrt(np.abs(R) + np.sqrt(np.maximum(R * R - Q**3, 0.0))), R)
         alone = A + np.where(A == 0.0, 0.0, Q / A)
-        single = np.stack([alone, np.full_like(a, np.nan), np.full_like(a, np.nan)])
+        single = np.stack([alone, np.full_like(b, np.nan), np.full_like(b, np.nan)])
         roots = np.moveaxis(np.where(three, trigonometric, single), 0, -1) - b[..., None] / 3.0
         for _ in range(2):  # the closed form cancels where a is small: two Newton steps put that right
             b_, c_, d_ = b[..., None], c[..., None], d[..., None]

@@ -183,7 +183,7 @@ def _triangle_areas(p: np.ndarray) -> np.ndarray:
 def _broad(p: np.ndarray, areas: np.ndarray) -> np.ndarray:
     """Say whether no triangle is flat beside the extent of the four points."""
     extent = np.square(p[..., 1:, :2] - p[..., :1, :2]).sum(-1).max(-1)
-    return np.abs(areas).min(-1) > _FLAT * extent
+    return np.asarray(np.abs(areas).min(-1) > _FLAT * extent)
 
 
 def _cross(v: np.ndarray, w: np.ndarray) -> np.ndarray:

@@ -60,7 +60,7 @@ def fit_hyperplane(
 
 
 def hyperplane_distances(
-    hyperplane: Float[np.ndarray, "*k d+1"], p: Float[np.ndarray, "n d"]
+    hyperplane: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "n d"]
 ) -> Float[np.ndarray, "*k n"]:
     """Return each point's signed distance in metres, positive on the normal's side.
 
@@ -88,4 +88,4 @@ def _unit(v: np.ndarray, smallest: float | np.ndarray) -> np.ndarray:
 
 def _squared_extent(p: np.ndarray) -> np.ndarray:
     """Return the largest squared side of each triangle."""
-    return np.square(p - np.roll(p, 1, axis=-2)).sum(-1).max(-1)
+    return np.asarray(np.square(p - np.roll(p, 1, axis=-2)).sum(-1).max(-1))

@@ -1,0 +1,120 @@
+import numpy as np
+import pytest
+import scipy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from workbench.geometry.homography import (
+    fit_homography,
+    four_in_general_position,
+    homographies_from_four,
+    homogeneous,
+    normalising_similarity,
+    refine_homography,
+    transfer_distances,
+    transform_pixels,
+)
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def scene(seed: int, count: int = 30, sigma: float = 0.0):
+    rng = np.random.default_rng(seed)
+    H = np.eye(3) + rng.uniform(-1, 1, (3, 3)) * [[0.3, 0.3, 80], [0.3, 0.3, 80], [2e-4, 2e-4, 0]]
+    uv_a = rng.uniform(0, 800, (count, 2))
+    uv_b = transform_pixels(H, uv_a) + sigma * rng.normal(size=(count, 2))
+    return H / np.linalg.norm(H), uv_a, uv_b
+
+
+@settings(max_examples=50, deadline=None)
+@given(seed=seeds)
+def test_four_matches_without_noise_give_the_homography(seed):
+    H, uv_a, uv_b = scene(seed, 4)
+    found = homographies_from_four(uv_a, uv_b)
+    if not four_in_general_position(uv_a, uv_b):
+        assert np.isnan(found).all()
+        return
+    np.testing.assert_allclose(transfer_distances(found, uv_a, uv_b), 0.0, atol=1e-5)
+    assert np.linalg.norm(found) == pytest.approx(1.0)
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=seeds)
+def test_the_linear_transform_is_exact_without_noise(seed):
+    H, uv_a, uv_b = scene(seed)
+    found = fit_homography(uv_a, uv_b)
+    np.testing.assert_allclose(found * np.sign(found[2, 2] * H[2, 2]), H, atol=1e-8)
+
+
+def test_it_agrees_with_skimage():
+    """Its normalisation differs a little, and so does the answer, but by far less than the noise."""
+    from skimage.transform import ProjectiveTransform
+
+    _, uv_a, uv_b = scene(5, 40, sigma=2.0)
+    peer = ProjectiveTransform.from_estimate(uv_a, uv_b).params
+    ours = fit_homography(uv_a, uv_b)
+    np.testing.assert_allclose(transform_pixels(ours, uv_a), transform_pixels(peer, uv_a), atol=2e-3)
+
+
+def test_far_from_the_origin_nothing_is_lost():
+    _, uv_a, uv_b = scene(6)
+    found = fit_homography(uv_a + 1e5, uv_b - 1e5)
+    assert transfer_distances(found, uv_a + 1e5, uv_b - 1e5).max() < 1e-4
+
+
+def test_a_quadrangle_that_no_camera_sees_is_refused():
+    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    crossed, mirrored = square[[0, 2, 1, 3]], square[:, ::-1].copy()
+    line = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0]])
+    double = square[[0, 0, 1, 2]]
+    assert four_in_general_position(square, 300 * square + 20)
+    assert four_in_general_position(square, mirrored)
+    for bad in (crossed, line, double, np.zeros((4, 2))):
+        assert not four_in_general_position(square, bad)
+        assert not four_in_general_position(bad, square)
+        assert np.isnan(homographies_from_four(square, bad)).all()
+    both = homographies_from_four(np.stack([square, line]), np.stack([square, square]))
+    assert np.isnan(both[1]).all()
+    np.testing.assert_allclose(both[0] / both[0, 2, 2], np.eye(3), atol=1e-12)
+
+
+def test_a_pixel_that_goes_to_infinity_is_infinitely_far():
+    H = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, -1.0]])
+    p = np.array([[1.0, 0.0], [0.0, 0.0]])
+    assert np.isnan(transform_pixels(H, p)[0]).all()
+    np.testing.assert_array_equal(np.isinf(transfer_distances(H, p, p)), [True, False])
+
+
+@settings(max_examples=15, deadline=None)
+@given(seed=seeds)
+def test_refinement_reaches_the_optimum_of_the_transfer_distance(seed):
+    _, uv_a, uv_b = scene(seed, 40, sigma=2.0)
+    weights = np.random.default_rng(seed).random(40) + 0.1
+    start = fit_homography(uv_a, uv_b, weights)
+    found = refine_homography(start, uv_a, uv_b, weights, steps=30)
+
+    def cost(H):
+        return float(weights @ transfer_distances(H, uv_a, uv_b) ** 2)
+
+    def residuals(h):
+        off = transform_pixels(np.append(h, 1.0).reshape(3, 3), uv_a) - uv_b
+        return (np.sqrt(weights)[:, None] * off).ravel()
+
+    x_scale = np.array([1, 1, 100, 1, 1, 100, 1e-3, 1e-3])
+    oracle = scipy.optimize.least_squares(residuals, (start / start[2, 2]).ravel()[:8], x_scale=x_scale)
+    assert cost(found) <= cost(start) * (1 + 1e-12)
+    assert cost(found) <= 2 * oracle.cost * (1 + 1e-6)
+
+
+def test_normalised_pixels_have_the_promised_spread():
+    uv = np.random.default_rng(0).uniform(0, 4000, (2, 50, 2))
+    for one, T in zip(uv, normalising_similarity(uv), strict=True):
+        moved = (homogeneous(one) @ T.T)[:, :2]
+        np.testing.assert_allclose(moved.mean(0), 0, atol=1e-9)
+        assert np.linalg.norm(moved, axis=1).mean() == pytest.approx(np.sqrt(2))
+    assert np.isfinite(normalising_similarity(np.ones((5, 2)))).all()
+
+
+def test_too_few_matches_are_refused():
+    with pytest.raises(ValueError, match="at least 4"):
+        fit_homography(np.zeros((3, 2)), np.zeros((3, 2)))
