@@ -1,0 +1,126 @@
+"""Writes what a student starts from: a file with the signature, the contract and two examples, and finds it again."""
+
+import ast
+import inspect
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from workbench.errors import InputError
+from workbench.exercise.model import Exercise
+from workbench.lesson import catalog
+
+
+def exercises() -> dict[str, Exercise]:
+    """Return the exercises of all lessons by name, in course order."""
+    return {exercise.name: exercise for lesson in catalog().values() for exercise in lesson.exercises}
+
+
+def find_exercise(name: str) -> Exercise:
+    """Return an exercise by its name.
+
+    Raises:
+        InputError: If there is none; lists those there are.
+    """
+    found = exercises()
+    if name not in found:
+        raise InputError(f"no exercise is named {name!r}; there are: {', '.join(found)}")
+    return found[name]
+
+
+def exercises_in(path: Path) -> tuple[Exercise, ...]:
+    """Return the exercises whose functions a student's file defines, without running it.
+
+    Raises:
+        InputError: If the file cannot be read, does not parse (with the line), or defines none of them.
+    """
+    try:
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror or 'cannot be read'}") from None
+    except SyntaxError as error:
+        raise InputError(f"{path.name}, line {error.lineno}: {error.msg}") from None
+    except ValueError:  # not UTF-8, or with NUL bytes
+        raise InputError(f"{path}: not a Python file") from None
+    defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    found = tuple(exercise for name, exercise in exercises().items() if name in defined)
+    if not found:
+        raise InputError(f"{path}: defines none of the exercises' functions ({', '.join(exercises())})")
+    return found
+
+
+def starter(exercise: Exercise) -> str:
+    """Return the text of a starter file."""
+    function = exercise.reference
+    signature = inspect.signature(function)
+    arguments = ", ".join(_argument(parameter) for parameter in signature.parameters.values())
+    returned = _plain(signature.return_annotation)
+    shapes = list(_shapes(signature))
+    doc = inspect.cleandoc(function.__doc__ or "")
+    if shapes:
+        doc += "\n\nShapes:\n" + "\n".join(f"    {line}" for line in shapes)
+    if exercise.examples:
+        doc += "\n\nExamples:\n" + "\n".join(
+            f"    {call}\n        gives {result}" for call, result in exercise.examples
+        )
+    indented = textwrap.indent(doc, "    ").lstrip()
+    return f'''"""Exercise {exercise.name}, lesson {exercise.lesson}.
+
+{textwrap.fill(exercise.task, 100)}
+
+Watch it live:  workbench show {exercise.lesson} --with my_{exercise.name}.py
+Have it judged: workbench check my_{exercise.name}.py
+"""
+
+import numpy as np
+
+
+def {exercise.name}({arguments}) -> {returned}:
+    """{indented}
+    """
+    raise NotImplementedError
+'''
+
+
+def write_starter(exercise: Exercise, folder: Path, *, force: bool = False) -> Path:
+    """Write the starter file of an exercise into a folder and return its path.
+
+    Raises:
+        InputError: If the file is there already, or cannot be written.
+    """
+    path = folder / f"my_{exercise.name}.py"
+    if path.exists() and not force:
+        raise InputError(f"{path} is there already: move it away, or start over with --force")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        path.write_text(starter(exercise), encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror or 'cannot be written'}") from None
+    return path
+
+
+def _argument(parameter: inspect.Parameter) -> str:
+    text = f"{parameter.name}: {_plain(parameter.annotation)}"
+    return text if parameter.default is parameter.empty else f"{text} = {parameter.default!r}"
+
+
+def _plain(annotation: Any) -> str:
+    """Return an annotation that needs no import but numpy."""
+    if annotation in (inspect.Parameter.empty, inspect.Signature.empty):
+        return "np.ndarray"
+    if hasattr(annotation, "dim_str"):
+        return "np.ndarray"
+    text = (
+        annotation.__name__ if isinstance(annotation, type) and not hasattr(annotation, "__args__") else str(annotation)
+    )
+    return "tuple" if text.startswith("tuple") else text.replace("numpy.", "np.")
+
+
+def _shapes(signature: inspect.Signature) -> Iterator[str]:
+    named = [(parameter.name, parameter.annotation) for parameter in signature.parameters.values()]
+    for name, annotation in [*named, ("returned", signature.return_annotation)]:
+        dimensions = getattr(annotation, "dim_str", None)
+        if dimensions is not None:
+            kind = annotation.__name__.split("[")[0].lower()
+            yield f"{name}: ({', '.join(dimensions.split())}{',' if len(dimensions.split()) == 1 else ''}) {kind}"
