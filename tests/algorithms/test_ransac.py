@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.algorithms.models import CIRCLE, FUNDAMENTAL, HOMOGRAPHY, LINE, MODELS, PLANE, SPHERE, rms_distance
-from workbench.algorithms.ransac import Judge, Stop, iterations_needed, polished, ransac, refit_rounds
+from workbench.algorithms.ransac import Fit, Judge, Stop, iterations_needed, polished, ransac, refit_rounds
 from workbench.algorithms.samplers import prosac_samples, uniform_samples
 from workbench.algorithms.scores import count_score, msac_score
 from workbench.data.robust import (
@@ -29,6 +29,12 @@ SCENES = {
     "fundamental matrix": lambda rng: match_scene(rng, count=200, outlier_ratio=0.3, sigma=0.5),
 }
 WITHIN = {"m": 0.03, "px": 2.0}
+
+
+def found(state) -> Fit:
+    """The best fit so far, which has to be there."""
+    assert state.best is not None
+    return state.best
 
 
 def run_of(model, scene, seed=0, score=count_score, distance=None, **options):
@@ -65,8 +71,8 @@ def test_every_model_is_found_among_outliers(name):
     last = run_of(MODELS[name], scene, max_iterations=2000)[-1]
     assert last.phase == "stop"
     assert last.stop is Stop.ENOUGH
-    assert rms_distance(MODELS[name], last.best.estimate, scene.p_true) < {"m": 0.004, "px": 0.35}[MODELS[name].unit]
-    assert last.best.inliers[scene.is_inlier].mean() > 0.9
+    assert rms_distance(MODELS[name], found(last).estimate, scene.p_true) < {"m": 0.004, "px": 0.35}[MODELS[name].unit]
+    assert found(last).inliers[scene.is_inlier].mean() > 0.9
 
 
 @pytest.mark.parametrize("name", list(MODELS))
@@ -111,7 +117,9 @@ def test_the_order_of_the_parts_and_what_they_hold():
     )
     for state in states:
         if state.phase == "inliers":
-            assert state.trial.count == np.count_nonzero(state.trial.distances <= 0.03) == state.trial.score
+            trial = state.trial
+            assert trial is not None
+            assert trial.count == np.count_nonzero(trial.distances <= 0.03) == trial.score
 
 
 @settings(max_examples=10, deadline=None)
@@ -145,9 +153,9 @@ def test_the_refit_betters_what_a_sample_found():
     for seed in range(10):
         scene = SCENES["plane"](np.random.default_rng(seed))
         states = run_of(PLANE, scene, seed)
-        before = next(s.best for s in reversed(states) if s.phase in ("inliers", "best"))
+        before = next(found(s) for s in reversed(states) if s.phase in ("inliers", "best"))
         gains.append(
-            rms_distance(PLANE, states[-1].best.estimate, scene.p_true)
+            rms_distance(PLANE, found(states[-1]).estimate, scene.p_true)
             / rms_distance(PLANE, before.estimate, scene.p_true)
         )
     assert np.median(gains) < 0.5
@@ -214,8 +222,8 @@ def test_bad_rows_are_refused():
 def test_the_largest_plane_wins_not_the_right_one():
     scene = two_planes_scene(np.random.default_rng(0), count=600, outlier_ratio=0.3, sigma=0.01)
     last = run_of(PLANE, scene)[-1]
-    assert last.best.inliers[scene.is_inlier].mean() < 0.2
-    assert rms_distance(PLANE, last.best.estimate, scene.p_true) > 0.5
+    assert found(last).inliers[scene.is_inlier].mean() < 0.2
+    assert rms_distance(PLANE, found(last).estimate, scene.p_true) > 0.5
 
 
 def test_prosac_needs_fewer_samples_than_chance():
@@ -237,7 +245,9 @@ def test_its_lines_can_be_watched():
     samples = uniform_samples(len(scene.p), 2, np.random.default_rng(0))
     with listening() as moment:
         for state in ransac(scene.p, LINE, samples, Judge(scene.p, LINE, 0.03)):
-            lines, first = moment().source
-            line = lines[moment().line - first]
+            now = moment()
+            assert now is not None
+            lines, first = now.source
+            line = lines[now.line - first]
             assert f'"{state.phase}"' in line
     assert {CIRCLE.sample_size, SPHERE.sample_size, FUNDAMENTAL.sample_size} == {3, 4, 7}

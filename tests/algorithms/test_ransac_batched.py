@@ -11,7 +11,7 @@ from workbench.data.robust import match_scene, plane_scene
 from workbench.geometry.epipolar import sampson_distances
 from workbench.geometry.lines_planes import angle_between_planes
 
-from .test_ransac import SCENES, WITHIN
+from .test_ransac import SCENES, WITHIN, found
 
 
 @pytest.mark.parametrize("name", list(MODELS))
@@ -19,14 +19,14 @@ def test_every_model_is_found_among_outliers(name):
     model, scene = MODELS[name], SCENES[name](np.random.default_rng(5))
     answer = ransac_batched(scene.p, model, np.random.default_rng(0), inlier_distance=WITHIN[model.unit])
     assert answer.stop is Stop.ENOUGH
-    assert rms_distance(model, answer.best.estimate, scene.p_true) < {"m": 0.004, "px": 0.3}[model.unit]
+    assert rms_distance(model, found(answer).estimate, scene.p_true) < {"m": 0.004, "px": 0.3}[model.unit]
 
 
 @pytest.mark.parametrize("score", [count_score, msac_score, lambda d, t: mlesac_score(d, t, span=4.0)])
 def test_every_score_will_do(score):
     scene = plane_scene(np.random.default_rng(0), count=2000, outlier_ratio=0.7, sigma=0.01)
     answer = ransac_batched(scene.p, PLANE, np.random.default_rng(0), inlier_distance=0.02, score=score)
-    assert rms_distance(PLANE, answer.best.estimate, scene.p_true) < 0.003
+    assert rms_distance(PLANE, found(answer).estimate, scene.p_true) < 0.003
 
 
 @pytest.mark.parametrize(("model", "bound"), [(HOMOGRAPHY, 1.1), (FUNDAMENTAL, 1.5)])
@@ -38,7 +38,7 @@ def test_it_comes_close_to_a_fit_that_knows_the_inliers(model, bound):
         scene = match_scene(rng, count=2000, outlier_ratio=0.5, sigma=1.0, flat=model is HOMOGRAPHY)
         answer = ransac_batched(scene.p, model, rng, inlier_distance=2.5, max_iterations=10_000)
         oracle = model.refit(scene.p[scene.is_inlier], start=scene.truth)
-        errors = [rms_distance(model, estimate, scene.p_true) for estimate in (answer.best.estimate, oracle)]
+        errors = [rms_distance(model, estimate, scene.p_true) for estimate in (found(answer).estimate, oracle)]
         ratios.append(errors[0] / errors[1])
     assert np.median(ratios) < bound
 
@@ -47,7 +47,7 @@ def test_far_from_the_origin_single_precision_is_not_used():
     scene = plane_scene(np.random.default_rng(0), count=500, outlier_ratio=0.5, sigma=0.01)
     near = ransac_batched(scene.p, PLANE, np.random.default_rng(0), inlier_distance=0.02)
     far = ransac_batched(scene.p + 1e6, PLANE, np.random.default_rng(0), inlier_distance=0.02)
-    np.testing.assert_array_equal(far.best.inliers, near.best.inliers)
+    np.testing.assert_array_equal(found(far).inliers, found(near).inliers)
 
 
 def test_repeated_rows_are_survived_and_nothing_is_nothing():
@@ -65,7 +65,7 @@ def test_repeated_rows_are_survived_and_nothing_is_nothing():
 def test_the_same_seed_gives_the_same_answer():
     scene = SCENES["homography"](np.random.default_rng(0))
     one, two = (ransac_batched(scene.p, HOMOGRAPHY, np.random.default_rng(3), inlier_distance=2.0) for _ in range(2))
-    np.testing.assert_array_equal(one.best.estimate, two.best.estimate)
+    np.testing.assert_array_equal(found(one).estimate, found(two).estimate)
 
 
 def test_the_photographs_give_back_their_true_matches(shared_data):
@@ -75,8 +75,8 @@ def test_the_photographs_give_back_their_true_matches(shared_data):
     true = np.abs(sampson_distances(pair["F"], matches[:, :2], matches[:, 2:])) < 1.0
     for seed in range(10):
         answer = ransac_batched(matches, FUNDAMENTAL, np.random.default_rng(seed), inlier_distance=1.0)
-        assert answer.best.inliers[true].mean() >= 0.95
-        assert rms_distance(FUNDAMENTAL, answer.best.estimate, matches[true]) < 0.35
+        assert found(answer).inliers[true].mean() >= 0.95
+        assert rms_distance(FUNDAMENTAL, found(answer).estimate, matches[true]) < 0.35
 
 
 @pytest.mark.parametrize("seed", [0, 1])
@@ -85,7 +85,7 @@ def test_floor_and_wall_of_a_real_room_meet_at_a_right_angle(shared_data, seed):
     p = read_cloud(shared_data / "ransac" / "capture0001.pcd")[::3]
     rng, rest, planes = np.random.default_rng(seed), p, []
     while len(planes) < 4:
-        best = ransac_batched(rest, PLANE, rng, inlier_distance=0.02).best
+        best = found(ransac_batched(rest, PLANE, rng, inlier_distance=0.02))
         planes.append(mixture_fit(p, PLANE, best.estimate, inlier_distance=0.02, rounds=30))
         if len(planes) == 1:
             assert best.count / len(p) == pytest.approx(0.27, abs=0.02)

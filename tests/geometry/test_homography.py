@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from workbench.geometry.homography import (
     fit_homography,
     four_in_general_position,
-    homographies_from_four,
     homogeneous,
+    homographies_from_four,
     normalising_similarity,
     refine_homography,
     transfer_distances,
@@ -29,7 +29,7 @@ def scene(seed: int, count: int = 30, sigma: float = 0.0):
 @settings(max_examples=50, deadline=None)
 @given(seed=seeds)
 def test_four_matches_without_noise_give_the_homography(seed):
-    H, uv_a, uv_b = scene(seed, 4)
+    _, uv_a, uv_b = scene(seed, 4)
     found = homographies_from_four(uv_a, uv_b)
     if not four_in_general_position(uv_a, uv_b):
         assert np.isnan(found).all()
