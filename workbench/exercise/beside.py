@@ -1,0 +1,117 @@
+"""A lesson with the student's function in the slot, the reference's run beside it as a ghost, step by step.
+
+The result is an ordinary lesson, so it is watched live, stepped back through and recorded like any other.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from workbench.exercise.candidate import Candidate
+from workbench.exercise.model import Exercise, Function
+from workbench.exercise.sandbox import StudentError
+from workbench.lesson import Lesson
+from workbench.scene import Caption, Mesh, Points, Primitive, Scalar, Scene, Segments, caption_of, ghost
+
+TOLERANCE = 1e-6  # of the larger of 1 and the size of what is compared
+DIFFERENCE = "exercise/difference"
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """One step of both runs: `theirs` is None where the student's function gave nothing, with the reason in `trouble`."""
+
+    ours: Any
+    theirs: Any
+    trouble: str
+    difference: float
+    first: bool
+
+
+def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
+    """Return the lesson driven by a student's function, with the reference's run as its ghost."""
+    slots = {exercise.slot: Candidate(function, exercise.reference)}
+
+    def run(params: Any) -> Iterator[Pair]:
+        ours, theirs = lesson.run(params), lesson.run(params, **slots)
+        state_ours: Any = None
+        differed = False
+        while True:
+            state_ours = next(ours, state_ours)
+            try:
+                state = next(theirs)
+            except StopIteration:
+                return
+            except StudentError as error:
+                yield Pair(state_ours, None, str(error), float("nan"), not differed)
+                return
+            difference = gap(lesson.draw(state_ours), lesson.draw(state))
+            differs = not difference <= TOLERANCE
+            yield Pair(state_ours, state, "", difference, differs and not differed)
+            differed = differed or differs
+
+    def draw(pair: Pair) -> Scene:
+        ours = lesson.draw(pair.ours)
+        if pair.theirs is None:
+            return dict(ours) | {"caption": Caption(pair.trouble, "wrong"), DIFFERENCE: _difference(float("nan"))}
+        scene = dict(lesson.draw(pair.theirs))
+        if not pair.difference <= TOLERANCE:
+            scene |= ghost(ours)
+        if pair.first:
+            said = caption_of(scene).text
+            scene["caption"] = Caption(
+                f"Here your run first differs from the reference (its ghost is faint). {said}", "wrong"
+            )
+        return scene | {DIFFERENCE: _difference(pair.difference)}
+
+    return replace(lesson, run=run, draw=draw, questions=(), exercises=(exercise,))
+
+
+def _difference(value: float) -> Scalar:
+    return Scalar(
+        value if np.isfinite(value) else float("nan"), "largest difference", "Difference to the reference", "", "wrong"
+    )
+
+
+def gap(a: Scene, b: Scene) -> float:
+    """Return how far two scenes are apart: the largest distance between their points, or difference of their scalars.
+
+    Scalars are compared relative to their size where that is above 1. Things that one scene lacks, or that have another
+    number of points, are infinitely far apart.
+    """
+    largest = 0.0
+    for path in a.keys() | b.keys():
+        if path in a and path in b:
+            largest = max(largest, _apart(a[path], b[path]))
+        elif isinstance(a.get(path, b.get(path)), (Points, Mesh, Segments, Scalar)):
+            return float("inf")
+    return largest
+
+
+def _apart(a: Primitive, b: Primitive) -> float:
+    if isinstance(a, Scalar) and isinstance(b, Scalar):
+        if np.isnan(a.value) and np.isnan(b.value):
+            return 0.0
+        difference = abs(a.value - b.value) / max(1.0, abs(a.value))
+        return difference if np.isfinite(difference) else float("inf")
+    if isinstance(a, (Points, Mesh, Segments)) and isinstance(b, (Points, Mesh, Segments)):
+        p_a, p_b = _in_world(a), _in_world(b)
+        if p_a.shape != p_b.shape:
+            return float("inf")
+        return float(np.abs(p_a - p_b).max(initial=0.0)) / max(1.0, float(np.abs(p_a).max(initial=0.0)))
+    return 0.0
+
+
+def _in_world(primitive: Points | Mesh | Segments) -> np.ndarray:
+    p = primitive.ends if isinstance(primitive, Segments) else primitive.p
+    T = primitive.T_world_object
+    return p if T is None else p @ T[:3, :3].T + T[:3, 3]
+
+
+def first_difference(captions: Callable[[int], Caption], steps: int) -> int | None:
+    """Return the first step whose caption is that of trouble, None where there is none."""
+    return next(
+        (k for k in range(steps) if captions(k).tone == "wrong" and "your run first differs" in captions(k).text), None
+    )
