@@ -228,7 +228,6 @@ class ViserSink:
                 float(size[0]),
                 float(size[1]),
                 position=(corners[0] + corners[2]) / 2,
-                wxyz=(0.0, 1.0, 0.0, 0.0),
                 cast_shadow=False,
                 receive_shadow=False,
             )
@@ -247,7 +246,6 @@ class ViserSink:
             image,
             width,
             height,
-            wxyz=(0.0, 1.0, 0.0, 0.0),
             cast_shadow=False,
             receive_shadow=False,
         )
