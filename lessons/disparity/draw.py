@@ -18,6 +18,7 @@ from workbench.scene import Camera, Color, Field, Label, Picture, Points, Primit
 R_WORLD_CAMERA = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 T_WORLD_LEFT = motion(R_WORLD_CAMERA, np.zeros(3))
 MOST_POINTS = 25_000
+DESK = 0.84
 BARS = 150
 
 
@@ -53,19 +54,19 @@ def _cameras(state: State) -> dict[str, Primitive]:
     return {
         "left/camera": Camera(camera.K, w, h, T_WORLD_LEFT, 0.22, color="target", name="left camera"),
         "right/camera": Camera(K_right, w, h, T_world_right(setup), 0.22, color="source", name="right camera"),
-        "left/picture": Picture(framed(setup.pair.left, (u, v), window), "left picture", 0.72, _desk(-0.39)),
-        "right/picture": Picture(marked_right, "right picture", 0.72, _desk(0.39)),
-        "left/name": Label("left picture: click a pixel", _desk(-0.39)[:3, 3] + (0, 0.12, 0.34), "target"),
-        "right/name": Label("right picture", _desk(0.39)[:3, 3] + (0, 0.12, 0.34), "source"),
+        "left/picture": Picture(framed(setup.pair.left, (u, v), window), "left picture", DESK, _desk(-0.4)),
+        "right/picture": Picture(marked_right, "right picture", DESK, _desk(0.52)),
+        "left/name": Label("left picture: click a pixel", _desk(-0.4)[:3, 3] + (0, 0.3, 0.24), "target"),
+        "right/name": Label("right picture", _desk(0.52)[:3, 3] + (0, 0.3, 0.24), "source"),
     }
 
 
 def _desk(x: float) -> np.ndarray:
     """Return the pose of a picture that leans back below the cameras."""
-    lean = math.radians(50.0)
+    lean = math.radians(55.0)
     down = np.array([0.0, -math.sin(lean), -math.cos(lean)])
     across = np.array([1.0, 0.0, 0.0])
-    return motion(np.column_stack([across, down, np.cross(across, down)]), np.array([x, -0.75, -0.25]))
+    return motion(np.column_stack([across, down, np.cross(across, down)]), np.array([x, -0.8, -0.4]))
 
 
 def _cloud(state: State) -> dict[str, Primitive]:
@@ -150,7 +151,7 @@ def _followed(state: State) -> dict[str, Primitive]:
     if 0 < chosen <= setup.far:
         p = points_on_ray((u, v), np.array([chosen]), camera)
         scene["chosen"] = Points(p, "highlight", 2.2 * size, T_WORLD_LEFT, name="chosen")
-        scene["chosen/label"] = Label(
+        scene["label/chosen"] = Label(
             f"d = {state.chosen:.3g} px: {chosen:.3g} m", p[0] + (0, -4 * size, 0), "highlight", T_WORLD_LEFT
         )
         eye = np.array([camera.baseline, 0.0, 0.0])
@@ -180,7 +181,7 @@ def _swept(state: State) -> dict[str, Primitive]:
     ends = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     return {
         "swept": Segments(ends, "other", 2.0, T_WORLD_LEFT, name="everything of this disparity"),
-        "swept/label": Label(f"d = {state.done - 1} px: {depth:.2f} m", corners[1], "other", T_WORLD_LEFT),
+        "label/swept": Label(f"d = {state.done - 1} px: {depth:.2f} m", corners[1], "other", T_WORLD_LEFT),
     }
 
 

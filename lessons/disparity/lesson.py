@@ -60,7 +60,7 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=700,
-    view=View(eye=(0.9, -2.6, 1.5), target=(0.05, 1.0, -0.15), grid=0.5, grid_height=-0.62),
+    view=View(eye=(0.5, -4.4, 2.4), target=(0.15, 0.8, -0.75), grid=0.5, grid_height=-0.62),
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=10,
