@@ -43,8 +43,8 @@ def draw(state: State) -> Scene:
         **scenery(),
         "camera": Camera(shot.K, w, h, T_world_camera, 1.0, state.picture, "neutral", name="true camera"),
         "points": Points(now.p_world, _point_color(state), 0.06, name="points of the street"),
-        "chosen": Points(now.p_world[k : k + 1], "highlight", 0.12, name="the followed point"),
-        "chosen/label": Label(name_of(k), now.p_world[k] + np.array([0.0, 0.0, 0.35]), "highlight"),
+        "followed": Points(now.p_world[k : k + 1], "highlight", 0.12, name="the followed point"),
+        "followed label": Label(name_of(k), now.p_world[k] + np.array([0.0, 0.0, 0.35]), "highlight"),
         "picture": Picture(state.picture, "Picture: photograph grey, calculated orange, followed point purple"),
         "error": Scalar(state.error, "median pixel error", "Error to the true picture", "px", "truth"),
         "caption": caption(state),
@@ -58,7 +58,7 @@ def draw(state: State) -> Scene:
         )  # fmt: skip
     stage = {"camera": _camera, "divide": _divide, "distort": _distort, "pixels": _pixels, "back": _back}
     if now.stage in stage:
-        scene["camera/axes"] = Axes(T_world_camera, 0.8, name="camera frame: x right, y down, z forward")
+        scene["camera frame"] = Axes(T_world_camera, 0.8, name="camera frame: x right, y down, z forward")
         scene |= stage[now.stage](state, T_world_camera)
     return scene
 
@@ -105,7 +105,7 @@ def _divide(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     parts: dict[str, Primitive] = {"plane": _on_plane(xy[seen], "source", T_world_camera, "on the plane Z = 1 m")}
     if seen.any():
         parts["rays"] = Segments(rays[seen], "correspondence", 1.0, opacity=0.5, name="rays")
-    parts["chosen/ray"] = Segments(rays[k : k + 1], "highlight", 4, name="the followed ray")
+    parts["followed ray"] = Segments(rays[k : k + 1], "highlight", 4, name="the followed ray")
     return parts | _chosen_on_plane(xy, k, T_world_camera)
 
 
@@ -139,7 +139,7 @@ def _back(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     now, k = state.now, state.params.point
     parts: dict[str, Primitive] = {
         "center": Points(now.p_center[None], "source", 0.1, name="calculated camera centre"),
-        "center/label": Label("C", now.p_center + np.array([0.0, 0.0, 0.3]), "source"),
+        "center label": Label("C", now.p_center + np.array([0.0, 0.0, 0.3]), "source"),
     }
     found = np.linalg.norm(np.nan_to_num(now.p_back, nan=np.inf), axis=1) < 1e4
     if found.any():
@@ -147,12 +147,12 @@ def _back(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
         wrong = np.linalg.norm(now.p_back - now.p_world, axis=1) > 1e-6
         if (found & wrong).any():
             ends = np.stack([now.p_world, now.p_back], axis=1)[found & wrong]
-            parts["back/errors"] = Segments(ends, "wrong", 2, name="error")
+            parts["back errors"] = Segments(ends, "wrong", 2, name="error")
     if found[k]:
         z = depths(now.p_world[k : k + 1], state.shot.T_camera_world)[0]
         v = (now.p_back[k] - now.p_center) / z  # one metre of depth
         reach = max(FAR, 1.2 * z)
-        parts["chosen/ray"] = Segments(
+        parts["followed ray"] = Segments(
             np.stack([now.p_center, now.p_center + reach * v])[None], "highlight", 4, name="the followed ray"
         )
         marks = now.p_center + CANDIDATES[:, None] * v
@@ -176,7 +176,9 @@ def _on_plane(xy: np.ndarray, color, T_world_camera: np.ndarray, name: str) -> P
 def _chosen_on_plane(xy: np.ndarray, k: int, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     if not _drawable(xy)[k]:
         return {}
-    return {"chosen/plane": Points(_lift(xy[k : k + 1]), "highlight", 0.025, T_world_camera, name="its place there")}
+    return {
+        "followed on plane": Points(_lift(xy[k : k + 1]), "highlight", 0.025, T_world_camera, name="its place there")
+    }
 
 
 def _lens_curves(lens: Distortion, r_chosen: float, stage: pinhole.Stage) -> dict[str, Primitive]:
@@ -187,6 +189,6 @@ def _lens_curves(lens: Distortion, r_chosen: float, stage: pinhole.Stage) -> dic
     marks = tuple(float(mark) for mark in (r_chosen, fold) if mark < r[-1])
     chart, x_label, y_label = "Lens: radius on the plane Z = 1", "ideal radius", "distorted radius"
     return {
-        "lens/none": Curve(r, r, "no lens", chart, x_label, y_label, "correspondence"),
+        "no lens": Curve(r, r, "no lens", chart, x_label, y_label, "correspondence"),
         "lens": Curve(r, bent, "this lens", chart, x_label, y_label, "truth", marks=marks),
     }

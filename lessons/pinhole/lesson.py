@@ -95,7 +95,7 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=200,
-    view=View(eye=(9.0, -11.0, 7.5), target=(0.5, 2.5, 0.8), grid=2.0, grid_height=-0.02),
+    view=View(eye=(7.6, -12.5, 6.6), target=(0.3, 0.6, 0.4), grid=2.0, grid_height=-0.02),
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=2,

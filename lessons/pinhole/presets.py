@@ -90,7 +90,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "behind", "A lamp behind the camera",
-        "Dividing by a negative depth gives a pixel in the middle of the picture that looks as valid as any: mask"
+        "Dividing by a negative depth gives a pixel in the picture that looks as valid as any: mask"
         " before you divide.",
         BEHIND, PIXELS,
     ),
@@ -173,7 +173,7 @@ def _behind_why(states: Sequence[State]) -> str:
     u, v = states[PIXELS].now.uv[states[0].params.point]
     z = states[1].now.p_camera[states[0].params.point, 2]
     return (
-        f"At ({u:.0f}, {v:.0f}), in the middle of the picture. Z = {z:.2f} m turns both signs, and a lamp above the axis"
+        f"At ({u:.0f}, {v:.0f}), well inside the picture. Z = {z:.2f} m turns both signs, and a lamp above the axis"
         " shows up below it. Only the sign of Z tells; the pixel does not."
     )
 
@@ -216,7 +216,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "predict-behind",
-        "A lamp hangs 6 m behind the camera, and somebody divides by Z without looking at its sign. Where is its pixel?",
+        "A lamp hangs 2 m behind the camera, and somebody divides by Z without looking at its sign. Where is its pixel?",
         answer=_behind_answer,
         why=_behind_why,
         params=BEHIND,

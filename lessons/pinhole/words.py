@@ -47,8 +47,8 @@ def tables(state: State) -> dict[str, Primitive]:
         ("the ball's outline", _ratio(shot.ball_ratio)),
     )
     return {
-        "numbers/point": Table("The followed point", ("stage", name_of(k)), tuple(rows)),
-        "numbers/camera": Table("The true camera", ("what", "value"), measured),
+        "point numbers": Table("The followed point", ("stage", name_of(k)), tuple(rows)),
+        "camera numbers": Table("The true camera", ("what", "value"), measured),
     }
 
 
@@ -68,9 +68,11 @@ def blame(state: State) -> str:
         why = "The calculation differs from the camera."
     if back > 1e-3 and state.error <= VISIBLE:
         return f" {why} Half of the points come back more than {_length(back)} off."
-    parts = [f"the median point is {_count(state.error)} px off"] if state.error > VISIBLE else []
-    parts += [f"{state.missed} of {len(now.p_world)} points lose their pixel"] if state.missed else []
-    parts += [f"points with a pixel though the camera cannot see them: {state.false}"] if state.false else []
+    parts = [f"the median point is {_count(state.error)} px off"] * (state.error > VISIBLE)
+    parts += [f"{state.missed} of {len(now.p_world)} points lose their pixel"] * (state.missed > 0)
+    parts += [f"{_many(state.false)} a pixel although the camera cannot see {'it' if state.false == 1 else 'them'}"] * (
+        state.false > 0
+    )
     size = "; ".join(parts)
     return f" {why}" + (f" {size[0].upper()}{size[1:]}." if size else "")
 
@@ -179,6 +181,10 @@ def _remark(state: State) -> str:
     if stage == "pixels" and shot.ball_ratio > 1.2:
         return f" The ball's outline is {shot.ball_ratio:.2f} times as long as wide."
     return ""
+
+
+def _many(n: int) -> str:
+    return "1 point has" if n == 1 else f"{n} points have"
 
 
 def _triple(p: np.ndarray) -> str:
