@@ -150,10 +150,8 @@ def _collected(executor: Executor, waiting: dict[str, Path], only: str | None) -
 
 
 def _lost(name: str, path: Path, only: str | None) -> dict[str, Any]:
-    error = "could not be graded: the grading process ended"
-    return {
-        "schema": SCHEMA_VERSION, "student": name, "file": str(path), "digest": digest(path, only), "reports": [], "error": error,
-    }  # fmt: skip
+    kept = {"schema": SCHEMA_VERSION, "student": name, "file": str(path), "digest": digest(path, only), "reports": []}
+    return kept | {"error": "could not be graded: the grading process ended"}
 
 
 def digest(path: Path, only: str | None) -> str:

@@ -11,13 +11,17 @@ _PLANES = ("yz", "xz", "xy")
 
 def set_stage(client: viser.ClientHandle, view: View) -> None:
     """Put a client's camera, grid and axes where a lesson wants them."""
-    scene = client.scene
-    scene.set_up_direction(view.up)
+    add_floor(client.scene, view)
     with client.atomic():
         client.camera.up_direction = np.array(view.up)
         client.camera.position = np.array(view.eye)
         client.camera.look_at = np.array(view.target)
         client.camera.fov = float(np.radians(view.fov_degrees))
+
+
+def add_floor(scene: viser.SceneApi, view: View) -> None:
+    """Draw the grid and the labelled axes of a lesson."""
+    scene.set_up_direction(view.up)
     axis = int(np.argmax(np.abs(view.up)))
     if view.grid is None:
         scene.add_frame("/grid", show_axes=False)

@@ -1,0 +1,1 @@
+"""Static pages: tutorials that play in any browser, without Python."""
