@@ -1,0 +1,122 @@
+import numpy as np
+import pytest
+import scipy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from workbench.algorithms.sinkhorn import Stop, sinkhorn, sinkhorn_steps, tight_potentials
+from workbench.algorithms.transport import earth_movers
+
+few = settings(max_examples=25, deadline=None)
+seeds = st.integers(0, 10_000)
+
+
+def costs(seed, n, m, offset=0.5):
+    rng = np.random.default_rng(seed)
+    return scipy.spatial.distance.cdist(rng.normal(size=(n, 3)), rng.normal(size=(m, 3)) + offset)
+
+
+def log_domain(cost, regularisation, sweeps):
+    """Sinkhorn's updates of the potentials themselves, Peyre and Cuturi 2019, equations 4.40 and 4.41."""
+    n, m = cost.shape
+    f, g = np.zeros(n), np.zeros(m)
+    for _ in range(sweeps):
+        f = -regularisation * (scipy.special.logsumexp((g - cost) / regularisation, axis=1) + np.log(n))
+        g = -regularisation * (scipy.special.logsumexp((f[:, None] - cost) / regularisation, axis=0) + np.log(m))
+    return np.exp((f[:, None] + g - cost) / regularisation)
+
+
+@few
+@given(seeds, st.integers(1, 20), st.integers(1, 20), st.sampled_from([0.05, 0.3, 2.0]))
+def test_the_plan_is_that_of_the_log_domain(seed, n, m, regularisation):
+    cost = costs(seed, n, m)
+    found = sinkhorn(cost, regularisation, tolerance=1e-11, max_sweeps=100_000)
+    if found.stop is Stop.CONVERGED:
+        plan = log_domain(cost, regularisation, found.sweep)
+        np.testing.assert_allclose(found.plan(cost), plan, atol=1e-9)
+
+
+@few
+@given(seeds, st.integers(1, 20), st.integers(1, 20))
+def test_sums_are_right_and_the_cost_is_above_the_optimum(seed, n, m):
+    rng = np.random.default_rng(seed)
+    p_a, p_b = rng.normal(size=(n, 3)), rng.normal(size=(m, 3)) + 0.5
+    cost = scipy.spatial.distance.cdist(p_a, p_b)
+    found = sinkhorn(cost, 0.2)
+    assert found.stop is Stop.CONVERGED
+    plan = found.plan(cost)
+    np.testing.assert_allclose(plan.sum(axis=1), 1 / n, atol=1e-9)
+    np.testing.assert_allclose(plan.sum(axis=0), 1 / m, atol=1e-9)
+    assert found.cost(cost) >= earth_movers(p_a, p_b) - 1e-8
+
+
+def test_less_blur_is_nearer_to_the_optimum():
+    rng = np.random.default_rng(0)
+    p_a, p_b = rng.normal(size=(60, 3)), rng.normal(size=(60, 3)) + 0.5
+    cost = scipy.spatial.distance.cdist(p_a, p_b)
+    exact = earth_movers(p_a, p_b)
+    excess = [sinkhorn(cost, blur, tolerance=1e-6).cost(cost) / exact - 1 for blur in (1.0, 0.3, 0.1, 0.03, 0.01)]
+    assert np.all(np.diff(excess) < 0)
+    assert excess[0] > 0.2
+    assert 0 < excess[-1] < 0.002
+
+
+def test_much_blur_is_the_plan_of_everyone_to_everyone():
+    cost = costs(1, 8, 5)
+    np.testing.assert_allclose(sinkhorn(cost, 1e6).plan(cost), 1 / 40, rtol=1e-4)
+
+
+def test_scalings_that_would_overflow_are_absorbed():
+    cost = costs(2, 30, 30, offset=100.0)  # exp(-cost / regularisation) is zero everywhere
+    regularisation = 2e-3
+    assert not np.exp(-cost / regularisation).any()
+    found = sinkhorn(cost, regularisation, max_sweeps=20_000, tolerance=1e-6)
+    assert np.isfinite(found.f).all()
+    assert np.isfinite(found.g).all()
+    assert found.marginal_error < 1e-3
+    rows, columns = scipy.optimize.linear_sum_assignment(cost)
+    assert found.cost(cost) == pytest.approx(cost[rows, columns].mean(), rel=1e-3)
+
+
+def test_a_gradual_climb_of_the_scalings_is_absorbed():
+    # a chain of points that must all shift by one: the potentials climb along it, beyond what exp can hold
+    cost = np.abs(np.arange(40.0)[:, None] - np.arange(40.0) - 0.9)
+    found = sinkhorn(cost, 0.004, max_sweeps=3000, tolerance=1e-6)
+    assert np.ptp(found.f) / found.regularisation > 1000
+    plan = found.plan(cost)
+    assert np.isfinite(plan).all()
+    np.testing.assert_allclose(plan.sum(axis=0), 1 / 40, rtol=1e-6)
+    assert found.stop is Stop.MAX_SWEEPS
+
+
+def test_the_error_falls_and_the_last_state_says_why():
+    cost = costs(3, 40, 50)
+    states = list(sinkhorn_steps(cost, 0.05))
+    assert [state.sweep for state in states] == list(range(10, 10 * len(states) + 1, 10))
+    assert np.all(np.diff([state.marginal_error for state in states]) < 0)
+    assert [state.stop for state in states[:-1]] == [None] * (len(states) - 1)
+    assert states[-1].stop is Stop.CONVERGED
+    assert "sum" in states[-1].stop.message
+    assert sinkhorn(cost, 0.05, max_sweeps=7).stop is Stop.MAX_SWEEPS
+
+
+@few
+@given(seeds, st.integers(1, 10), st.integers(1, 10))
+def test_potentials_are_tight(seed, n, m):
+    cost = costs(seed, n, m)
+    f, g = tight_potentials(cost, np.random.default_rng(seed).normal(size=m))
+    slack = cost - f[:, None] - g
+    assert slack.min() >= -1e-12
+    np.testing.assert_allclose(slack.min(axis=0), 0, atol=1e-12)
+    np.testing.assert_allclose(slack.min(axis=1), 0, atol=1e-12)
+
+
+def test_bad_input_is_refused_in_words():
+    with pytest.raises(ValueError, match="regularisation > 0"):
+        sinkhorn(np.ones((2, 2)), 0.0)
+    with pytest.raises(ValueError, match="0 x 3 has nothing"):
+        sinkhorn(np.ones((0, 3)), 1.0)
+    with pytest.raises(ValueError, match="not finite"):
+        sinkhorn(np.full((2, 2), np.nan), 1.0)
+    with pytest.raises(ValueError, match="too large"):
+        sinkhorn(np.broadcast_to(np.ones(1), (10_000, 10_000)), 1.0)

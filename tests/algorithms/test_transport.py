@@ -1,0 +1,159 @@
+import itertools
+
+import numpy as np
+import pytest
+import scipy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from workbench.algorithms.flow import numeric_gradient
+from workbench.algorithms.transport import (
+    best_assignment,
+    best_matching,
+    best_plan,
+    blurred_potentials,
+    earth_movers,
+    earth_movers_and_gradient,
+)
+from workbench.geometry.motions import apply, exp_so3, motion
+from workbench.geometry.shape_distances import nearest_both_ways
+
+few = settings(max_examples=25, deadline=None)
+seeds = st.integers(0, 10_000)
+counts = st.integers(1, 40)
+
+
+def clouds(seed, n, m):
+    rng = np.random.default_rng(seed)
+    return rng.normal(size=(n, 3)), rng.normal(size=(m, 3)) + 0.5
+
+
+def optimum(p_a, p_b):
+    D = scipy.spatial.distance.cdist(p_a, p_b)
+    return D[scipy.optimize.linear_sum_assignment(D)].mean()
+
+
+@few
+@given(seeds, counts)
+def test_small_clouds_reach_the_assignment_optimum(seed, n):
+    p_a, p_b = clouds(seed, n, n)
+    assert earth_movers(p_a, p_b) == pytest.approx(optimum(p_a, p_b), rel=1e-12)
+
+
+def sphere_and_blob(rng, n):
+    v = rng.normal(size=(n, 3))
+    return v / np.linalg.norm(v, axis=1, keepdims=True), 1 + 0.1 * rng.normal(size=(n, 3))
+
+
+def ring_and_line(rng, n):
+    t = rng.uniform(0, 2 * np.pi, n)
+    return np.column_stack([np.cos(t), np.sin(t), 0 * t]), np.column_stack([t, 0 * t, 0 * t])
+
+
+def with_twins(rng, n):
+    p = rng.integers(0, 6, (n, 3)).astype(float)
+    return p, np.roll(p, 1, axis=1)
+
+
+def far_away(rng, n):
+    return rng.normal(size=(n, 3)), 1e5 + rng.normal(size=(n, 3))
+
+
+def two_scales(rng, n):
+    return rng.normal(size=(n, 3)) * np.logspace(-6, 3, n)[:, None], rng.normal(size=(n, 3))
+
+
+@pytest.mark.parametrize("made", [sphere_and_blob, ring_and_line, with_twins, far_away, two_scales])
+@pytest.mark.parametrize("n", [251, 400])
+def test_subtracted_potentials_leave_the_optimum_exact(made, n):
+    p_a, p_b = made(np.random.default_rng(n), n)
+    assert earth_movers(p_a, p_b) == pytest.approx(optimum(p_a, p_b), rel=1e-12)
+
+
+def test_the_potentials_are_near_optimal():
+    p_a, p_b = sphere_and_blob(np.random.default_rng(0), 300)
+    D = scipy.spatial.distance.cdist(p_a, p_b)
+    g = blurred_potentials(D)
+    dual = (D - g).min(axis=1).mean() + g.mean()
+    best = optimum(p_a, p_b)
+    assert dual <= best  # weak duality
+    assert dual > 0.999 * best
+
+
+@few
+@given(seeds, st.integers(1, 5))
+def test_no_permutation_is_better(seed, n):
+    p_a, p_b = clouds(seed, n, n)
+    every = (np.linalg.norm(p_a - p_b[list(order)], axis=1).mean() for order in itertools.permutations(range(n)))
+    assert earth_movers(p_a, p_b) == pytest.approx(min(every), rel=1e-12)
+
+
+@few
+@given(seeds, st.integers(1, 12), st.integers(1, 12))
+def test_unequal_counts_agree_with_an_assignment_of_copies(seed, n, m):
+    p_a, p_b = clouds(seed, n, m)
+    copies = np.lcm(n, m)
+    many_a, many_b = np.repeat(p_a, copies // n, axis=0), np.repeat(p_b, copies // m, axis=0)
+    assert earth_movers(p_a, p_b) == pytest.approx(optimum(many_a, many_b), rel=1e-9)
+
+
+@few
+@given(seeds, counts, counts)
+def test_every_point_gives_and_gets_its_share(seed, n, m):
+    p_a, p_b = clouds(seed, n, m)
+    best = best_matching(p_a, p_b)
+    np.testing.assert_allclose(np.bincount(best.i_a, best.mass, minlength=n), 1 / n, atol=1e-9)
+    np.testing.assert_allclose(np.bincount(best.i_b, best.mass, minlength=m), 1 / m, atol=1e-9)
+    assert np.array_equal(best.distances, scipy.spatial.distance.cdist(p_a, p_b)[best.i_a, best.i_b])
+    assert len(best.i_a) <= n + m  # a corner of the transport polytope
+
+
+@few
+@given(seeds, st.integers(1, 20))
+def test_it_is_a_metric_that_moves_and_scales_with_the_clouds(seed, n):
+    rng = np.random.default_rng(seed)
+    a, b, c = rng.normal(size=(3, n, 3))
+    T = motion(exp_so3(rng.normal(size=3)), rng.normal(size=3))
+    assert earth_movers(a, a[rng.permutation(n)]) == 0.0
+    assert earth_movers(b, a) == pytest.approx(earth_movers(a, b), rel=1e-12)
+    assert earth_movers(a, c) <= earth_movers(a, b) + earth_movers(b, c) + 1e-12
+    assert earth_movers(apply(T, a), apply(T, b)) == pytest.approx(earth_movers(a, b), rel=1e-9)
+    assert earth_movers(2 * a, 2 * b) == pytest.approx(2 * earth_movers(a, b), rel=1e-12)
+    v = rng.normal(size=3)
+    assert earth_movers(a, a + v) == pytest.approx(np.linalg.norm(v), rel=1e-9)
+
+
+@few
+@given(seeds, counts)
+def test_it_is_between_its_bounds(seed, n):
+    p_a, p_b = clouds(seed, n, n)
+    value = earth_movers(p_a, p_b)
+    assert value >= np.linalg.norm(p_a.mean(axis=0) - p_b.mean(axis=0)) - 1e-12
+    assert value >= nearest_both_ways(p_a, p_b).one_sided("mean of distances") - 1e-12
+
+
+@pytest.mark.parametrize(("n", "m"), [(1, 1), (9, 9), (20, 20), (6, 9), (10, 4)])
+def test_the_gradient_agrees_with_finite_differences(n, m):
+    p_a, p_b = clouds(n, n, m)
+    value, slope = earth_movers_and_gradient(p_a, p_b)
+    assert value == pytest.approx(earth_movers(p_a, p_b), rel=1e-12)
+    np.testing.assert_allclose(slope, numeric_gradient(earth_movers, p_a, p_b), atol=1e-8)
+
+
+def test_pairs_that_coincide_do_not_pull():
+    p = np.random.default_rng(0).normal(size=(6, 3))
+    value, slope = earth_movers_and_gradient(p, p)
+    assert value == 0.0
+    assert not slope.any()
+
+
+def test_bad_input_is_refused_in_words():
+    p = np.ones((3, 3))
+    with pytest.raises(ValueError, match="no points"):
+        earth_movers(p, np.empty((0, 3)))
+    with pytest.raises(ValueError, match="not finite"):
+        earth_movers(p, np.full((3, 3), np.inf))
+    with pytest.raises(ValueError, match="not 2 x 3"):
+        best_assignment(np.ones((2, 3)))
+    with pytest.raises(ValueError, match="501 and 500 points is too large"):
+        best_plan(np.ones((501, 500)))

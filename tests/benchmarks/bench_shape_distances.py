@@ -1,0 +1,154 @@
+"""Chamfer, earth mover's and Sinkhorn beside what is installed of small_gicp, pykdtree, open3d, POT and scipy.
+
+Run `python -m tests.benchmarks.bench_shape_distances [--large]`. A ratio below 1 means ours is faster; "floor" is the
+ratio to the best peer that ../shared/SPEED.md calls reached. Two figures per task: the least wall time of a few runs, and
+processor time over all threads, from which the ratio is made, since it bears other work on the machine better. Run with
+OPENBLAS_NUM_THREADS=1 on a busy machine: matrix products that wait for a second core count the waiting.
+"""
+
+import argparse
+import importlib
+import time
+from collections.abc import Callable
+
+import numpy as np
+import scipy
+
+from workbench.algorithms.sinkhorn import sinkhorn
+from workbench.algorithms.transport import earth_movers
+from workbench.geometry.shape_distances import chamfer
+
+Task = Callable[[], float]
+
+
+def peer(name: str):
+    """Return an installed module or None."""
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        return None
+
+
+def clouds(kind: str, n: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    p_a, p_b = rng.normal(size=(2, n, 3))
+    if kind == "sphere":
+        return (p / np.linalg.norm(p, axis=1, keepdims=True) * s for p, s in ((p_a, 1.0), (p_b, 1.2)))  # type: ignore
+    if kind == "blob":
+        return 0.1 * p_a + 1, rng.uniform(-1, 1, (n, 3))
+    return p_a, p_b + 0.3
+
+
+def chamfer_peers(p_a: np.ndarray, p_b: np.ndarray) -> dict[str, Task]:
+    peers: dict[str, Task] = {}
+    gicp, pykdtree, o3d = peer("small_gicp"), peer("pykdtree.kdtree"), peer("open3d")
+
+    def squares(*distances) -> float:
+        return sum(float(np.mean(np.asarray(d) ** 2)) for d in distances)
+
+    if gicp:
+
+        def small_gicp() -> float:
+            trees = [gicp.KdTree(p, num_threads=2) for p in (p_a, p_b)]
+            near = [
+                t.batch_nearest_neighbor_search(p, num_threads=2)[1] for t, p in zip(trees, (p_b, p_a), strict=True)
+            ]
+            return float(np.mean(near[0]) + np.mean(near[1]))
+
+        peers["small_gicp"] = small_gicp
+    if pykdtree:
+        peers["pykdtree"] = lambda: squares(pykdtree.KDTree(p_b).query(p_a)[0], pykdtree.KDTree(p_a).query(p_b)[0])
+    if o3d:
+
+        def open3d() -> float:
+            a, b = (o3d.geometry.PointCloud(o3d.utility.Vector3dVector(p)) for p in (p_a, p_b))
+            return squares(a.compute_point_cloud_distance(b), b.compute_point_cloud_distance(a))
+
+        peers["open3d"] = open3d
+    peers["scipy KDTree"] = lambda: squares(
+        scipy.spatial.KDTree(p_b).query(p_a)[0], scipy.spatial.KDTree(p_a).query(p_b)[0]
+    )
+    return peers
+
+
+def emd_peers(p_a: np.ndarray, p_b: np.ndarray, large: bool) -> dict[str, Task]:
+    ot, peers = peer("ot"), {}
+    if ot:
+        w = np.full(len(p_a), 1 / len(p_a))
+        peers["POT emd2"] = lambda: float(ot.emd2(w, w, ot.dist(p_a, p_b, "euclidean"), numItermax=10**7))
+    if not large:
+
+        def assignment() -> float:
+            D = scipy.spatial.distance.cdist(p_a, p_b)
+            return float(D[scipy.optimize.linear_sum_assignment(D)].mean())
+
+        peers["scipy assignment"] = assignment
+    return peers
+
+
+def sinkhorn_peers(cost: np.ndarray, regularisation: float) -> dict[str, Task]:
+    ot = peer("ot")
+    if not ot:
+        return {}
+    w = np.full(len(cost), 1 / len(cost))
+
+    def pot() -> float:  # stops at a 2-norm, ours at a sum: the same plan to 1e-8
+        return float(ot.sinkhorn2(w, w, cost, regularisation, numItermax=10_000, stopThr=1e-9))
+
+    return {"POT sinkhorn": pot}
+
+
+def least_times(task: Task, repeats: int) -> tuple[float, float, float]:
+    """Return the least wall and processor times of a few runs in ms, and the value."""
+    walls, cpus, value = [], [], float("nan")
+    for _ in range(repeats):
+        wall, cpu = time.perf_counter(), time.process_time()
+        value = task()
+        walls.append(1e3 * (time.perf_counter() - wall))
+        cpus.append(1e3 * (time.process_time() - cpu))
+    return min(walls), min(cpus), value
+
+
+def compare(name: str, ours: Task, peers: dict[str, Task], floor: str, repeats: int = 3) -> None:
+    """Print one block: ours, each peer, and the ratios."""
+    wall, own, value = least_times(ours, repeats)
+    print(f"{name:34s} {'ours':17s} wall {wall:8.1f} cpu {own:8.1f} ms   value {value:.9f}   floor {floor}")
+    for peer_name, task in peers.items():
+        wall, theirs, its = least_times(task, repeats)
+        off = "" if abs(its - value) <= 1e-6 * abs(value) else f"   VALUE OFF BY {its - value:+.2e}"
+        print(
+            f"{'':34s} {peer_name:17s} wall {wall:8.1f} cpu {theirs:8.1f} ms   ratio {own / theirs:.2f}{off}",
+            flush=True,
+        )
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--large", action="store_true", help="5000 points as well; minutes")
+    large = parser.parse_args().large
+    rng = np.random.default_rng(11)
+    for n, floor in ((10_000, "1.6-2.0"), (100_000, "1.1-1.4")):
+        for kind in ("gauss", "sphere"):
+            p_a, p_b = clouds(kind, n, rng)
+            compare(
+                f"Chamfer, {n:,} points, {kind}", lambda a=p_a, b=p_b: chamfer(a, b), chamfer_peers(p_a, p_b), floor
+            )
+    for n, floor in ((500, "0.5"), (1000, "0.5"), (2000, "0.8"), *([(5000, "1.1-1.4")] if large else [])):
+        for kind in ("gauss", "sphere", "blob"):
+            p_a, p_b = clouds(kind, n, rng)
+            peers = emd_peers(p_a, p_b, n > 2000)
+            compare(f"EMD exact, {n:,} points, {kind}", lambda a=p_a, b=p_b: earth_movers(a, b), peers, floor, 2)
+    for n in (1000, 5000) if large else (1000, 2000):
+        cost = scipy.spatial.distance.cdist(*clouds("sphere", n, rng))
+        regularisation = 0.05 * float(np.median(cost))
+        compare(
+            f"Sinkhorn, {n:,} points, sphere",
+            lambda c=cost, r=regularisation: sinkhorn(c, r, tolerance=1e-8).cost(c),
+            sinkhorn_peers(cost, regularisation),
+            "0.65",
+            2,
+        )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,195 @@
+"""Distances between two clouds that match each point to the nearest of the other cloud, each by its full name.
+
+All compare p_a (n, 3) with p_b (m, 3), metres, one frame, in any order of rows; the mean square of index pairs is the
+exception, and here to be seen failing. Distances that match one to one are in `workbench.algorithms.transport`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import scipy
+from jaxtyping import Float, Int
+
+Cloud = Float[np.ndarray, "n 3"]
+Definition = Literal["mean of squares", "mean of distances", "sum of squares", "sum of distances"]
+
+DEFINITIONS: dict[Definition, Callable[[np.ndarray], float]] = {
+    "mean of squares": lambda d: float(d @ d / len(d)),
+    "mean of distances": lambda d: float(d.mean()),
+    "sum of squares": lambda d: float(d @ d),
+    "sum of distances": lambda d: float(d.sum()),
+}
+"""What one side of a Chamfer distance makes of its nearest distances: square metres or metres."""
+
+_LARGE = 4000  # points from which threads and an order of queries gain more than they cost
+
+
+@dataclass(frozen=True, eq=False)
+class Nearest:
+    """Nearest neighbours both ways.
+
+    Attributes:
+        a_to_b, b_to_a: For each point, the index of the nearest point of the other cloud.
+        d_a, d_b: The distance to it, metres.
+    """
+
+    a_to_b: Int[np.ndarray, "n"]
+    b_to_a: Int[np.ndarray, "m"]
+    d_a: Float[np.ndarray, "n"]
+    d_b: Float[np.ndarray, "m"]
+
+    def chamfer(self, definition: Definition = "mean of squares") -> float:
+        """Return the two-sided Chamfer distance in one of its definitions: side a plus side b."""
+        return DEFINITIONS[definition](self.d_a) + DEFINITIONS[definition](self.d_b)
+
+    def one_sided(self, definition: Definition = "mean of squares") -> float:
+        """Return the one-sided Chamfer distance from a to b in one of its definitions."""
+        return DEFINITIONS[definition](self.d_a)
+
+    def hausdorff(self) -> float:
+        """Return the largest of all nearest distances of both sides, metres."""
+        return float(max(self.d_a.max(), self.d_b.max()))
+
+    def f_score(self, max_distance: float) -> float:
+        """Return the harmonic mean of the shares of a and of b that lie within max_distance (m) of the other cloud.
+
+        Reference: Knapitsch et al., Tanks and Temples, 2017, section 3.3: precision, recall and their harmonic mean.
+        """
+        precision, recall = float(np.mean(self.d_a <= max_distance)), float(np.mean(self.d_b <= max_distance))
+        return 2 * precision * recall / (precision + recall) if precision + recall > 0 else 0.0
+
+
+def nearest_both_ways(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> Nearest:
+    """Find the nearest neighbour of every point of each cloud in the other.
+
+    Args:
+        p_a: Points, metres.
+        p_b: Points in the same frame.
+
+    Raises:
+        ValueError: If a cloud is empty or holds coordinates that are not finite.
+
+    Note:
+        Of several nearest points, one is taken.
+    """
+    check_clouds(p_a, p_b)
+    tree_a, tree_b = _tree(p_a), _tree(p_b)
+    a_to_b, d_a = _query(tree_b, p_a, tree_a)
+    b_to_a, d_b = _query(tree_a, p_b, tree_b)
+    return Nearest(a_to_b, b_to_a, d_a, d_b)
+
+
+def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
+    """Return the mean, over the points of a, of the squared distance to the nearest point of b.
+
+    Args:
+        p_a: Points, metres.
+        p_b: Points in the same frame; the counts may differ.
+
+    Returns:
+        (1 / n) sum_i min_j |a_i - b_j|^2, in square metres. It is 0 when every point of a is a point of b, however much
+        of b has no point of a near it.
+
+    Raises:
+        ValueError: If a cloud is empty or holds coordinates that are not finite.
+    """
+    check_clouds(p_a, p_b)
+    _, d = _query(_tree(p_b), p_a)
+    return DEFINITIONS["mean of squares"](d)
+
+
+def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
+    """Return the two-sided Chamfer distance of squares and means: from a to b plus from b to a.
+
+    Args:
+        p_a: Points, metres.
+        p_b: Points in the same frame; the counts may differ.
+
+    Returns:
+        (1 / n) sum_i min_j |a_i - b_j|^2 + (1 / m) sum_j min_i |a_i - b_j|^2, in square metres. Symmetric, not negative,
+        0 when each point of either cloud is a point of the other; no metric, since the triangle inequality fails.
+
+    Raises:
+        ValueError: If a cloud is empty or holds coordinates that are not finite.
+
+    Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 1, with means in place of sums.
+    """
+    return nearest_both_ways(p_a, p_b).chamfer()
+
+
+def chamfer_and_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> tuple[float, Cloud]:
+    """Return `chamfer` and its gradient with respect to p_a, in metres.
+
+    Where a point has several nearest neighbours the distance has a kink, and the gradient is that of the one taken.
+    """
+    near = nearest_both_ways(p_a, p_b)
+    gradient = 2 / len(p_a) * (p_a - p_b[near.a_to_b])
+    v = 2 / len(p_b) * (p_a[near.b_to_a] - p_b)
+    for axis in range(3):
+        gradient[:, axis] += np.bincount(near.b_to_a, v[:, axis], minlength=len(p_a))
+    return near.chamfer(), gradient
+
+
+def one_sided_and_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> tuple[float, Cloud]:
+    """Return `one_sided` from a to b and its gradient with respect to p_a, in metres."""
+    check_clouds(p_a, p_b)
+    a_to_b, d = _query(_tree(p_b), p_a)
+    return DEFINITIONS["mean of squares"](d), 2 / len(p_a) * (p_a - p_b[a_to_b])
+
+
+def hausdorff(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
+    """Return the Hausdorff distance in metres: how far the loneliest point of either cloud is from the other cloud."""
+    return nearest_both_ways(p_a, p_b).hausdorff()
+
+
+def f_score(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"], max_distance: float) -> float:
+    """Return the F-score, 0 to 1, of two clouds at a distance in metres; see `Nearest.f_score`."""
+    return nearest_both_ways(p_a, p_b).f_score(max_distance)
+
+
+def index_mse(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> float:
+    """Return the mean squared distance, in square metres, between rows of the same index.
+
+    Raises:
+        ValueError: If the counts differ or a cloud is empty or not finite.
+
+    Note:
+        It measures the order of the rows as much as the shapes: shuffle one cloud and it changes.
+    """
+    check_clouds(p_a, p_b)
+    if len(p_a) != len(p_b):
+        raise ValueError(f"pairs by index need equal counts, not {len(p_a)} and {len(p_b)}")
+    return float(np.mean(np.sum((p_a - p_b) ** 2, axis=1)))
+
+
+def check_clouds(*clouds: np.ndarray) -> None:
+    """Refuse empty clouds and coordinates that are not finite."""
+    for p in clouds:
+        if len(p) == 0:
+            raise ValueError("a cloud has no points")
+        if not np.isfinite(p).all():
+            raise ValueError("a cloud has coordinates that are not finite; drop those points first")
+
+
+def _tree(p: np.ndarray) -> "scipy.spatial.KDTree":
+    return scipy.spatial.KDTree(
+        p, leafsize=32, balanced_tree=False, compact_nodes=False
+    )  # the fastest of all mixtures tried
+
+
+def _query(
+    tree: "scipy.spatial.KDTree", p: np.ndarray, tree_of_p: "scipy.spatial.KDTree | None" = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the indices and distances of the nearest points.
+
+    Large clouds are visited in the order of their own tree, so that neighbouring queries touch the same leaves.
+    """
+    if len(p) < _LARGE:
+        d, indices = tree.query(p)
+        return np.asarray(indices), np.asarray(d)
+    order = (tree_of_p or _tree(p)).indices
+    indices, d = np.empty(len(p), np.intp), np.empty(len(p))
+    d[order], indices[order] = tree.query(p[order], workers=-1)
+    return indices, d
