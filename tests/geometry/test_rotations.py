@@ -185,6 +185,12 @@ def test_quaternion_there_and_back(R):
     )
 
 
+def test_the_quaternion_of_half_a_turn_has_no_negative_w():
+    rng = np.random.default_rng(5)
+    for axis in rng.normal(size=(200, 3)):
+        assert quaternion_from_matrix(rotation_from_axis_angle(axis, np.pi))[0] >= 0
+
+
 @given(rotations, rotations)
 def test_quaternions_multiply_as_rotations_do(A, B):
     q = quaternion_product(quaternion_from_matrix(A), quaternion_from_matrix(B))

@@ -222,6 +222,14 @@ def test_every_way_starts_and_ends_at_the_poses(method):
     assert all(is_rigid(state.T_world_body) == (method != "matrix entries") for state in states[1:-1])
 
 
+def test_the_handle_carries_the_end_pose():
+    pose = (1.0, 0.5, 0.2, 0.3, -0.2, 0.9)
+    w = np.array(pose[3:])
+    R_end = rotation_from_axis_angle(w, float(np.linalg.norm(w))) @ euler_to_matrix(np.radians(MOVE.angles_end), "xyz")
+    state = moved(dataclasses.replace(MOVE, pose=pose))[0]
+    np.testing.assert_allclose(state.T_world_end, motion(R_end, np.array(pose[:3])), atol=1e-14)
+
+
 def test_slerp_is_the_shortest_turn_at_constant_speed():
     states = moved(MOVE)
     assert max(state.off for state in states) < 1e-6

@@ -61,11 +61,11 @@ def sharp_edges(
 ) -> Int[np.ndarray, "e 2"]:
     """Return the edges at which two faces meet at more than an angle in radians, or that only one face has."""
     ends = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    edge, inverse, count = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    edge, inverse = np.unique(ends, axis=0, return_inverse=True)
     total = np.zeros((len(edge), 3))
     np.add.at(total, inverse.ravel(), np.repeat(face_normals(p, faces), 3, axis=0))
-    # Two unit normals at the angle a add up to a vector of length 2 cos(a / 2).
-    return edge[(count != 2) | (np.linalg.norm(total, axis=1) < 2.0 * np.cos(0.5 * angle))]
+    # Two unit normals at the angle a add up to a vector of length 2 cos(a / 2), a single one to length 1.
+    return edge[np.linalg.norm(total, axis=1) < 2.0 * np.cos(0.5 * angle)]
 
 
 def _of_polygons(p: np.ndarray, polygons: tuple[tuple[int, ...], ...]) -> Solid:
