@@ -27,12 +27,14 @@ ALLOWED = {
     "workbench.links": LESSON,
     "workbench.picking": DRAWING,
     "workbench.typeset": BASE,
+    "workbench.images": set(),
     "workbench.session": LESSON | {"workbench.session"},
-    "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links"},
+    "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
+                                     "workbench.images"},
     "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.session"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.recording", "workbench.viewer", "workbench.typeset", "workbench.session",
-        "workbench.links",
+        "workbench.links", "workbench.images",
     },
     "workbench.viewer": LESSON | {
         "workbench.viewer", "workbench.session", "workbench.links", "workbench.picking", "workbench.typeset",

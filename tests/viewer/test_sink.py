@@ -140,3 +140,13 @@ def test_repainting_keeps_what_is_shown(sink, scenes):
     sink.repaint((20, 20, 20))
     assert same(before, sink.shown())
     assert all(in_space(primitive) for primitive in before.values())
+
+
+def test_a_path_below_another_does_not_move_with_it(server, sink):
+    moved = np.eye(4)
+    moved[:3, 3] = (5.0, 0.0, 0.0)
+    p = np.zeros((1, 3))
+    sink.show({"camera": Points(p, T_world_object=moved), "camera/point": Points(p, T_world_object=moved)})
+    parents = {name for name in nodes(server) if any(other.startswith(name + "/") for other in nodes(server))}
+    assert not parents
+    np.testing.assert_allclose(sink.handle("camera/point").position, (5.0, 0.0, 0.0))

@@ -11,8 +11,8 @@ import viser
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.lesson import Lesson
 from workbench.images import png
+from workbench.lesson import Lesson
 from workbench.scene import PALETTE, Curve, Field, Picture, Scene, Table, in_space
 from workbench.timeline import Timeline
 from workbench.viewer.charts import table_html
@@ -43,7 +43,12 @@ class Renderer:
         view = timeline.lesson.view
         self._server.scene.reset()
         camera = self._server.initial_camera
-        camera.position, camera.look_at, camera.up, camera.fov = view.eye, view.target, view.up, float(np.radians(view.fov_degrees))
+        camera.position, camera.look_at, camera.up, camera.fov = (
+            view.eye,
+            view.target,
+            view.up,
+            float(np.radians(view.fov_degrees)),
+        )
         add_floor(self._server.scene, view)
         sink = ViserSink(self._server.scene)
         sink.show(timeline[0].scene)
@@ -146,5 +151,7 @@ def _number(value: float) -> float | None:
 
 def reopening(lesson: Lesson, params: Any) -> str:
     """Return the command that opens a run live."""
-    flags = "".join(f" --{name.replace('_', '-')} {value.replace(',', ' ')}" for name, value in knobs.changed(params).items())
+    flags = "".join(
+        f" --{name.replace('_', '-')} {value.replace(',', ' ')}" for name, value in knobs.changed(params).items()
+    )
     return f"workbench show {lesson.name}{flags}"

@@ -84,7 +84,7 @@ class ViserSink:
                 node.shown = wanted
                 return
             node.handle.remove()
-        self._nodes[path] = _Node(wanted, self._add(ROOT + path, wanted))
+        self._nodes[path] = _Node(wanted, self._add(ROOT + path.replace("/", "·"), wanted))  # no parents: poses compose
 
     def _moved(self, node: _Node, wanted: Spatial) -> bool:
         """Set the pose where nothing but a rigid pose differs."""

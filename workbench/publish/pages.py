@@ -1,0 +1,155 @@
+"""The HTML of a published site. Whatever comes from a lesson or its params is escaped or typeset here."""
+
+import json
+from collections.abc import Mapping, Sequence
+from html import escape
+
+from workbench.lesson import Lesson, Question
+from workbench.session import SPEEDS, Session
+from workbench.timeline import Timelines
+from workbench.typeset import inline_html, page_html
+
+HEAD = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+<meta name="description" content="{summary}">
+<link rel="icon" href="data:,">
+<link rel="stylesheet" href="{root}site.css">
+<link rel="stylesheet" href="{root}math.css">
+{extra}</head>
+"""
+TOP = """<a class="skip" href="#main">To the content</a>
+<header class="top"><a href="{root}index.html">Geometry workbench</a>{here}</header>
+"""
+
+
+def course_page(lessons: Sequence[Lesson], extra: str = "") -> str:
+    """Return the page of the course: all lessons in order."""
+    cards = "".join(
+        f'<div class="card"><h2>{number}. <a href="{lesson.name}/index.html">{escape(lesson.title)}</a></h2>'
+        f"<div>{escape(lesson.summary)}</div></div>\n"
+        for number, lesson in enumerate(lessons, 1)
+    )
+    head = HEAD.format(
+        title="Geometry workbench", summary="Algorithms of 3D vision, step by step", root="", extra=extra
+    )
+    return (
+        f"{head}<body>{TOP.format(root='', here='')}"
+        '<main id="main" class="course"><h1>Geometry workbench</h1>'
+        "<p>Every lesson is one algorithm that you can watch, step back through and break. Predict first, then look.</p>"
+        f"{cards}</main></body></html>\n"
+    )
+
+
+def lesson_page(lesson: Lesson, runs: Mapping[str, tuple[str, str]], timelines: Timelines, extra: str = "") -> str:
+    """Return a lesson's page.
+
+    Args:
+        lesson: What it teaches.
+        runs: Run name -> (title, line), the default first.
+        timelines: Where the runs that answer the questions are kept.
+        extra: More for the head, such as a canonical address.
+    """
+    before, after = _around_predict(page_html(lesson.page.read_text(encoding="utf-8")))
+    questions = "".join(_question(lesson, question, timelines) for question in lesson.questions)
+    buttons = "".join(
+        f'<li><button type="button" data-run="{escape(name)}" aria-pressed="false">{escape(title)}'
+        f"<small>{escape(line)}</small></button></li>"
+        for name, (title, line) in runs.items()
+    )
+    head = HEAD.format(title=escape(lesson.title), summary=escape(lesson.summary), root="../", extra=extra)
+    return (
+        f"{head}<body>{TOP.format(root='../', here=f'<span>{escape(lesson.title)}</span>')}"
+        f'<main id="main"><div class="wb">{before}{questions}{after}</div>'
+        f'<div id="stage"><section aria-label="Replay">{_player("default")}</section>'
+        f'<h2>Runs</h2><ul class="runs">{buttons}</ul></div></main>'
+        '<script src="../player.js"></script></body></html>\n'
+    )
+
+
+def embed_page(lesson: Lesson, name: str, title: str) -> str:
+    """Return the page of one run alone, for an iframe on a slide or a learning platform."""
+    head = HEAD.format(
+        title=f"{escape(lesson.title)}: {escape(title)}", summary=escape(lesson.summary), root="../../", extra=""
+    )
+    player = _player(name).replace('data-root="../"', 'data-root="../../"')
+    return (
+        f'{head}<body class="embed"><main id="main">'
+        f'<h1 class="skip">{escape(lesson.title)}: {escape(title)}</h1>{player}</main>'
+        # the player looks for its run beside the lesson's page
+        '<script>document.head.append(Object.assign(document.createElement("base"), {href: "../"}))</script>'
+        '<script src="../player.js"></script></body></html>\n'
+    )
+
+
+def _player(run: str) -> str:
+    speeds = "".join(
+        f'<option value="{s:g}"{" selected" if s == 1 else ""}>{s:g} step{"" if s == 1 else "s"} a second</option>'
+        for s in SPEEDS
+    )
+    buttons = "".join(
+        f'<button type="button" data-act="{verb}"{" id=play" if verb == "play" else ""}>{verb.title()}</button>'
+        for verb in ("first", "back", "play", "next", "last")
+    )
+    return (
+        f'<div id="player" data-open="{escape(run)}" data-root="../"><div><div id="scene"></div>'
+        '<p id="caption" role="status" aria-live="polite"></p><div id="legend"></div>'
+        f'<div class="controls"><span id="count"></span>{buttons}'
+        '<input id="step" type="range" min="0" max="0" value="0" aria-label="Step">'
+        f'<select id="speed" aria-label="Speed">{speeds}</select></div>'
+        '<details class="take"><summary>Take this run along</summary>'
+        '<p><a id="rrd" href="runs/default.rrd" download>Recording for Rerun (.rrd)</a> · '
+        '<a id="embed" href="runs/default.html">this run alone</a></p>'
+        'Live, where the workbench is installed:<pre id="reopen"></pre>'
+        'In a page of your own:<pre id="iframe-line"></pre></details>'
+        '</div><div id="beside" tabindex="0" role="region" aria-label="Curves and pictures of this step">'
+        '<div id="series"></div><div id="things"></div></div></div>'
+    )
+
+
+def _question(lesson: Lesson, question: Question, timelines: Timelines) -> str:
+    answer = Session(lesson, timelines).answer(question, None)
+    states = timelines.get(lesson, question.params).states()
+    truth = question.answer(states)
+    right = question.choices[int(truth)] if question.choices else [truth, question.tolerance]
+    kept = {
+        "truth": answer.truth,
+        "right": right,
+        "why": answer.why,
+        "run": question_run(lesson, question),
+        "step": question.step if question.step is not None else len(states) - 1,
+    }
+    if question.choices:
+        inputs = "".join(
+            f'<label><input type="radio" name="given" value="{escape(choice)}"> {escape(choice)}</label>'
+            for choice in question.choices
+        )
+    else:
+        unit = escape(f" ({question.unit})") if question.unit else ""
+        inputs = f'<label>Your prediction{unit} <input type="number" step="any" name="given"></label>'
+    return (
+        f'<form class="question" data-answer="{escape(json.dumps(kept))}"><fieldset>'
+        f"<legend>{inline_html(question.text)}</legend>{inputs}</fieldset>"
+        '<button type="submit" value="answer">Answer</button> <button type="submit" value="skip">Skip and show me</button>'
+        '<output aria-live="polite"></output></form>'
+    )
+
+
+def question_run(lesson: Lesson, question: Question) -> str:
+    """Return the name of the run that answers a question: a preset's or the default's where they are the same."""
+    if question.params == lesson.params():
+        return "default"
+    for preset in lesson.presets:
+        if preset.params == question.params:
+            return preset.name
+    return question.name
+
+
+def _around_predict(html: str) -> tuple[str, str]:
+    """Split a page where its questions belong: behind the section that asks to predict, else at the end."""
+    start = html.find('<section class="s-predict')
+    end = html.find("</section>", start) + len("</section>") if start >= 0 else len(html)
+    return html[:end], html[end:]
