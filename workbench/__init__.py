@@ -1,3 +1,18 @@
 """A visual workbench for geometry estimation: watch, touch, record and grade the algorithms of 3D vision."""
 
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from workbench.recording.read import open_recording as open_recording
+    from workbench.recording.write import record as record
+
 __version__ = "0.1.0"
+
+
+def __getattr__(name: str) -> Any:
+    """Import `record` and `open_recording` when they are asked for: the rest starts without rerun."""
+    if name in ("record", "open_recording"):
+        from workbench import recording
+
+        return getattr(recording, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

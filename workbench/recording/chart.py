@@ -20,9 +20,6 @@ LEFT, RIGHT, TOP, BOTTOM = 40.0, 290.0, 24.0, 138.0  # the frame of a chart on i
 LEGEND_WIDTH, LEGEND_ROW = 760.0, 38.0
 GREY = (115, 121, 129)
 
-Named = tuple[str, Any]
-"""A name below the chart's entity, and the archetype that is logged there."""
-
 
 @dataclass(frozen=True)
 class _Scale:
@@ -37,10 +34,21 @@ class _Scale:
         return self.start + (np.asarray(value) - self.low) / (self.high - self.low) * (self.end - self.start)
 
 
-def chart(curves: Sequence[Curve]) -> list[Named]:
-    """Return one chart of all curves that share it."""
+def frame_key(curves: Sequence[Curve]) -> tuple[object, ...]:
+    """Return what the frame of a chart depends on."""
+    names = [(curve.name, curve.color, curve.x_label, curve.y_label) for curve in curves]
+    return (_scales(curves), names)
+
+
+def chart_frame(curves: Sequence[Curve]) -> list[Any]:
+    """Return the axes, ticks and words of a chart of all curves that share it."""
     x, y = _scales(curves)
-    drawn: list[Named] = [("frame", _frame(x, y)), ("words", _words(x, y, curves))]
+    return [_frame(x, y), _words(x, y, curves)]
+
+
+def chart_curves(curves: Sequence[Curve]) -> list[Any]:
+    """Return what stands inside the frame: lines, bars, dots and marks."""
+    x, y = _scales(curves)
     strips: list[np.ndarray] = []
     colors: list[tuple[int, int, int]] = []
     dots: list[np.ndarray] = [np.empty((0, 2))]
@@ -48,23 +56,25 @@ def chart(curves: Sequence[Curve]) -> list[Named]:
     for curve in curves:
         known = np.isfinite(curve.y)
         at = np.column_stack([x(curve.x), y(np.where(known, curve.y, 0.0))])
-        if curve.kind == "dots":
-            dots.append(at[known])
-            dot_colors += [PALETTE[curve.color]] * int(known.sum())
-        else:
+        lonely = known & ~np.r_[False, known[:-1]] & ~np.r_[known[1:], False]  # a line of one point is a dot
+        if curve.kind == "dots" or (curve.kind == "line" and lonely.any()):
+            shown = known if curve.kind == "dots" else lonely
+            dots.append(at[shown])
+            dot_colors += [PALETTE[curve.color]] * int(shown.sum())
+        if curve.kind != "dots":
             pieces = _bars(curve, x, y) if curve.kind == "bars" else _pieces(at, known)
             strips += pieces
             colors += [PALETTE[curve.color]] * len(pieces)
         for mark in curve.marks:
             strips.append(np.array([[x(mark), TOP], [x(mark), BOTTOM]]))
             colors.append(PALETTE["highlight"])
-    drawn.append(("curves", rr.LineStrips2D(strips, colors=colors, radii=rr.Radius.ui_points(0.9), draw_order=20.0)))
-    size = rr.Radius.ui_points(2.5)
-    drawn.append(("dots", rr.Points2D(np.concatenate(dots), colors=dot_colors, radii=size, draw_order=21.0)))
-    return drawn
+    return [
+        rr.LineStrips2D(strips, colors=colors, radii=rr.Radius.ui_points(0.9), draw_order=20.0),
+        rr.Points2D(np.concatenate(dots), colors=dot_colors, radii=rr.Radius.ui_points(2.5), draw_order=21.0),
+    ]
 
 
-def color_bar(field: Field, x: float, y: float, width: float, height: float = 10.0) -> list[Named]:
+def color_bar(field: Field, x: float, y: float, width: float, height: float = 10.0) -> list[Any]:
     """Return a colour bar from (x, y) to the right and down, with its ends, title and unit below it."""
     n = 64
     left = x + np.arange(n) * width / n
@@ -74,23 +84,20 @@ def color_bar(field: Field, x: float, y: float, width: float, height: float = 10
     below = y + 1.4 * height
     words = [number(field.low), _with_unit(field.title, field.unit), number(field.high)]
     places = np.array([[x, below], [x + width / 2, below], [x + width, below]])
-    return [
-        ("bar", rr.LineStrips2D(strips, colors=colors, radii=height / 2, draw_order=20.0)),
-        ("ends", _text(places, words)),
-    ]
+    return [rr.LineStrips2D(strips, colors=colors, radii=height / 2, draw_order=20.0), _text(places, words)]
 
 
-def legend(entries: Sequence[tuple[str, tuple[int, int, int]]], fields: Sequence[Field]) -> list[Named]:
-    """Return coloured dots with names, and one colour bar per field, in rows of `LEGEND_WIDTH`."""
-    places, rows = _legend_places(entries)
+def legend_names(entries: Sequence[tuple[str, tuple[int, int, int]]]) -> list[Any]:
+    """Return coloured dots with names below them, in rows of `LEGEND_WIDTH`."""
+    places, _ = _legend_places(entries)
     words, colors = [safe(name) for name, _ in entries], [color for _, color in entries]
-    dots = rr.Points2D(places, labels=words, colors=colors, radii=rr.Radius.ui_points(5.0), show_labels=True)
-    drawn: list[Named] = [("names", dots)]
-    room = LEGEND_WIDTH / max(len(fields), 2)
-    for i, field in enumerate(fields):
-        bar = color_bar(field, 30.0 + i * room, rows * LEGEND_ROW, room - 60.0)
-        drawn += [(f"{name}{i}", what) for name, what in bar]
-    return drawn
+    return [rr.Points2D(places, labels=words, colors=colors, radii=rr.Radius.ui_points(5.0), show_labels=True)]
+
+
+def legend_bar(field: Field, i: int, bars: int, entries: Sequence[tuple[str, tuple[int, int, int]]]) -> list[Any]:
+    """Return the i-th of so many colour bars, below the names."""
+    room = LEGEND_WIDTH / max(bars, 2)
+    return color_bar(field, 30.0 + i * room, _legend_places(entries)[1] * LEGEND_ROW, room - 60.0)
 
 
 def legend_height(entries: Sequence[tuple[str, tuple[int, int, int]]], bars: int) -> float:

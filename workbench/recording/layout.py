@@ -1,158 +1,66 @@
 """The layout a recording opens with: the scene with its legend and caption left, curves, charts and pictures right."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from workbench.lesson import Lesson, View
-from workbench.recording.chart import HEIGHT, LEGEND_WIDTH, WIDTH, legend_height
+from workbench.lesson import View
+from workbench.recording.chart import LEGEND_WIDTH
+from workbench.recording.contents import Canvas, Contents, canvases, plotted_values
 from workbench.recording.glyphs import safe
-from workbench.recording.sink import chart_entity, entity_of, legend_of
-from workbench.scene import Curve, Field, Picture, Scalar, Scene, Table, in_space
+from workbench.recording.sink import entity_of
+from workbench.scene import Scalar
 
 RERUN_FOV = 55.0  # degrees, of the viewer's eye, from top to bottom
 MOST_ROWS = 5.0
 """Shares of height in the column beside the scene; what is more goes behind a tab."""
 
-
-@dataclass
-class Contents:
-    """What a run shows beside its scene, in order of appearance."""
-
-    scalars: dict[str, dict[str, Scalar]] = field(default_factory=dict)  # chart -> path -> the first of them
-    values: dict[str, list[tuple[int, float]]] = field(default_factory=dict)  # chart -> what is plotted, by step
-    charts: dict[str, int] = field(default_factory=dict)  # title -> the step at which it appears
-    pictures: dict[str, tuple[int, Picture]] = field(default_factory=dict)  # path -> the same, and the first of them
-    tables: bool = False
-    legend_height: float = 0.0
+Values = Mapping[str, np.ndarray]
+"""A run's scalars by path, a value per step."""
 
 
-def contents_of(scenes: Sequence[Scene]) -> Contents:
-    """Return what all scenes of a run show."""
-    found = Contents()
-    for k, scene in enumerate(scenes):
-        for path, primitive in scene.items():
-            if isinstance(primitive, Scalar):
-                found.scalars.setdefault(primitive.chart, {}).setdefault(path, primitive)
-                found.values.setdefault(primitive.chart, []).append((k, plotted_value(primitive)))
-            elif isinstance(primitive, Curve):
-                found.charts.setdefault(primitive.chart, k)
-            elif isinstance(primitive, Picture) and not in_space(primitive):
-                found.pictures.setdefault(path, (k, primitive))
-            elif isinstance(primitive, Table):
-                found.tables = True
-        entries, fields = legend_of(scene)
-        found.legend_height = max(found.legend_height, legend_height(entries, len(fields)))
-    return found
-
-
-def later(contents: Contents) -> dict[str, tuple[int, tuple[float, float]]]:
-    """Return the canvases that are empty at first: at which step something appears, and where their middle is."""
-    charts = {chart_entity(title): (k, (WIDTH / 2, HEIGHT / 2)) for title, k in contents.charts.items()}
-    pictures = {
-        entity_of("pictures", path): (k, (_shape(picture)[1] / 2, _shape(picture)[0] / 2))
-        for path, (k, picture) in contents.pictures.items()
-    }
-    return {entity: found for entity, found in (charts | pictures).items() if found[0] > 0}
-
-
-def plotted_value(scalar: Scalar) -> float:
-    """Return what is plotted: the value or its logarithm; NaN where there is none."""
-    value = float(scalar.value)
-    if not scalar.log:
-        return value
-    return float(np.log10(value)) if value > 0 else float("nan")
-
-
-def blueprint(lesson: Lesson, contents: Contents, steps: int) -> Any:
-    """Return the layout of one run of a lesson."""
-    left: list[Any] = [rrb.Tabs(scene_view("/", lesson.view), page_view(), active_tab=0)]
+def one_run(view: View, contents: Contents, values: Values) -> Any:
+    """Return the layout of one run, seen as its lesson is first seen."""
+    left: list[Any] = [rrb.Tabs(scene_view("", view, "Scene"), page_view(), active_tab=0)]
     shares = [7.0]
     if contents.legend_height:
-        left.append(_canvas("/legend", "Legend", LEGEND_WIDTH, contents.legend_height, top=-2.0))
-        shares.append(0.5 + contents.legend_height / 70.0)
-    left.append(rrb.TextDocumentView(origin="/caption", name="What happened"))
+        left.append(legend_view("", contents))
+        shares.append(legend_share(contents))
+    left.append(caption_view(""))
     shares.append(1.7)
-    right = beside(contents, steps, ("",))
+    right = _column(_beside(contents, {"": values}))
     whole = rrb.Vertical(*left, row_shares=shares)
     return finished(rrb.Horizontal(whole, right, column_shares=[3, 2]) if right is not None else whole)
 
 
-def beside(contents: Contents, steps: int, roots: Sequence[str]) -> Any:
-    """Return the column of curves, charts, pictures and tables; curves of several runs (their roots) share a plot."""
-    plots = [curve_view(contents, title, steps, roots) for title in contents.scalars]
-    charts = [
-        _canvas(root + chart_entity(title), title, WIDTH, HEIGHT, root) for title in contents.charts for root in roots
+def two_runs(view: View, contents: Contents, runs: Mapping[str, Values], names: Mapping[str, str]) -> Any:
+    """Return the layout of two runs, given by their root entities: scenes side by side, curves in the same plots."""
+    scenes = [
+        rrb.Vertical(scene_view(root, view, names[root]), caption_view(root), row_shares=[4, 1.4]) for root in runs
     ]
-    pictures = [
-        _picture_view(root, path, picture) for path, (_, picture) in contents.pictures.items() for root in roots
-    ]
-    tables = [
-        rrb.TextDocumentView(origin=f"{root}/tables", name=_titled("Numbers", root))
-        for root in roots
-        if contents.tables
-    ]
-    rows = [
-        *_rows(plots, 1.0, 1 if len(plots) < 3 else 2),
-        *_rows(charts, 1.3, 2),
-        *_rows(pictures, 1.4, 2),
-        *_rows(tables, 1.0, 2),
-    ]
-    columns: list[list[tuple[Any, float]]] = [[]]
-    for row in rows:
-        if columns[-1] and sum(share for _, share in columns[-1]) + row[1] > MOST_ROWS:
-            columns.append([])
-        columns[-1].append(row)
-    if not rows:
-        return None
-    names = ("Beside the scene", *["More"] * (len(columns) - 1))
-    stacks = [
-        rrb.Vertical(*(view for view, _ in column), row_shares=[share for _, share in column], name=name)
-        for name, column in zip(names, columns, strict=True)
-    ]
-    return stacks[0] if len(stacks) == 1 else rrb.Tabs(*stacks, active_tab=0)
+    rows, shares = [rrb.Horizontal(*scenes)], [4.0]
+    if contents.legend_height:
+        rows.append(legend_view(next(iter(runs)), contents))
+        shares.append(0.5 * legend_share(contents))
+    rows.append(rrb.TextDocumentView(origin="/differences", name="What differs"))
+    left = rrb.Vertical(*rows, row_shares=[*shares, 1.1])
+    right = _column(_beside(contents, runs))
+    return finished(rrb.Horizontal(left, right, column_shares=[3, 2]) if right is not None else left)
 
 
-def _rows(views: Sequence[Any], share: float, at_once: int) -> list[tuple[Any, float]]:
-    """Return views in rows of so many, each with its share of the height."""
-    chunks = [views[i : i + at_once] for i in range(0, len(views), at_once)]
-    return [(rrb.Horizontal(*chunk) if len(chunk) > 1 else chunk[0], share) for chunk in chunks]
-
-
-def scene_view(root: str, view: View, name: str = "Scene") -> Any:
+def scene_view(root: str, view: View, name: str) -> Any:
     """Return the view in space, seen from where the lesson is first seen."""
-    origin = f"{root.rstrip('/')}/world"
     x, y, z = view.up
-    grid = (
-        rrb.LineGrid3D(visible=False)
-        if view.grid is None
-        else rrb.LineGrid3D(
-            visible=True,
-            spacing=view.grid,
-            plane=rr.components.Plane3D(normal=(x, y, z), distance=view.grid_height),
-            stroke_width=1.0,
-            color=[150, 155, 160, 110],
-        )
-    )
-    return rrb.Spatial3DView(
-        origin=origin,
-        name=name,
-        line_grid=grid,
-        eye_controls=rrb.EyeControls3D(
-            kind=rrb.Eye3DKind.Orbital, position=_eye(view), look_target=view.target, eye_up=view.up
-        ),
-    )
-
-
-def _eye(view: View) -> np.ndarray:
-    """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's does."""
-    target = np.array(view.target)
-    share = np.tan(np.radians(view.fov_degrees) / 2) / np.tan(np.radians(RERUN_FOV) / 2)
-    return target + (np.array(view.eye) - target) * share
+    grid = rrb.LineGrid3D(visible=False)
+    if view.grid is not None:
+        plane = rr.components.Plane3D(normal=(x, y, z), distance=view.grid_height)
+        color = [150, 155, 160, 110]
+        grid = rrb.LineGrid3D(visible=True, spacing=view.grid, plane=plane, stroke_width=1.0, color=color)
+    eye = rrb.EyeControls3D(kind=rrb.Eye3DKind.Orbital, position=_eye(view), look_target=view.target, eye_up=view.up)
+    return rrb.Spatial3DView(origin=f"{root}/world", name=safe(name), line_grid=grid, eye_controls=eye)
 
 
 def page_view(root: str = "") -> Any:
@@ -160,41 +68,19 @@ def page_view(root: str = "") -> Any:
     return rrb.TextDocumentView(origin=f"{root}/page", name="Lesson")
 
 
-def curve_view(contents: Contents, title: str, steps: int, roots: Sequence[str]) -> Any:
-    """Return a plot of scalars over all steps, with a cursor at the current one."""
-    scalars = contents.scalars[title]
-    values = [(k, value) for k, value in contents.values[title] if np.isfinite(value)] or [(0, 0.0), (0, 1.0)]
-    low, high = min(value for _, value in values), max(value for _, value in values)
-    room = 0.06 * (high - low) or 0.5 * abs(high) or 0.5
-    paths = [root + plotted(path, scalar) for root in roots for path, scalar in scalars.items()]
-    unit = next((scalar.unit for scalar in scalars.values() if scalar.unit), "")
-    infinite = rrb.TimeRangeBoundary.infinite()
-    return rrb.TimeSeriesView(
-        origin="/",
-        contents=paths,
-        name=safe(f"{title} ({unit})" if unit else title),
-        axis_x=rrb.TimeAxis(
-            view_range=rr.TimeRange(
-                start=rrb.TimeRangeBoundary.absolute(seq=0), end=rrb.TimeRangeBoundary.absolute(seq=max(steps - 1, 1))
-            )
-        ),
-        axis_y=rrb.ScalarAxis(range=(low - room, high + room)),
-        time_ranges=[rrb.VisibleTimeRange("step", start=infinite, end=infinite)],
-        plot_legend=rrb.PlotLegend(visible=True, corner=_emptiest(values, steps, low, high)),
-    )
+def caption_view(root: str) -> Any:
+    """Return the view of what happened in the current step."""
+    return rrb.TextDocumentView(origin=f"{root}/caption", name="What happened")
 
 
-def _emptiest(values: Sequence[tuple[int, float]], steps: int, low: float, high: float) -> Any:
-    """Return the corner of a plot in which the fewest values lie, so that the legend covers none."""
-    x = np.array([k for k, _ in values]) / max(steps - 1, 1)
-    y = (np.array([value for _, value in values]) - low) / ((high - low) or 1.0)
-    corners = {
-        rrb.Corner2D.RightTop: (x > 0.5) & (y > 0.6),
-        rrb.Corner2D.LeftTop: (x < 0.5) & (y > 0.6),
-        rrb.Corner2D.RightBottom: (x > 0.5) & (y < 0.4),
-        rrb.Corner2D.LeftBottom: (x < 0.5) & (y < 0.4),
-    }
-    return min(corners, key=lambda corner: int(np.count_nonzero(corners[corner])))
+def legend_view(root: str, contents: Contents) -> Any:
+    """Return the view of names and colour bars."""
+    return _canvas_view(f"{root}/legend", Canvas("Legend", LEGEND_WIDTH, contents.legend_height, 0))
+
+
+def legend_share(contents: Contents) -> float:
+    """Return how much height the legend needs, where the scene has 7."""
+    return 0.5 + contents.legend_height / 70.0
 
 
 def plotted(path: str, scalar: Scalar) -> str:
@@ -215,23 +101,99 @@ def finished(content: Any) -> Any:
     )
 
 
-def _canvas(entity: str, name: str, width: float, height: float, root: str = "", top: float = 0.0) -> Any:
-    return rrb.Spatial2DView(
-        origin=entity,
-        name=_titled(name, root),
-        visual_bounds=rrb.VisualBounds2D(x_range=[-0.01 * width, 1.01 * width], y_range=[top, height]),
+def _beside(contents: Contents, runs: Mapping[str, Values]) -> list[tuple[Any, float]]:
+    """Return rows of curves, charts, pictures and tables, each with its share of the height."""
+    plots = [_curve_view(chart, scalars, runs) for chart, scalars in contents.scalars.items()]
+    beside = {
+        entity: [_canvas_view(root + entity, canvas, root) for root in runs]
+        for entity, canvas in canvases(contents).items()
+    }
+    charts = [view for entity, views in beside.items() if entity.startswith("/charts/") for view in views]
+    pictures = [view for entity, views in beside.items() if entity.startswith("/pictures/") for view in views]
+    tables = [rrb.TextDocumentView(origin=f"{root}/tables", name=_titled("Numbers", root)) for root in runs]
+    return [
+        *_rows(plots, 1.0, 1 if len(plots) < 3 else 2),
+        *_rows(charts, 1.3, 2),
+        *_rows(pictures, 1.4, 2),
+        *_rows(tables if contents.tables else [], 1.0, 2),
+    ]
+
+
+def _rows(views: Sequence[Any], share: float, at_once: int) -> list[tuple[Any, float]]:
+    chunks = [views[i : i + at_once] for i in range(0, len(views), at_once)]
+    return [(rrb.Horizontal(*chunk) if len(chunk) > 1 else chunk[0], share) for chunk in chunks]
+
+
+def _column(rows: Sequence[tuple[Any, float]]) -> Any:
+    """Return rows below each other, those that do not fit behind further tabs; None where there is no row."""
+    stacks: list[list[tuple[Any, float]]] = []
+    for row in rows:
+        if not stacks or sum(share for _, share in stacks[-1]) + row[1] > MOST_ROWS:
+            stacks.append([])
+        stacks[-1].append(row)
+    views = [
+        rrb.Vertical(
+            *(view for view, _ in stack),
+            row_shares=[share for _, share in stack],
+            name="More" if i else "Beside the scene",
+        )
+        for i, stack in enumerate(stacks)
+    ]
+    return None if not views else views[0] if len(views) == 1 else rrb.Tabs(*views, active_tab=0)
+
+
+def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Values]) -> Any:
+    """Return a plot of scalars over all steps, with a cursor at the current one."""
+    unit = next((scalar.unit for scalar in scalars.values() if scalar.unit), "")
+    curves = [
+        plotted_values(scalar, values[path])
+        for values in runs.values()
+        for path, scalar in scalars.items()
+        if path in values
+    ]
+    steps = max(map(len, curves))
+    x = np.concatenate([np.arange(len(curve)) for curve in curves])
+    y = np.concatenate(curves)
+    x, y = (x[np.isfinite(y)], y[np.isfinite(y)]) if np.isfinite(y).any() else (np.zeros(1), np.zeros(1))
+    low, high = float(y.min()), float(y.max())
+    room = 0.06 * (high - low) or 0.5 * abs(high) or 0.5
+    end, infinite = rrb.TimeRangeBoundary.absolute(seq=max(steps - 1, 1)), rrb.TimeRangeBoundary.infinite()
+    return rrb.TimeSeriesView(
+        origin="/",
+        contents=[root + plotted(path, scalar) for root in runs for path, scalar in scalars.items()],
+        name=safe(f"{chart} ({unit})" if unit else chart),
+        axis_x=rrb.TimeAxis(view_range=rr.TimeRange(start=rrb.TimeRangeBoundary.absolute(seq=0), end=end)),
+        axis_y=rrb.ScalarAxis(range=(low - room, high + room)),
+        time_ranges=[rrb.VisibleTimeRange("step", start=infinite, end=infinite)],
+        plot_legend=rrb.PlotLegend(
+            visible=True, corner=_emptiest(x / max(steps - 1, 1), (y - low) / ((high - low) or 1.0))
+        ),
     )
 
 
-def _picture_view(root: str, path: str, picture: Picture) -> Any:
-    h, w = _shape(picture)
-    height = h + 0.17 * w if isinstance(picture.image, Field) else h
-    return _canvas(root + entity_of("pictures", path), picture.title or path, w, height, root)
+def _emptiest(x: np.ndarray, y: np.ndarray) -> Any:
+    """Return the corner of a plot, 0 to 1 both ways, in which the fewest values lie: the legend shall cover none."""
+    corners = {
+        rrb.Corner2D.RightTop: (x > 0.5) & (y > 0.6),
+        rrb.Corner2D.LeftTop: (x < 0.5) & (y > 0.6),
+        rrb.Corner2D.RightBottom: (x > 0.5) & (y < 0.4),
+        rrb.Corner2D.LeftBottom: (x < 0.5) & (y < 0.4),
+    }
+    return min(corners, key=lambda corner: int(np.count_nonzero(corners[corner])))
 
 
-def _shape(picture: Picture) -> tuple[float, float]:
-    h, w = (picture.image.values if isinstance(picture.image, Field) else picture.image).shape[:2]
-    return float(h), float(w)
+def _eye(view: View) -> np.ndarray:
+    """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's does."""
+    target = np.array(view.target)
+    share = np.tan(np.radians(view.fov_degrees) / 2) / np.tan(np.radians(RERUN_FOV) / 2)
+    return target + (np.array(view.eye) - target) * share
+
+
+def _canvas_view(entity: str, canvas: Canvas, root: str = "") -> Any:
+    bounds = rrb.VisualBounds2D(
+        x_range=[-0.01 * canvas.width, 1.01 * canvas.width], y_range=[-0.01 * canvas.height, canvas.height]
+    )
+    return rrb.Spatial2DView(origin=entity, name=_titled(canvas.title, root), visual_bounds=bounds)
 
 
 def _titled(name: str, root: str) -> str:

@@ -14,6 +14,7 @@ from rerun.chunk import RrdReader
 from workbench import __version__, knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
+from workbench.scene import Scalar
 
 FORMAT = 1
 """What this version writes and reads; it grows when an older version could not read a new recording."""
@@ -36,7 +37,8 @@ class Recording:
         captions: What happened, step by step.
         tones: `info`, `good` or `wrong`, step by step.
         scalars: One column per curve, by path, NaN where a step has none; with `step` first, a table.
-        names: The curves' names as they are drawn, by path.
+        curves: How each scalar is drawn, by path: name, unit, colour; with its last value.
+        layout: What stands beside the scene and how that is first seen, for a viewer.
     """
 
     path: Path
@@ -51,7 +53,8 @@ class Recording:
     captions: tuple[str, ...]
     tones: tuple[str, ...]
     scalars: Mapping[str, np.ndarray]
-    names: Mapping[str, str]
+    curves: Mapping[str, Scalar]
+    layout: str
 
     def __len__(self) -> int:
         """Return the number of steps."""
@@ -176,7 +179,20 @@ def _recording(path: Path, chunks: Sequence[Any]) -> Recording:
         captions=tuple(captions),
         tones=tuple(_column(chunks, "/caption", "tone", n)),
         scalars={"step": np.arange(n), **scalars},
-        names={path: abouts[path]["name"] for path in order},
+        curves={path: _scalar(abouts[path], scalars[path]) for path in order},
+        layout=facts["layout"],
+    )
+
+
+def _scalar(about: Mapping[str, Any], values: np.ndarray) -> Scalar:
+    known = values[np.isfinite(values)]
+    return Scalar(
+        value=float(known[-1]) if len(known) else float("nan"),
+        name=about["name"],
+        chart=about["chart"],
+        unit=about.get("unit") or "",
+        color=about["role"],
+        log=bool(about["logarithmic"]),
     )
 
 

@@ -6,14 +6,13 @@ from typing import Any
 
 import rerun as rr
 
-from workbench.recording.chart import GREY, chart, color_bar, legend
+from workbench.recording.chart import GREY, chart_curves, chart_frame, color_bar, frame_key, legend_bar, legend_names
 from workbench.recording.glyphs import safe
 from workbench.recording.images import encoded
 from workbench.recording.spatial import Aspect, ClassNumbers, aspects
 from workbench.scene import (
     PALETTE,
     Camera,
-    Caption,
     Classes,
     Curve,
     Field,
@@ -27,13 +26,11 @@ from workbench.scene import (
     same,
 )
 
-TONES = {"info": "", "good": "✓ ", "wrong": "✗ "}
-
 
 class RerunSink:
     """Writes scenes into a recording stream.
 
-    Entities: `world/PATH` in space, `pictures/PATH`, `charts/TITLE`, `tables`, `legend`, `caption`. Scalars are not said
+    Entities: `world/PATH` in space, `pictures/PATH`, `charts/TITLE`, `tables`, `legend`. Scalars and captions are not said
     here: they go as whole columns.
 
     Args:
@@ -75,8 +72,6 @@ class RerunSink:
                 yield entity_of("world", path), aspects(primitive, self._numbers)
             elif isinstance(primitive, Picture):
                 yield entity_of("pictures", path), _picture(primitive)
-            elif isinstance(primitive, Caption):
-                yield "/caption", (Aspect("text", (k,), lambda caption=primitive: _caption(caption)),)
         yield from _beside(scene)
         for entity, (first, middle) in self._later.items():
             if k < first:
@@ -99,7 +94,7 @@ def _beside(scene: Scene) -> Iterator[tuple[str, Iterable[Aspect]]]:
         if isinstance(primitive, Curve):
             charts.setdefault(primitive.chart, []).append(primitive)
     for title, curves in charts.items():
-        yield chart_entity(title), _drawn(tuple(curves), lambda curves=curves: chart(curves), _CHART_PARTS)
+        yield chart_entity(title), _chart(tuple(curves))
     tables = tuple(primitive for primitive in scene.values() if isinstance(primitive, Table))
     if tables:
         yield "/tables", (Aspect("text", tables, lambda: [document("\n\n".join(map(table_text, tables)))]),)
@@ -120,19 +115,20 @@ def legend_of(scene: Scene) -> tuple[tuple[tuple[str, tuple[int, int, int]], ...
             names |= {(word, PALETTE[role]): None for word, role in zip(color.names, color.roles, strict=True)}
         elif isinstance(color, str) and name:
             names[name, PALETTE[color]] = None
-        elif isinstance(color, Field) and not any(_same_bar(color, field) for field in fields):
+        elif isinstance(color, Field) and all(_bar_key(color) != _bar_key(field) for field in fields):
             fields.append(color)
     return tuple(names), tuple(fields)
 
 
 def table_text(table: Table) -> str:
     """Return a table as Markdown."""
-    cells = [[_cell(text) for text in row] for row in (table.header, *table.rows)]
+    cells = [[markdown(text) for text in row] for row in (table.header, *table.rows)]
     rows = [f"| {' | '.join(row)} |" for row in cells]
-    return "\n".join([f"**{_cell(table.title)}**", "", rows[0], "|" + "---|" * len(table.header), *rows[1:]])
+    return "\n".join([f"**{markdown(table.title)}**", "", rows[0], "|" + "---|" * len(table.header), *rows[1:]])
 
 
-def _cell(text: str) -> str:
+def markdown(text: str) -> str:
+    """Return plain text so that Markdown shows it as it is."""
     text = safe(text).replace("\\", "\\\\").replace("\n", " ")
     for special in "|*_`<":
         text = text.replace(special, "\\" + special)
@@ -144,31 +140,14 @@ def _announcement(first: int, middle: tuple[float, float]) -> list[Any]:
     return [rr.Points2D([middle], labels=[word], colors=GREY, radii=0.01, show_labels=True)]
 
 
-def _caption(caption: Caption) -> list[Any]:
-    """Return the words as a reader sees them, and as they were, for whoever reads the file."""
-    shown = f"### {TONES[caption.tone]}{_cell(caption.text)}"
-    return [document(shown), rr.AnyValues(caption=caption.text, tone=caption.tone)]
-
-
 def document(markdown: str) -> Any:
     """Return Markdown as a document of Rerun."""
     return rr.TextDocument(markdown, media_type=rr.MediaType.MARKDOWN)
 
 
-_CHART_PARTS = ("frame", "words", "curves", "dots")
-
-
-def _drawn(key: tuple, draw: Any, parts: tuple[str, ...]) -> Iterator[Aspect]:
-    """Return what draws several parts at once as one aspect per part."""
-    made: dict[str, Any] = {}
-
-    def part(name: str) -> list[Any]:
-        if not made:
-            made.update(draw())
-        return [made[name]]
-
-    for name in parts:
-        yield Aspect(name, key, lambda name=name: part(name), f"/{name}")
+def _chart(curves: tuple[Curve, ...]) -> Iterator[Aspect]:
+    yield Aspect("frame", frame_key(curves), lambda: chart_frame(curves), "/frame")
+    yield Aspect("curves", curves, lambda: chart_curves(curves), "/curves")
 
 
 def _picture(picture: Picture) -> Iterator[Aspect]:
@@ -176,18 +155,20 @@ def _picture(picture: Picture) -> Iterator[Aspect]:
     field = picture.image
     if isinstance(field, Field):
         h, w = field.values.shape
-        key = (field.low, field.high, field.title, field.unit, field.map, h, w)
-        yield from _drawn(key, lambda: color_bar(field, 0.0, h + 0.02 * w, float(w), 0.04 * w), ("bar", "ends"))
+        key = (*_bar_key(field), h, w)
+        yield Aspect("bar", key, lambda: color_bar(field, 0.0, h + 0.02 * w, float(w), 0.04 * w), "/bar")
 
 
 def _legend(entries: tuple[tuple[str, tuple[int, int, int]], ...], fields: tuple[Field, ...]) -> Iterator[Aspect]:
-    bars = [(field.low, field.high, field.title, field.unit, field.map) for field in fields]
-    parts = tuple(name for i in range(len(fields)) for name in (f"bar{i}", f"ends{i}"))
-    yield from _drawn((entries, bars), lambda: legend(entries, fields), ("names", *parts))
+    if entries:
+        yield Aspect("names", entries, lambda: legend_names(entries), "/names")
+    for i, field in enumerate(fields):
+        key = (*_bar_key(field), len(fields), entries)
+        yield Aspect(f"bar{i}", key, lambda i=i, field=field: legend_bar(field, i, len(fields), entries), f"/bar{i}")
 
 
-def _same_bar(a: Field, b: Field) -> bool:
-    return (a.low, a.high, a.title, a.unit, a.map) == (b.low, b.high, b.title, b.unit, b.map)
+def _bar_key(field: Field) -> tuple[Any, ...]:
+    return (field.low, field.high, field.title, field.unit, field.map)
 
 
 def _same_key(a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:

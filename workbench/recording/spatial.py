@@ -158,7 +158,8 @@ def _camera(camera: Camera, numbers: ClassNumbers) -> Iterator[Aspect]:
     )
     yield _pose(camera.T_world_object)
     image = camera.image
-    yield Aspect("image", (image,), lambda: [rr.Clear(recursive=False) if image is None else encoded(image)], "/image")
+    if image is not None:
+        yield Aspect("image", (image,), lambda: [encoded(image)], "/image")
     if camera.name:  # what lies below a pinhole is in its image, so the name stands beside it
         beside = Label(camera.name, np.zeros(3), camera.color, camera.T_world_object)
         yield from (replace(aspect, name=f"name {aspect.name}", suffix=".name") for aspect in aspects(beside, numbers))

@@ -15,14 +15,15 @@ import rerun as rr
 from workbench import __version__, knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
+from workbench.recording.columns import send_captions, send_series
+from workbench.recording.contents import contents_of, later, to_json
 from workbench.recording.glyphs import safe
-from workbench.recording.layout import blueprint, contents_of, later, plotted
+from workbench.recording.layout import one_run
 from workbench.recording.page import plain_page
 from workbench.recording.read import FORMAT, digest
-from workbench.recording.sink import RerunSink, document, entity_of
+from workbench.recording.sink import RerunSink, document
 from workbench.recording.streams import application_id, send_blueprint, stream_bytes
-from workbench.scene import PALETTE
-from workbench.timeline import Series, Timeline
+from workbench.timeline import Timeline
 
 Progress = Callable[[str, int, int | None], None]
 """progress(what is done, how much is done, of how much or None)."""
@@ -87,24 +88,24 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
 
     def fill(stream: Any) -> None:
         contents = contents_of([step.scene for step in steps])
-        send_blueprint(stream, application, blueprint(lesson, contents, len(steps)))
+        series = timeline.series()
+        values = {path: one.values for path, one in series.items()}
+        send_blueprint(stream, application, one_run(lesson.view, contents, values))
         stream.send_recording_name(safe(_title(timeline, preset)))
-        stream.send_property("run", rr.AnyValues(**_facts(timeline, preset)))
+        stream.send_property("run", rr.AnyValues(layout=to_json(contents, lesson.view), **_facts(timeline, preset)))
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
         stream.log("page", document(plain_page(_page_of(lesson))), static=True)
-        sink, series = RerunSink(stream, later(contents)), timeline.series()
+        send_captions(stream, [step.caption for step in steps])
+        for order, (path, one) in enumerate(series.items()):
+            send_series(stream, path, one, order)
+        sink = RerunSink(stream, later(contents))
         for k, step in enumerate(steps):
             sink.show(k, step.scene)
-            if k == 0:
-                stream.flush()  # a viewer opens at the first step it meets in the file,
-                for order, (path, one) in enumerate(series.items()):
-                    _send_series(stream, path, one, order)
-                stream.flush()  # and shows the curves before the later steps have arrived
             if progress is not None:
                 progress("recorded", k + 1, len(steps))
         captions = [step.caption.text for step in steps]
         status = "complete" if timeline.finished and timeline.stopped is None else timeline.stopped or "unfinished"
-        check = digest(knobs.to_json(timeline.params), captions, {path: one.values for path, one in series.items()})
+        check = digest(knobs.to_json(timeline.params), captions, values)
         stream.send_property("result", rr.AnyValues(status=status, steps=len(steps), digest=check))
 
     return stream_bytes(application, fill)
@@ -147,30 +148,6 @@ def _facts(timeline: Timeline, preset: str | None) -> dict[str, Any]:
 
 def _page_of(lesson: Lesson) -> str:
     return lesson.page.read_text(encoding="utf-8") if lesson.page.is_file() else f"# {lesson.title}\n\n{lesson.summary}"
-
-
-def _send_series(stream: Any, path: str, series: Series, order: int) -> None:
-    """Send one scalar over all steps, how it is drawn, and its logarithm where that is what is drawn."""
-    scalar, values = series.scalar, series.values.astype(float)
-    steps = rr.TimeColumn("step", sequence=np.arange(len(values)))
-    entity = entity_of("scalars", path)
-    about = rr.AnyValues(
-        name=scalar.name,
-        chart=scalar.chart,
-        unit=scalar.unit,
-        role=scalar.color,
-        logarithmic=scalar.log,
-        order=order,
-    )
-    stream.send_columns(entity, [steps], rr.Scalars.columns(scalars=values))
-    stream.log(entity, about, static=True)
-    shown, name = plotted(path, scalar), scalar.name
-    if scalar.log:
-        positive = np.where(values > 0, values, np.nan)
-        stream.send_columns(shown, [steps], rr.Scalars.columns(scalars=np.log10(positive)))
-        name = f"log10 {scalar.name}"
-    style = rr.SeriesLines(colors=[PALETTE[scalar.color]], names=safe(name), widths=2.0)
-    stream.log(shown, style, static=True)
 
 
 def _check_place(path: Path, force: bool) -> None:

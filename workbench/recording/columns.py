@@ -1,0 +1,58 @@
+"""What has one value per step, scalars and captions, sent as whole columns: one message instead of one per step.
+
+They go first into a file. A viewer then knows all steps at once, and opens at the first of them.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import rerun as rr
+
+from workbench.recording.contents import plotted_values
+from workbench.recording.glyphs import safe
+from workbench.recording.layout import plotted
+from workbench.recording.sink import entity_of, markdown
+from workbench.scene import PALETTE, Caption, Scalar
+from workbench.timeline import Series
+
+TONES = {"info": "", "good": "✓ ", "wrong": "✗ "}
+
+
+def send_captions(stream: Any, captions: Sequence[Caption]) -> None:
+    """Send the captions as a reader sees them, and as they were, for whoever reads the file."""
+    shown = [f"### {TONES[caption.tone]}{markdown(caption.text)}" for caption in captions]
+    kinds = [rr.MediaType.MARKDOWN] * len(captions)
+    texts, tones = [caption.text for caption in captions], [caption.tone for caption in captions]
+    stream.send_columns("/caption", [_steps(len(captions))], rr.TextDocument.columns(text=shown, media_type=kinds))
+    stream.send_columns("/caption", [_steps(len(captions))], rr.AnyValues.columns(caption=texts, tone=tones))
+
+
+def send_series(stream: Any, path: str, series: Series, order: int) -> None:
+    """Send one scalar over all steps, how it is drawn, and its logarithm where that is what is drawn."""
+    scalar, values = series.scalar, series.values.astype(float)
+    entity, shown = entity_of("scalars", path), plotted(path, scalar)
+    stream.send_columns(entity, [_steps(len(values))], rr.Scalars.columns(scalars=values))
+    about = rr.AnyValues(
+        name=scalar.name,
+        chart=scalar.chart,
+        unit=scalar.unit,
+        role=scalar.color,
+        logarithmic=scalar.log,
+        order=order,
+    )
+    stream.log(entity, about, static=True)
+    if scalar.log:
+        stream.send_columns(shown, [_steps(len(values))], rr.Scalars.columns(scalars=plotted_values(scalar, values)))
+    stream.log(shown, curve_style(scalar, scalar.name), static=True)
+
+
+def curve_style(scalar: Scalar, name: str, *, second: bool = False) -> Any:
+    """Return how a curve is drawn; that of a second run is thinner and darker."""
+    color = np.array(PALETTE[scalar.color]) * (0.6 if second else 1.0)
+    name = f"log10 {name}" if scalar.log else name
+    return rr.SeriesLines(colors=[color.astype(np.uint8)], names=safe(name), widths=1.2 if second else 2.2)
+
+
+def _steps(n: int) -> Any:
+    return rr.TimeColumn("step", sequence=np.arange(n))

@@ -1,0 +1,95 @@
+"""Two recordings of one lesson as one: scenes side by side, curves in the same plots, on one step timeline."""
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from workbench.errors import InputError
+from workbench.recording.columns import curve_style
+from workbench.recording.contents import both, from_json
+from workbench.recording.glyphs import safe
+from workbench.recording.layout import plotted, two_runs
+from workbench.recording.read import Recording, open_recording, read_chunks
+from workbench.recording.replay import play
+from workbench.recording.sink import document, markdown
+from workbench.recording.streams import application_id, send_blueprint, stream_bytes
+
+ROOTS = ("/a", "/b")
+
+
+def compare_files(a: Path, b: Path, *, native: bool, host: str, port: int, browser: bool) -> None:
+    """Play two recordings together until interrupted.
+
+    Raises:
+        InputError: If one cannot be read, or they are of different lessons.
+    """
+    with tempfile.TemporaryDirectory(prefix="workbench-compare-") as folder:
+        file = Path(folder) / "compare.rrd"
+        file.write_bytes(compare_bytes(a, b))
+        play({file.name: file}, f"{a.name} · {b.name}", native=native, host=host, port=port, browser=browser)
+
+
+def compare_bytes(a: Path, b: Path) -> bytes:
+    """Return a recording that holds two recordings of one lesson, below the entities `/a` and `/b`."""
+    runs = dict(zip(ROOTS, (open_recording(a), open_recording(b)), strict=True))
+    one, two = runs.values()
+    if one.lesson != two.lesson:
+        raise InputError(f"{a} is a run of {one.lesson}, {b} of {two.lesson}: two runs of one lesson can be compared")
+    application = application_id(f"compare {one.lesson}")
+    (contents_a, view), (contents_b, _) = (from_json(run.layout, run.curves) for run in runs.values())
+    differences = differences_of(one, two)
+
+    def fill(stream: Any) -> None:
+        values = {root: run.scalars for root, run in runs.items()}
+        names = {root: " · ".join((root[1:].upper(), run.path.name)) for root, run in runs.items()}
+        send_blueprint(stream, application, two_runs(view, both(contents_a, contents_b), values, names))
+        stream.send_recording_name(safe(f"{a.name} and {b.name}"))
+        stream.log("/differences", document(_table(differences)), static=True)
+        for root, run in runs.items():
+            stream.send_chunks([moved for chunk in read_chunks(run.path) if (moved := _below(root, chunk)) is not None])
+        for root, run in runs.items():
+            for path, scalar in run.curves.items():
+                style = curve_style(scalar, f"{scalar.name} · {root[1:].upper()}", second=root == ROOTS[1])
+                stream.log(root + plotted(path, scalar), style, static=True)
+
+    return stream_bytes(application, fill)
+
+
+def differences_of(a: Recording, b: Recording) -> list[tuple[str, str, str]]:
+    """Return what differs between two runs: parameters, length and how they ended, as name, of a, of b."""
+    rows = [
+        (name, _text(a.params.get(name)), _text(b.params.get(name)))
+        for name in {**a.params, **b.params}
+        if a.params.get(name) != b.params.get(name)
+    ]
+    rows.append(("steps", str(len(a)), str(len(b))))
+    for path in (path for path in a.curves if path in b.curves):
+        rows.append((f"{a.curves[path].name}, last", _last(a, path), _last(b, path)))
+    if a.version != b.version:
+        rows.append(("recorded by version", a.version, b.version))
+    return rows
+
+
+def _last(run: Recording, path: str) -> str:
+    known = run.scalars[path][np.isfinite(run.scalars[path])]
+    unit = f" {run.curves[path].unit}".rstrip()
+    return f"{known[-1]:.4g}{unit}" if len(known) else "none"
+
+
+def _text(value: Any) -> str:
+    return "none" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _table(rows: Sequence[tuple[str, str, str]]) -> str:
+    lines = [f"| {' | '.join(markdown(cell) for cell in row)} |" for row in rows]
+    return "\n".join(["| | A | B |", "|---|---|---|", *lines])
+
+
+def _below(root: str, chunk: Any) -> Any:
+    """Return a chunk below a root entity, None where it is about the recording as a whole."""
+    if chunk.entity_path.startswith("/__properties"):
+        return None
+    return chunk.with_entity_path(root + chunk.entity_path.rstrip("/"))

@@ -1,0 +1,118 @@
+"""What a run shows beside its scene: enough to lay out the views before anything is drawn, and kept in the recording."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+
+from workbench.lesson import View
+from workbench.recording.chart import HEIGHT, WIDTH, legend_height
+from workbench.recording.sink import chart_entity, entity_of, legend_of
+from workbench.scene import Curve, Field, Picture, Scalar, Scene, Table, in_space
+
+
+@dataclass(frozen=True)
+class Canvas:
+    """A view in two dimensions: its title, its size, and the step at which something appears on it."""
+
+    title: str
+    width: float
+    height: float
+    first: int
+
+
+@dataclass
+class Contents:
+    """What stands beside the scene, in order of appearance.
+
+    Attributes:
+        scalars: By the title of their plot, then by path; how each is drawn.
+        charts: Charts of Curves, by title.
+        pictures: By path.
+        tables: Whether there are tables.
+        legend_height: The greatest height of the legend on its canvas.
+    """
+
+    scalars: dict[str, dict[str, Scalar]] = field(default_factory=dict)
+    charts: dict[str, Canvas] = field(default_factory=dict)
+    pictures: dict[str, Canvas] = field(default_factory=dict)
+    tables: bool = False
+    legend_height: float = 0.0
+
+
+def contents_of(scenes: Sequence[Scene]) -> Contents:
+    """Return what all scenes of a run show."""
+    found = Contents()
+    for k, scene in enumerate(scenes):
+        for path, primitive in scene.items():
+            if isinstance(primitive, Scalar):
+                found.scalars.setdefault(primitive.chart, {}).setdefault(path, primitive)
+            elif isinstance(primitive, Curve):
+                found.charts.setdefault(primitive.chart, Canvas(primitive.chart, WIDTH, HEIGHT, k))
+            elif isinstance(primitive, Picture) and not in_space(primitive) and path not in found.pictures:
+                found.pictures[path] = _picture_canvas(path, primitive, k)
+            elif isinstance(primitive, Table):
+                found.tables = True
+        entries, fields = legend_of(scene)
+        found.legend_height = max(found.legend_height, legend_height(entries, len(fields)))
+    return found
+
+
+def canvases(contents: Contents) -> dict[str, Canvas]:
+    """Return all charts and pictures by their entities."""
+    charts = {chart_entity(title): canvas for title, canvas in contents.charts.items()}
+    return charts | {entity_of("pictures", path): canvas for path, canvas in contents.pictures.items()}
+
+
+def later(contents: Contents) -> dict[str, tuple[int, tuple[float, float]]]:
+    """Return the canvases that are empty at first: at which step something appears, and where their middle is."""
+    return {
+        entity: (canvas.first, (canvas.width / 2, canvas.height / 2))
+        for entity, canvas in canvases(contents).items()
+        if canvas.first > 0
+    }
+
+
+def plotted_values(scalar: Scalar, values: np.ndarray) -> np.ndarray:
+    """Return what is plotted of a scalar's values: they or their logarithm; NaN where there is none."""
+    values = np.asarray(values, float)
+    return np.log10(np.where(values > 0, values, np.nan)) if scalar.log else values
+
+
+def to_json(contents: Contents, view: View) -> str:
+    """Return everything but the scalars, which stand in a recording themselves, and how the scene is first seen."""
+    plain = {name: value for name, value in asdict(contents).items() if name != "scalars"}
+    return json.dumps(plain | {"view": asdict(view)})
+
+
+def from_json(text: str, curves: Mapping[str, Scalar]) -> tuple[Contents, View]:
+    """Return contents and view from `to_json`'s text and the scalars by path."""
+    plain = json.loads(text)
+    found = Contents(tables=bool(plain["tables"]), legend_height=float(plain["legend_height"]))
+    found.charts = {title: Canvas(**canvas) for title, canvas in plain["charts"].items()}
+    found.pictures = {path: Canvas(**canvas) for path, canvas in plain["pictures"].items()}
+    for path, scalar in curves.items():
+        found.scalars.setdefault(scalar.chart, {})[path] = scalar
+    view: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in plain["view"].items()
+    }
+    return found, View(**view)
+
+
+def both(a: Contents, b: Contents) -> Contents:
+    """Return what either of two runs shows."""
+    return Contents(
+        scalars={chart: a.scalars.get(chart, {}) | b.scalars.get(chart, {}) for chart in {**a.scalars, **b.scalars}},
+        charts=b.charts | a.charts,
+        pictures=b.pictures | a.pictures,
+        tables=a.tables or b.tables,
+        legend_height=max(a.legend_height, b.legend_height),
+    )
+
+
+def _picture_canvas(path: str, picture: Picture, first: int) -> Canvas:
+    h, w = (picture.image.values if isinstance(picture.image, Field) else picture.image).shape[:2]
+    height = h + 0.17 * w if isinstance(picture.image, Field) else float(h)  # a colour bar takes its room below
+    return Canvas(picture.title or path, float(w), height, first)
