@@ -5,7 +5,7 @@ Visualization and Mathematics III, 2003. Equation numbers below are theirs.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -18,7 +18,6 @@ from workbench.geometry.meshes import euler_characteristic, one_ring, vertex_nor
 from workbench.geometry.quadric_fit import Quadrics, fit_quadrics
 from workbench.watch import watched
 
-PerVertex = Float[np.ndarray, " v"]
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
 
@@ -29,12 +28,29 @@ Gaussian = Callable[[np.ndarray, np.ndarray], np.ndarray]
 MeanNormals = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """mean_curvature_normals(p, faces) -> (v, 3): 2 H n, 1/m."""
 
+# What a later stage measures is empty until then.
+PerVertex = Float[np.ndarray, " _"]
+Vectors = Float[np.ndarray, "_ 3"]
+Indices = Int[np.ndarray, " _"]
+
 Stage = Literal["mesh", "ring", "defect", "gaussian", "normal", "mean", "principal", "quadric", "total"]
+
+
+def _nothing() -> PerVertex:
+    return np.empty(0)
+
+
+def _no_vectors() -> Vectors:
+    return np.empty((0, 3))
+
+
+def _no_indices() -> Indices:
+    return np.empty(0, dtype=int)
 
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """What is known after a stage; what comes later is None. Lengths in metres, angles in radians.
+    """What is known after a stage; what comes later is empty. Lengths in metres, angles in radians.
 
     Attributes:
         stage: What was measured last.
@@ -59,21 +75,21 @@ class Measured:
     faces: Faces
     normals: Points
     vertex: int
-    ring_faces: Int[np.ndarray, " k"] | None = None
-    ring: Int[np.ndarray, " n"] | None = None
-    angles: Float[np.ndarray, " k"] | None = None
-    defects: PerVertex | None = None
-    areas: PerVertex | None = None
-    K: PerVertex | None = None
-    normals_2H: Points | None = None
-    H: PerVertex | None = None
-    k1: PerVertex | None = None
-    k2: PerVertex | None = None
-    along_k1: Points | None = None
-    along_k2: Points | None = None
+    ring_faces: Indices = field(default_factory=_no_indices)
+    ring: Indices = field(default_factory=_no_indices)
+    angles: PerVertex = field(default_factory=_nothing)
+    defects: PerVertex = field(default_factory=_nothing)
+    areas: PerVertex = field(default_factory=_nothing)
+    K: PerVertex = field(default_factory=_nothing)
+    normals_2H: Vectors = field(default_factory=_no_vectors)
+    H: PerVertex = field(default_factory=_nothing)
+    k1: PerVertex = field(default_factory=_nothing)
+    k2: PerVertex = field(default_factory=_nothing)
+    along_k1: Vectors = field(default_factory=_no_vectors)
+    along_k2: Vectors = field(default_factory=_no_vectors)
     quadrics: Quadrics | None = None
-    total: float | None = None
-    chi: int | None = None
+    total: float = float("nan")
+    chi: int = 0
 
 
 @watched

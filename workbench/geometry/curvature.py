@@ -116,19 +116,22 @@ def principal_directions(p: Points, faces: Faces, normals: Points) -> tuple[Poin
 
     Reference: Meyer et al. 2003, section 5.3, with equal weights.
     """
-    i, j = np.concatenate([edges(faces), edges(faces)[:, ::-1]]).T
+    a, b = edges(faces).T
+    i, j = np.concatenate([a, b]), np.concatenate([b, a])
     step, (right, up) = p[i] - p[j], tangents(normals)
     x, y = np.einsum("ex,ex->e", step, right[i]), np.einsum("ex,ex->e", step, up[i])
     flat = np.maximum(x**2 + y**2, np.finfo(float).tiny)
     kappa = 2 * np.einsum("ex,ex->e", step, normals[i]) / np.einsum("ex,ex->e", step, step)
     # d^T B d = (B11 + B22) / 2 + (B11 - B22) / 2 cos 2t + B12 sin 2t, t being the direction's angle.
     terms = np.stack([np.ones(len(i)), (x**2 - y**2) / flat, 2 * x * y / flat])
-    left = np.empty((len(p), 3, 3))
+    left = np.zeros((len(p), 3, 3))
     for a in range(3):
         for b in range(a, 3):
             left[:, a, b] = left[:, b, a] = np.bincount(i, terms[a] * terms[b], len(p))
+    # Two edges, or edges along two lines, leave B open; a touch on the diagonal then takes the smallest one.
+    left[:, range(3), range(3)] += 1e-9 * np.maximum(left[:, 0, :1], 1.0)
     sums = np.stack([np.bincount(i, term * kappa, len(p)) for term in terms], axis=1)
-    _, cosine, sine = (np.linalg.pinv(left, hermitian=True) @ sums[:, :, None])[:, :, 0].T
+    _, cosine, sine = np.linalg.solve(left, sums[:, :, None])[:, :, 0].T
     return along(np.arctan2(sine, cosine) / 2, right, up)
 
 

@@ -1,0 +1,1 @@
+"""The curvature lesson."""

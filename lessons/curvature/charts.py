@@ -1,0 +1,134 @@
+"""What stands beside the picture: estimates against the truth, errors, sums, and the vertex in numbers."""
+
+import numpy as np
+
+from lessons.curvature.state import State, surface_variation
+from workbench.scene import Curve, Primitive, Role, Scalar, Table
+
+SAMPLES = 300
+FLOOR = 0.001  # per cent: what lies below is rounding
+
+
+def beside(state: State) -> dict[str, Primitive]:
+    """Return the charts and the table of a step."""
+    scene: dict[str, Primitive] = dict(_errors(state))
+    stage = state.stage
+    if stage in ("gaussian", "quadric"):
+        scene |= _against(state, "K", "gaussian", state.now.K, 0)
+    if stage in ("mean", "quadric"):
+        scene |= _against(state, "H", "mean", state.now.H, 1)
+    if stage == "total":
+        scene |= _sum(state)
+    if stage == "finer":
+        scene |= _finer(state)
+    if stage != "mesh":
+        scene["vertex table"] = vertex_table(state)
+    return scene
+
+
+def _errors(state: State) -> dict[str, Primitive]:
+    roles: dict[str, Role] = {"K": "source", "H": "other", "K by fit": "highlight", "H by fit": "truth"}
+    return {
+        f"error {name}": Scalar(error, name, "Error to the truth", "%", roles[name])
+        for name, error in state.errors.items()
+    }
+
+
+def _against(state: State, letter: str, name: str, estimate: np.ndarray, which: int) -> dict[str, Primitive]:
+    """Return the estimates of some vertices in the order of their truth; without a truth a histogram."""
+    unit = "1/m²" if letter == "K" else "1/m"
+    rows = np.flatnonzero(state.subject.inside & np.isfinite(estimate))
+    if not len(rows):
+        return {}
+    surface, fits = state.subject.truth, state.now.quadrics
+    if surface is None:
+        values = np.clip(estimate[rows], *np.percentile(estimate[rows], [2, 98]))
+        heights, ends = np.histogram(values, bins=40)
+        middles = (ends[1:] + ends[:-1]) / 2
+        return {f"histogram {letter}": Curve(middles, heights.astype(float), f"vertices with this {letter}",
+                                             f"{letter} of all vertices", f"{letter} ({unit})", "vertices",
+                                             kind="bars")}  # fmt: skip
+    true = getattr(surface, name)
+    rows = rows[np.argsort(true[rows], kind="stable")]
+    rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(SAMPLES, len(rows))).round().astype(int))]
+    x = np.linspace(0, 100, len(rows))
+    chart, label = f"{letter} and its truth", f"vertices in the order of the true {letter} (%)"
+    scene: dict[str, Primitive] = {
+        f"estimates {letter}": Curve(x, _rounded(estimate[rows]), "from angles" if letter == "K" else "from cotangents",
+                                     chart, label, f"{letter} ({unit})", "source", "dots"),
+        f"truth {letter}": Curve(x, _rounded(true[rows]), "truth", chart, label, f"{letter} ({unit})", "truth"),
+    }  # fmt: skip
+    if fits is not None:
+        fitted = _rounded(fits.curvatures()[which][rows])
+        scene[f"fits {letter}"] = Curve(
+            x, fitted, "quadric fit", chart, label, f"{letter} ({unit})", "highlight", "dots"
+        )
+    return scene
+
+
+def _sum(state: State) -> dict[str, Primitive]:
+    now = state.now
+    running = np.cumsum(np.sort(now.defects)[::-1])
+    k = np.unique(np.linspace(0, len(running) - 1, min(SAMPLES, len(running))).round().astype(int))
+    share, label = 100 * (k + 1) / len(running), "vertices added, largest defect first (%)"
+    chart = "Sum of angle defects"
+    return {
+        "running sum": Curve(share, running[k], "sum so far", chart, label, "rad"),
+        "expected sum": Curve(share, np.full(len(k), 2 * np.pi * now.chi), "2π χ", chart, label, "rad", "truth"),
+    }
+
+
+def _finer(state: State) -> dict[str, Primitive]:
+    study = state.study
+    assert study is not None
+    x, label = np.log10(study.counts), "log₁₀ vertices"
+    roles: tuple[tuple[str, np.ndarray, Role], ...] = (
+        ("K from angles", study.K, "source"),
+        ("H from cotangents", study.H, "other"),
+        ("K by fit", study.K_fit, "highlight"),
+        ("H by fit", study.H_fit, "truth"),
+    )
+    return {
+        f"finer {name}": Curve(x, np.log10(np.maximum(100 * error, FLOOR)), name, "Error over resolution", label,
+                               "log₁₀ error (%)", role)
+        for name, error, role in roles
+    }  # fmt: skip
+
+
+def vertex_table(state: State) -> Table:
+    """Return what is known about the vertex, beside the truth."""
+    now, v = state.now, state.now.vertex
+    rows: list[tuple[str, str, str]] = []
+
+    def add(name: str, values: np.ndarray, unit: str, true: str | None = None) -> None:
+        if len(values):
+            known = "" if true is None else _number(state.true(true))
+            rows.append((f"{name} ({unit})", _number(float(values[v])), known))
+
+    rows.append(("sum of angles (°)", f"{np.degrees(now.angles.sum()):.2f}", ""))
+    add("angle defect", np.degrees(now.defects), "°")
+    add("mixed area A", now.areas, "m²")
+    add("K = defect / A", now.K, "1/m²", "gaussian")
+    if len(now.normals_2H):
+        length = np.linalg.norm(now.normals_2H, axis=1)
+        rows.append(("length of 2 H n (1/m)", _number(float(length[v])), _number(2 * abs(state.true("mean")))))
+    add("H", now.H, "1/m", "mean")
+    add("k1", now.k1, "1/m", "k1")
+    add("k2", now.k2, "1/m", "k2")
+    if now.quadrics is not None:
+        K, H = now.quadrics.curvatures()
+        add("K by fit", K, "1/m²", "gaussian")
+        add("H by fit", H, "1/m", "mean")
+        rows.append(("surface variation of the rings", f"{surface_variation(state):.4f}", ""))
+    return Table(f"At vertex {v:,}", ("", "here", "truth"), tuple(rows))
+
+
+def _number(value: float) -> str:
+    if not np.isfinite(value):
+        return "–"
+    return "0" if abs(value) < 1e-9 else f"{value:.4g}"
+
+
+def _rounded(values: np.ndarray) -> np.ndarray:
+    """Leave out rounding errors, which a chart would otherwise enlarge where everything is 0."""
+    return np.round(values, 9) + 0.0

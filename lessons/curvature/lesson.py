@@ -1,0 +1,98 @@
+"""How a surface bends, measured on triangles.
+
+What it teaches: angles around a vertex that do not add up to a full turn *are* Gaussian curvature, times area; the
+cotangent formula gives the mean-curvature normal; both follow from a few triangles and suffer with them, which a fit to
+a neighbourhood does not; and the defects' sum knows nothing of the mesh but its number of holes.
+
+`params.py` has the inputs, `subject.py` the mesh, `study.py` the errors over resolution, `draw.py`, `ring.py` and
+`words.py` the picture, `presets.py` the experiments and questions.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from lessons.curvature.draw import draw
+from lessons.curvature.params import Params
+from lessons.curvature.presets import PRESETS, QUESTIONS
+from lessons.curvature.state import State
+from lessons.curvature.study import error_of, study_of
+from lessons.curvature.subject import EYE, Subject, subject_of
+from workbench.algorithms.curvature import Defects, Gaussian, MeanNormals, Measured, measure_curvature
+from workbench.geometry import curvature
+from workbench.geometry.laplacian import mixed_areas
+from workbench.geometry.meshes import on_boundary
+from workbench.lesson import Lesson, View
+
+
+def run(
+    params: Params,
+    *,
+    angle_defects: Defects = curvature.angle_defects,
+    gaussian_curvature: Gaussian = curvature.gaussian_curvature,
+    mean_curvature_normals: MeanNormals = curvature.mean_curvature_normals,
+) -> Iterator[State]:
+    """Yield the stages of measuring one mesh, then, where the truth is known, the errors on ever finer meshes."""
+    subject = subject_of(params)
+    defects, gaussian, normals = with_mistake(params, angle_defects, gaussian_curvature, mean_curvature_normals)
+    errors: dict[str, float] = {}
+    state = None
+    for now in measure_curvature(
+        subject.p,
+        subject.faces,
+        subject.front if params.vertex < 0 else params.vertex % len(subject.p),
+        angle_defects=defects,
+        gaussian_curvature=gaussian,
+        mean_curvature_normals=normals,
+    ):
+        errors = errors | new_errors(subject, now)
+        state = State(params, subject, now, errors)
+        yield state
+    if state is not None and subject.truth is not None:
+        yield State(params, subject, state.now, errors, study_of(params, gaussian, normals))
+
+
+def new_errors(subject: Subject, now: Measured) -> dict[str, float]:
+    """Return the errors that this stage lets one know, in per cent."""
+    surface, inside = subject.truth, subject.inside
+    if surface is None:
+        return {}
+    if now.stage == "gaussian":
+        return {"K": 100 * error_of(surface, inside, "gaussian", now.K)}
+    if now.stage == "mean":
+        return {"H": 100 * error_of(surface, inside, "mean", now.H)}
+    if now.stage == "quadric" and now.quadrics is not None:
+        K, H = now.quadrics.curvatures()
+        both = error_of(surface, inside, "gaussian", K), error_of(surface, inside, "mean", H)
+        return {"K by fit": 100 * both[0], "H by fit": 100 * both[1]}
+    return {}
+
+
+def with_mistake(
+    params: Params, defects: Defects, gaussian: Gaussian, normals: MeanNormals
+) -> tuple[Defects, Gaussian, MeanNormals]:
+    """Return the three functions, one of them spoilt by the chosen mistake."""
+    if params.mistake == "2 pi on the border":
+        return lambda p, faces: defects(p, faces) + np.pi * on_boundary(faces, len(p)), gaussian, normals
+    if params.mistake == "defect taken for K":
+        return defects, lambda p, faces: gaussian(p, faces) * mixed_areas(p, faces), normals
+    if params.mistake == "H without the half":
+        return defects, gaussian, lambda p, faces: 2 * normals(p, faces)
+    return defects, gaussian, normals
+
+
+lesson = Lesson(
+    name="curvature",
+    title="Curvature of a mesh",
+    summary="Angles that miss a full turn, cotangents that point outward, and a sum that counts holes.",
+    page=Path(__file__).with_name("page.md"),
+    params=Params,
+    run=run,
+    draw=draw,
+    order=500,
+    view=View(eye=EYE, target=(0.0, 0.0, 0.0), grid=0.5, grid_height=-1.0),
+    presets=PRESETS,
+    questions=QUESTIONS,
+    first_step=3,
+)

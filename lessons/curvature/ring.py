@@ -1,0 +1,192 @@
+"""What is drawn close to the vertex: its angles, its faces laid flat, its area, circles that bend as it does."""
+
+import numpy as np
+
+from lessons.curvature.state import State, two_rings
+from workbench.algorithms.curvature import Measured
+from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
+
+LIFT = 0.03  # how far things float above the surface, in edges
+CIRCLE = 2 * np.pi * np.arange(97) / 96
+
+
+def edge_length(now: Measured) -> float:
+    """Return the mean length of the edges at the vertex, the measure of all that is drawn there."""
+    return float(np.linalg.norm(now.p[neighbours(now)] - now.p[now.vertex], axis=1).mean())
+
+
+def neighbours(now: Measured) -> np.ndarray:
+    """Return the ring; before it is known, the vertices of the faces around."""
+    if len(now.ring):
+        return now.ring
+    return np.setdiff1d(now.faces[(now.faces == now.vertex).any(axis=1)], now.vertex)
+
+
+def angles(now: Measured) -> dict[str, Primitive]:
+    """Return the faces around the vertex, an arc in each, and its degrees."""
+    centre, lift = _lifted(now), LIFT * edge_length(now) * now.normals[now.vertex]
+    v = now.p[now.ring] - now.p[now.vertex]
+    radius = 0.35 * np.linalg.norm(v, axis=1).min()
+    used, name = np.unique(now.faces[now.ring_faces], return_inverse=True)
+    scene: dict[str, Primitive] = {
+        "ring": Mesh(now.p[used] + lift, name.reshape(-1, 3), "highlight", opacity=0.55, flat=True, name="its ring"),
+    }
+    arcs = []
+    for i, angle in enumerate(now.angles):
+        a = v[i] / np.linalg.norm(v[i])
+        b = v[(i + 1) % len(v)] - (v[(i + 1) % len(v)] @ a) * a
+        b /= np.linalg.norm(b) or 1.0
+        turn = np.linspace(0.06, 0.94, 9)[:, None] * angle
+        arcs.append(_path(centre + radius * (np.cos(turn) * a + np.sin(turn) * b)))
+        middle = np.cos(angle / 2) * a + np.sin(angle / 2) * b
+        scene[f"angle {i}"] = Label(f"{np.degrees(angle):.1f}°", centre + 1.75 * radius * middle, "highlight")
+    scene["arcs"] = Segments(np.concatenate(arcs), "highlight", 3, name="angles at the vertex")
+    return scene
+
+
+def flattened(now: Measured) -> dict[str, Primitive]:
+    """Return the ring laid flat above the vertex: where it does not close, the gap is the defect."""
+    n, edge, defect = now.normals[now.vertex], edge_length(now), float(now.defects[now.vertex])
+    inner = len(now.ring) == len(now.angles)
+    lengths = np.linalg.norm(now.p[now.ring] - now.p[now.vertex], axis=1)
+    lengths = np.append(lengths, lengths[0]) if inner else lengths
+    turned = np.concatenate([[0.0], np.cumsum(now.angles)])
+    right = now.p[now.ring[0]] - now.p[now.vertex]
+    right -= (right @ n) * n
+    right /= np.linalg.norm(right)
+    up, centre = np.cross(n, right), now.p[now.vertex] + 1.3 * edge * n
+
+    def at(turn: np.ndarray, radius: np.ndarray | float, height: float = 0.0) -> np.ndarray:
+        # A slow rise keeps faces apart that overlap.
+        radius = np.broadcast_to(radius, turn.shape)[:, None]
+        rise = (height + 0.02 * turn)[:, None] * edge * n
+        return centre + radius * (np.cos(turn)[:, None] * right + np.sin(turn)[:, None] * up) + rise
+
+    fan = np.vstack([centre, at(turned, lengths)])
+    k = np.arange(1, len(turned))
+    full = turned[-1] + defect
+    gap = np.linspace(min(turned[-1], full), max(turned[-1], full), 25)
+    word = "gap" if defect > 0 else "overlap"
+    spokes = np.stack([np.broadcast_to(centre, (len(turned), 3)), fan[1:]], axis=1)
+    end = at(np.array([full]), lengths[0] if inner else lengths[-1])
+    return {
+        "flat ring": Mesh(fan, np.stack([0 * k, k, k + 1], 1), "highlight", opacity=0.5, flat=True, name="laid flat"),
+        "flat edges": Segments(spokes, "highlight", 2, name="its edges"),
+        "gap": Segments(_path(at(gap, 0.8 * lengths.min(), 0.02)), "source", 5, name="angle defect"),
+        "gap edge": Segments(np.stack([centre[None], end], 1), "source", 3, name="where it would close"),
+        "gap label": Label(f"{word} {abs(np.degrees(defect)):.2f}°", at(np.array([full]), 1.1 * lengths.max())[0]),
+        "stalk": Segments(np.array([[now.p[now.vertex], centre]]), "correspondence", 1),
+    }
+
+
+def cell(now: Measured) -> dict[str, Primitive]:
+    """Return the mixed area of the vertex, piece by piece: its part of each face around."""
+    lift = 2 * LIFT * edge_length(now) * now.normals[now.vertex]
+    quads = []
+    for face in now.faces[now.ring_faces]:
+        k = int(np.flatnonzero(face == now.vertex)[0])
+        a, b, c = now.p[np.roll(face, -k)]
+        quads.append(np.stack([a, (a + b) / 2, _corner(a, b, c), (a + c) / 2]))
+    p = np.concatenate(quads) + lift
+    start = 4 * np.arange(len(quads))[:, None]
+    faces = (start + np.array([[0, 1, 2, 0, 2, 3]])).reshape(-1, 3)
+    rim = np.concatenate([np.stack([q[[1, 2]], q[[2, 3]]]) for q in quads]) + lift
+    return {
+        "cell": Mesh(p, faces, "highlight", opacity=0.6, flat=True, name="its area"),
+        "cell rim": Segments(rim, "highlight", 3, name="rim of its area"),
+        "cell label": Label(f"A = {now.areas[now.vertex]:.3g} m²", _lifted(now, 0.5), "highlight"),
+    }
+
+
+def pulls(now: Measured, scale: float) -> dict[str, Primitive]:
+    """Return what each neighbour adds to the mean-curvature normal of the vertex, and their sum."""
+    start, total = _lifted(now), now.normals_2H[now.vertex]
+    scene: dict[str, Primitive] = {}
+    if np.isfinite(total).all():
+        parts = scale * _pulls(now)
+        chain = np.cumsum(np.vstack([np.zeros(3), parts]), axis=0) + start
+        scene["pulls"] = Segments(
+            _path(chain), "correspondence", 2.5, name="cotangent × edge, neighbour after neighbour"
+        )
+        scene["mean normal"] = Segments(
+            np.array([[start, start + scale * total]]), "highlight", 6, name="their sum: 2 H n"
+        )
+        tip = start + scale * total
+        scene["mean label"] = Label(f"|2 H n| = {np.linalg.norm(total):.3g} 1/m", tip, "highlight")
+    return scene
+
+
+def _pulls(now: Measured) -> np.ndarray:
+    """Return each neighbour's (cot a + cot b) (p_i - p_j) / 2 A, Meyer (8), in the order of the ring."""
+    ring, here = now.p[now.ring], now.p[now.vertex]
+    weight = np.zeros(len(ring))
+    for other in (np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0)):
+        a, b = here - other, ring - other
+        weight += np.einsum("nx,nx->n", a, b) / np.linalg.norm(np.cross(a, b), axis=1)
+    return weight[:, None] * (here - ring) / (2 * now.areas[now.vertex])
+
+
+def circles(now: Measured) -> dict[str, Primitive]:
+    """Return the two osculating circles at the vertex: radius 1/|k|, on the side to which the surface bends."""
+    scene: dict[str, Primitive] = {}
+    here, n = now.p[now.vertex], now.normals[now.vertex]
+    both: tuple[tuple[str, Role, np.ndarray, np.ndarray], ...] = (
+        ("k1", "source", now.k1, now.along_k1),
+        ("k2", "other", now.k2, now.along_k2),
+    )
+    for name, role, k, along in both:
+        k, t = float(k[now.vertex]), along[now.vertex]
+        if not np.isfinite(k):
+            continue
+        # An arc of at most a full turn and at most 2.5 m: nearly straight where k is nearly 0.
+        s = np.minimum(np.pi, 1.25 * abs(k)) * (CIRCLE / np.pi - 1)
+        if abs(k) > 1e-6:
+            path = here + np.sin(s)[:, None] / k * t - (1 - np.cos(s))[:, None] / k * n
+        else:
+            path = here + 1.25 * (CIRCLE / np.pi - 1)[:, None] * t
+        radius = f"radius {1 / abs(k):.3g} m" if abs(k) > 1e-3 else "straight"
+        scene[f"circle {name}"] = Segments(_path(path), role, 4, name=f"bends as {name}")
+        scene[f"label {name}"] = Label(f"{name} = {k:.3g} 1/m, {radius}", path[30 if name == "k1" else 66], role)
+    return scene
+
+
+def patch(state: State) -> dict[str, Primitive]:
+    """Return the quadric at the vertex over its two rings, and the vertices it was fitted to."""
+    now, quadrics = state.now, state.now.quadrics
+    assert quadrics is not None
+    near = two_rings(state)
+    scene: dict[str, Primitive] = {
+        "fitted": Points(now.p[near], "truth", 0.12 * edge_length(now), name="vertices of the fit")
+    }
+    c = quadrics.coefficients[now.vertex]
+    if np.isfinite(c).all():
+        right, up, n = (axis[now.vertex] for axis in (quadrics.right, quadrics.up, quadrics.normals))
+        reach = np.linalg.norm(now.p[near] - now.p[now.vertex], axis=1).max()
+        r, t = (g.ravel()[:, None] for g in np.meshgrid(reach * np.arange(9) / 8, CIRCLE[::4], indexing="ij"))
+        x, y = r * np.cos(t), r * np.sin(t)
+        z = c[0] + c[1] * x + c[2] * y + c[3] * x**2 + c[4] * x * y + c[5] * y**2
+        i, j = (g.ravel() for g in np.meshgrid(np.arange(8), np.arange(24), indexing="ij"))
+        a, b = 25 * i + j, 25 * (i + 1) + j
+        faces = np.concatenate([np.stack([a, b, b + 1], 1), np.stack([a, b + 1, a + 1], 1)])
+        p = now.p[now.vertex] + x * right + y * up + z * n
+        scene["patch"] = Mesh(p, faces, "highlight", opacity=0.7, name="quadric")
+    return scene
+
+
+def _corner(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+    """Return the corner of a's mixed area across from a: the circumcentre, or for obtuse faces a point on an edge."""
+    u, v = b - a, c - a
+    if u @ v < 0:
+        return (b + c) / 2
+    if (a - b) @ (c - b) < 0 or (a - c) @ (b - c) < 0:
+        return a + (u + v) / 4
+    w = np.cross(u, v)
+    return a + (np.cross(w, u) * (v @ v) + np.cross(v, w) * (u @ u)) / (2 * w @ w)
+
+
+def _lifted(now: Measured, edges: float = LIFT) -> np.ndarray:
+    return now.p[now.vertex] + edges * edge_length(now) * now.normals[now.vertex]
+
+
+def _path(p: np.ndarray) -> np.ndarray:
+    return np.stack([p[:-1], p[1:]], axis=1)

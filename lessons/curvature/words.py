@@ -1,0 +1,191 @@
+"""What just happened, in one or two sentences with its numbers."""
+
+import numpy as np
+
+from lessons.curvature.state import State
+from workbench.scene import Caption
+
+NOWHERE = "The vertex lies on the border, where {} is not defined: choose one inside."
+
+
+def caption(state: State) -> Caption:
+    """Return the caption of a step."""
+    return _CAPTIONS[state.stage](state)
+
+
+def _mesh(state: State) -> Caption:
+    subject, params = state.subject, state.params
+    name = subject.name if subject.truth is None else f"{subject.name[0].upper()}{subject.name[1:]}"
+    text = f"{name}: {len(subject.p):,} vertices, {len(subject.faces):,} triangles"
+    border = int(np.count_nonzero(subject.border))
+    text += f", {border} vertices on the border." if border else ", no border."
+    if subject.truth is None:
+        text += f" It is shown {subject.enlarged:.3g} times as large as in its file, and so are all lengths here."
+    elif params.jitter or params.noise:
+        ways = [f"up to {params.jitter:g} cells along it"] * bool(params.jitter)
+        ways += [f"{1000 * params.noise:g} mm (sigma) off it"] * bool(params.noise)
+        text += f" Its vertices stray by {' and '.join(ways)}."
+    else:
+        text += " Every triangle is flat: all bending sits at vertices and edges."
+    return Caption(text)
+
+
+def _ring(state: State) -> Caption:
+    angles = state.now.angles
+    assert angles is not None
+    total = np.degrees(angles.sum())
+    text = f"{len(angles)} triangles meet at vertex {state.now.vertex:,}; their angles add up to {total:.2f}°."
+    if state.on_border:
+        return Caption(text + " It lies on the border: on a straight, flat border they would add up to 180°.")
+    return Caption(text + " In a plane they would add up to 360°.")
+
+
+def _defect(state: State) -> Caption:
+    defects = state.now.defects
+    assert defects is not None
+    here = np.degrees(float(defects[state.now.vertex]))
+    if abs(here) < 5e-7:
+        return Caption(
+            "Laid flat, the ring closes: angle defect 0. Flat triangles can bend around an edge without one."
+        )
+    text = f"Laid flat, the ring leaves a gap of {here:.2f}°" if here > 0 else f"Laid flat, it overlaps by {-here:.2f}°"
+    text += ": the angle defect, curvature times area and not curvature yet."
+    if not state.on_border:
+        return Caption(text + " A finer mesh has smaller defects.")
+    if state.params.mistake == "2 pi on the border":
+        return Caption(f"Taken from 360°, a border vertex misses {here:.2f}°: half a turn that is not there.", "wrong")
+    return Caption(
+        f"On the border angles are taken from 180°: {here:.2f}° is how the border itself turns here, not how the surface"
+        " bends."
+    )
+
+
+def _gaussian(state: State) -> Caption:
+    now = state.now
+    v, true = now.vertex, state.true("gaussian")
+    if state.on_border:
+        return Caption(NOWHERE.format("K") + _error(state, "K"))
+    if state.params.mistake == "defect taken for K":
+        text = f"Without the division by the area, K at vertex {v:,} would be {_short(now.K[v])}"
+        return Caption(text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}", "wrong")
+    text = f"K = defect / area = {_short(now.defects[v])} rad / {_short(now.areas[v])} m² = {_short(now.K[v])} 1/m²"
+    return Caption(text + _truth(true, "1/m²") + _error(state, "K"))
+
+
+def _normal(state: State) -> Caption:
+    now = state.now
+    if state.on_border:
+        return Caption(NOWHERE.format("the mean-curvature normal"))
+    v = now.normals_2H[now.vertex]
+    side = "outward" if v @ now.normals[now.vertex] > 0 else "inward"
+    if np.linalg.norm(v) < 1e-6:
+        return Caption(f"At vertex {now.vertex:,} the neighbours' pulls, weighted by cotangents, cancel: 2 H n = 0.")
+    return Caption(
+        f"Each neighbour pulls with the cotangents opposite its edge; the pulls at vertex {now.vertex:,} add up to"
+        f" 2 H n, {_short(float(np.linalg.norm(v)))} 1/m long and pointing {side}."
+    )
+
+
+def _mean(state: State) -> Caption:
+    now = state.now
+    if state.on_border:
+        return Caption(NOWHERE.format("H") + _error(state, "H"))
+    H, true = float(now.H[now.vertex]), state.true("mean")
+    if state.params.mistake == "H without the half":
+        text = f"Taken whole, the normal's length gives H = {_short(H)} 1/m"
+        return Caption(text + _truth(true, "1/m") + " The ½ is missing." + _error(state, "H"), "wrong")
+    text = f"H is half the normal's length, positive where it points outward: {_short(H)} 1/m"
+    return Caption(text + _truth(true, "1/m") + _error(state, "H"))
+
+
+def _principal(state: State) -> Caption:
+    now = state.now
+    k1, k2 = float(now.k1[now.vertex]), float(now.k2[now.vertex])
+    if not np.isfinite([k1, k2]).all():
+        return Caption(NOWHERE.format("K or H"))
+    text = f"H ± √(H² − K) gives k1 = {_short(k1)} and k2 = {_short(k2)} 1/m"
+    if np.isfinite(state.true("k1")):
+        text += f" (truth {_short(state.true('k1'))}, {_short(state.true('k2'))})"
+    kind = "to both sides: a saddle" if k1 * k2 < -1e-6 else "to one side" if k1 * k2 > 1e-6 else "one way only"
+    kind = kind if max(abs(k1), abs(k2)) > 1e-6 else "not at all"
+    return Caption(f"{text}. The two circles bend as the surface does, {kind}.")
+
+
+def _quadric(state: State) -> Caption:
+    quadrics, v = state.now.quadrics, state.now.vertex
+    assert quadrics is not None
+    K, H = (float(values[v]) for values in quadrics.curvatures())
+    n = int(quadrics.neighbours[v])
+    if not np.isfinite(K):
+        return Caption(f"Another way, a quadric through two rings, needs six vertices in reach; here are {n}.")
+    text = f"Another way: a quadric fitted to {n} vertices bends by K = {_short(K)} 1/m², H = {_short(H)} 1/m."
+    if state.errors:
+        e = state.errors
+        text += (
+            f" Over all vertices K errs by {_percent(e['K by fit'])} (angles {_percent(e['K'])}), H by"
+            f" {_percent(e['H by fit'])} (cotangents {_percent(e['H'])})."
+        )
+    return Caption(text)
+
+
+def _total(state: State) -> Caption:
+    now = state.now
+    expected = 2 * np.pi * now.chi
+    text = f"All {len(now.p):,} defects add up to {_short(now.total)} rad = {_short(now.total / np.pi)} π;"
+    text += f" V − E + F = {_short(now.chi)} promises {_short(2 * now.chi)} π."
+    if abs(now.total - expected) < 1e-6:
+        return Caption(text + " Gauss-Bonnet: no noise or resolution changes this sum, only handles, pieces and borders do.",
+                       "good")  # fmt: skip
+    halves = (now.total - expected) / np.pi
+    text += f" {_short(now.total - expected)} rad too much"
+    if state.params.mistake == "2 pi on the border":
+        return Caption(f"{text}: π for each of the {halves:.0f} border vertices.", "wrong")
+    return Caption(f"{text}: some defects are wrong.", "wrong")
+
+
+def _finer(state: State) -> Caption:
+    study = state.study
+    assert study is not None
+    text = f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from angles goes from"
+    text += f" {_percent(100 * study.K[0])} to {_percent(100 * study.K[-1])}, by quadric fit from"
+    text += f" {_percent(100 * study.K_fit[0])} to {_percent(100 * study.K_fit[-1])}."
+    if state.params.mistake == "defect taken for K":
+        return Caption(text + " No mesh is fine enough to mend a missing division.", "wrong")
+    settled = study.K[-1] < 1e-6
+    if study.K[-1] > 2 * study.K[0] and not settled:
+        return Caption(text + " Finer is worse: the same noise bends smaller triangles more.", "wrong")
+    if study.K[-1] > study.K[0] / 4 and not settled:
+        return Caption(text + " However fine the mesh, angles stay wrong, and so do cotangents.", "wrong")
+    return Caption(text + " On such a mesh both converge.", "good")
+
+
+_CAPTIONS = {
+    "mesh": _mesh,
+    "ring": _ring,
+    "defect": _defect,
+    "gaussian": _gaussian,
+    "normal": _normal,
+    "mean": _mean,
+    "principal": _principal,
+    "quadric": _quadric,
+    "total": _total,
+    "finer": _finer,
+}
+
+
+def _truth(true: float, unit: str) -> str:
+    return f"; the truth is {_short(true)}{' ' if unit else ''}{unit}." if np.isfinite(true) else "."
+
+
+def _error(state: State, name: str) -> str:
+    return f" Over all vertices it errs by {_percent(state.errors[name])}." if name in state.errors else ""
+
+
+def _percent(percent: float) -> str:
+    if percent < 0.01:
+        return "0 %" if percent < 1e-6 else "under 0.01 %"
+    return f"{percent:.2g} %" if percent < 99.5 else f"{percent:,.0f} %"
+
+
+def _short(value: float) -> str:
+    return "0" if abs(value) < 1e-9 else f"{value:.3g}".replace("-", "−")
