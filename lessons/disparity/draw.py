@@ -10,6 +10,7 @@ from lessons.disparity.pairs import Setup
 from lessons.disparity.states import State
 from lessons.disparity.words import caption
 from workbench.algorithms.disparity import Stage
+from workbench.geometry.cameras import back_project
 from workbench.geometry.motions import motion
 from workbench.geometry.stereo import depth_cloud, depth_interval, points_on_ray
 from workbench.scene import Camera, Color, Field, Label, Picture, Points, Primitive, Scene, Segments
@@ -110,14 +111,9 @@ def _bars(state: State, seen: np.ndarray) -> Segments:
     v, u = np.nonzero(seen)
     some = np.linspace(0, len(u) - 1, min(BARS, len(u))).astype(int)
     d = camera.f * camera.baseline / state.depth[v[some], u[some]]
-    ends = [
-        np.concatenate(
-            [points_on_ray((a, b), np.array([z]), camera) for a, b, z in zip(u[some], v[some], depths, strict=True)]
-        )
-        for depths in (
-            np.minimum(depth, 2 * setup.far) for depth in depth_interval(d, camera.f, camera.baseline, error)
-        )
-    ]
+    uv = np.column_stack([u[some], v[some]]).astype(float)
+    near_far = depth_interval(d, camera.f, camera.baseline, error)
+    ends = [back_project(uv, np.minimum(depth, 2 * setup.far), np.eye(4), camera.K) for depth in near_far]
     return Segments(
         np.stack(ends, axis=1), "correspondence", 2.0, T_WORLD_LEFT, 0.9, name=f"± {error:g} px along the ray"
     )

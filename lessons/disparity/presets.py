@@ -18,8 +18,8 @@ BARE_SMOOTH = Params(scene="plain wall", smoothness=4.0, pixel=(62, 60))
 STRIPES = Params(scene="repeated pattern", smoothness=0.0, pixel=(80, 60))
 STRIPES_PATHS = Params(scene="repeated pattern", pixel=(80, 60))
 POSTS = Params(scene="posts", pixel=(73, 60))
-SMALL = Params(smoothness=0.0, noise=12.0)
-LARGE = Params(smoothness=0.0, noise=12.0, window=21, pixel=(120, 20))
+SMALL = Params(smoothness=0.0, noise=8.0)
+LARGE = Params(smoothness=0.0, noise=8.0, window=21, pixel=(120, 20))
 HALF = Params(scene="planes", baseline=0.05, pixel=(80, 50))
 PLANES = Params(scene="planes", pixel=(80, 50))
 DOUBLE = Params(scene="planes", baseline=0.2, pixel=(80, 50))
@@ -46,7 +46,7 @@ LAST_CHOICE, CHECKED, DEPTH, LAST = -6, -5, -2, -1
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "spheres", "Three balls",
-        "One pixel alone matches by chance: over 70 % wrong. Windows of 3 × 3 leave 7 %, the paths 2 %, and the check finds"
+        "One pixel alone matches by chance: over 70 % wrong. Windows of 3 × 3 leave 12 %, the paths 2 %, and the check finds"
         " most of what is hidden.",
         HOME,
     ),
@@ -69,8 +69,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "repeated-paths", "The same with paths",
-        "Around the pattern the disparity is clear. The paths bring it in and no stripe is wrong: the context decides, not"
-        " the curve.",
+        "Around the pattern the disparity is clear. The paths bring it in, and hardly a stripe stays wrong: the context"
+        " decides, not the curve.",
         STRIPES_PATHS, LAST_CHOICE,
     ),
     Preset(
@@ -81,7 +81,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "window-3", "Window 3: noise",
-        "Nine pixels are too few against this noise: over a third of the map is wrong, scattered everywhere.",
+        "Nine pixels are too few against this noise: about a third of the map is wrong, scattered everywhere.",
         SMALL, LAST_CHOICE,
     ),
     Preset(

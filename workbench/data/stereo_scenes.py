@@ -97,12 +97,13 @@ def look(things: tuple[Thing, ...], p_eye: np.ndarray, v: np.ndarray) -> tuple[n
     return depth, color
 
 
-def speckle(rng: np.random.Generator, grain: float) -> Paint:
-    """Return a paint of random blots: some `grain` metres wide, fainter ones four times as wide."""
+def speckle(rng: np.random.Generator, grain: float, contrast: float = 1.0) -> Paint:
+    """Return a paint of random blots: some `grain` metres wide, fainter ones four times as wide; around 0.6 on average."""
     fine, coarse = rng.random((128, 128)), rng.random((128, 128))
 
     def paint(s: np.ndarray, t: np.ndarray) -> np.ndarray:
-        return 0.2 + 0.55 * _between(fine, s / grain, t / grain) + 0.25 * _between(coarse, s / grain / 4, t / grain / 4)
+        blots = 0.55 * _between(fine, s / grain, t / grain) + 0.25 * _between(coarse, s / grain / 4, t / grain / 4)
+        return 0.6 + contrast * (blots - 0.4)
 
     return paint
 
@@ -135,8 +136,8 @@ def planes(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
 
 
 def spheres(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
-    """Return three balls above a floor, before a wall."""
-    wall = _wall(2.6, speckle(rng, 7 * pixel))
+    """Return three balls above a floor, before a wall of half their contrast."""
+    wall = _wall(2.6, speckle(rng, 7 * pixel, 0.5))
     floor = Board((-3.0, 0.5, 0.5), (6.0, 0, 0), (0, 0, 4.0), speckle(rng, 4 * pixel), 1)
     near = Ball((-0.28, 0.17, 1.25), 0.3, speckle(rng, 3 * pixel), 2)
     far = Ball((0.42, -0.08, 1.75), 0.32, speckle(rng, 4 * pixel), 3)
