@@ -64,7 +64,7 @@ def lesson_page(lesson: Lesson, runs: Mapping[str, tuple[str, str]], timelines: 
     return (
         f"{head}<body>{TOP.format(root='../', here=f'<span>{escape(lesson.title)}</span>')}"
         f'<main id="main"><div class="wb">{before}{questions}{after}</div>'
-        f'<div id="stage"><section aria-label="Replay">{_player("default")}</section>'
+        f'<div id="stage"><section aria-label="Replay">{_player("default", root="../", runs="runs/")}</section>'
         f'<h2>Runs</h2><ul class="runs">{buttons}</ul></div></main>'
         '<script src="../player.js"></script></body></html>\n'
     )
@@ -75,17 +75,14 @@ def embed_page(lesson: Lesson, name: str, title: str) -> str:
     head = HEAD.format(
         title=f"{escape(lesson.title)}: {escape(title)}", summary=escape(lesson.summary), root="../../", extra=""
     )
-    player = _player(name).replace('data-root="../"', 'data-root="../../"')
     return (
         f'{head}<body class="embed"><main id="main">'
-        f'<h1 class="skip">{escape(lesson.title)}: {escape(title)}</h1>{player}</main>'
-        # the player looks for its run beside the lesson's page
-        '<script>document.head.append(Object.assign(document.createElement("base"), {href: "../"}))</script>'
-        '<script src="../player.js"></script></body></html>\n'
+        f'<h1 class="skip">{escape(lesson.title)}: {escape(title)}</h1>{_player(name, root="../../", runs="")}</main>'
+        '<script src="../../player.js"></script></body></html>\n'
     )
 
 
-def _player(run: str) -> str:
+def _player(run: str, *, root: str, runs: str) -> str:
     speeds = "".join(
         f'<option value="{s:g}"{" selected" if s == 1 else ""}>{s:g} step{"" if s == 1 else "s"} a second</option>'
         for s in SPEEDS
@@ -95,14 +92,14 @@ def _player(run: str) -> str:
         for verb in ("first", "back", "play", "next", "last")
     )
     return (
-        f'<div id="player" data-open="{escape(run)}" data-root="../"><div><div id="scene"></div>'
+        f'<div id="player" data-open="{escape(run)}" data-root="{root}" data-runs="{runs}"><div><div id="scene"></div>'
         '<p id="caption" role="status" aria-live="polite"></p><div id="legend"></div>'
         f'<div class="controls"><span id="count"></span>{buttons}'
         '<input id="step" type="range" min="0" max="0" value="0" aria-label="Step">'
         f'<select id="speed" aria-label="Speed">{speeds}</select></div>'
         '<details class="take"><summary>Take this run along</summary>'
-        '<p><a id="rrd" href="runs/default.rrd" download>Recording for Rerun (.rrd)</a> · '
-        '<a id="embed" href="runs/default.html">this run alone</a></p>'
+        f'<p><a id="rrd" href="{runs}{escape(run)}.rrd" download>Recording for Rerun (.rrd)</a> · '
+        f'<a id="embed" href="{runs}{escape(run)}.html">this run alone</a></p>'
         'Live, where the workbench is installed:<pre id="reopen"></pre>'
         'In a page of your own:<pre id="iframe-line"></pre></details>'
         '</div><div id="beside" tabindex="0" role="region" aria-label="Curves and pictures of this step">'

@@ -27,7 +27,7 @@ async function open(name, k) {
   player.setAttribute("aria-busy", "true");
   try {
     if (!shell) await load(player.dataset.root + "viser.js");
-    if (!runs[name]) await load(`runs/${name}.js`);
+    if (!runs[name]) await load(`${player.dataset.runs}${name}.js`);
   } catch (error) {
     say(error.message, "wrong");
     return;
@@ -38,10 +38,11 @@ async function open(name, k) {
   document.querySelectorAll("[data-run]").forEach((button) =>
     button.setAttribute("aria-pressed", String(button.dataset.run === name)));
   $("#step").max = last;
-  $("#rrd").href = `runs/${name}.rrd`;
-  $("#embed").href = `runs/${name}.html`;
+  const beside = player.dataset.runs + name;
+  $("#rrd").href = `${beside}.rrd`;
+  $("#embed").href = `${beside}.html`;
   $("#reopen").textContent = data.reopen;
-  $("#iframe-line").textContent = `<iframe src="${new URL(`runs/${name}.html`, location.href)}" width="800" height="600"></iframe>`;
+  $("#iframe-line").textContent = `<iframe src="${new URL(`${beside}.html`, location.href)}" width="800" height="600"></iframe>`;
   showScene(data);
   show(Math.max(0, Math.min(last, k ?? data.first)));
   player.removeAttribute("aria-busy");
@@ -71,6 +72,16 @@ function seek() {
   const setter = Object.getOwnPropertyDescriptor(inside.defaultView.HTMLInputElement.prototype, "value").set;
   setter.call(box, String(current.k + 0.5));
   box.dispatchEvent(new inside.defaultView.Event("input", { bubbles: true }));
+  if (!inside.hasOwnProperty("ours")) { // the page's own controls drive it: its bar goes, our keys work in it too
+    inside.ours = true;
+    box.blur();
+    const bar = box.closest(".mantine-Paper-root");
+    if (bar) bar.style.display = "none";
+    inside.addEventListener("keydown", (event) => {
+      const verb = KEYS[event.key];
+      if (verb && !event.key.startsWith("Arrow") && !event.target.closest("input")) act(verb);
+    });
+  }
   return true;
 }
 
