@@ -14,7 +14,8 @@ from workbench.errors import InputError
 from workbench.flags import Chosen, Option, Serving, parse
 from workbench.lesson import catalog
 
-Command = Callable[..., None]
+Command = Callable[..., int | None]
+"""Does its work; returns the exit code where it is neither 0 nor, for an InputError, 2."""
 COMMANDS: dict[str, Command] = {}
 
 Recording = Annotated[Path, Option("A recording made by `workbench record` or on the live page.", "FILE.rrd")]
@@ -48,6 +49,9 @@ def show(
     run: Chosen,
     serving: Serving,
     step: Annotated[int | None, Option("Step to open at; negative counts from the end.", "K")] = None,
+    with_: Annotated[
+        Path | None, Option("Your own function, loaded again whenever the file is saved.", "FILE.py")
+    ] = None,
 ) -> None:
     """Open one lesson in the browser, at these params."""
     from workbench.viewer.app import serve as serve_page
@@ -55,6 +59,20 @@ def show(
     _try_first_step(run.lesson, run.params)
     if step is None and run.preset is not None:
         step = run.lesson.preset(run.preset).step
+    if with_ is not None:
+        from workbench.exercise.watching import Watched
+
+        watched = Watched(run.lesson, with_)
+        serve_page(
+            watched.lesson,
+            run.params,
+            step,
+            host=serving.host,
+            port=serving.port,
+            browser=serving.browser,
+            watched=watched,
+        )
+        return
     serve_page(run.lesson, run.params, step, host=serving.host, port=serving.port, browser=serving.browser)
 
 
@@ -102,11 +120,90 @@ def compare(a: Recording, b: Recording, /, serving: Serving, native: Native = Fa
     compare_files(a, b, native=native, host=serving.host, port=serving.port, browser=serving.browser)
 
 
+@command
+def exercise(
+    name: Annotated[str, Option("An exercise, or a lesson for all of its exercises.", "NAME")],
+    /,
+    out: Annotated[Path, Option("Folder to write into.", "DIR", short="-o")] = Path(),
+    force: Annotated[bool, Option("Replace a file that is there: your work in it is lost.")] = False,
+) -> None:
+    """Write the starter file of an exercise."""
+    from workbench.exercise.starter import find_exercise, write_starter
+
+    lesson = catalog().get(name)
+    chosen = lesson.exercises if lesson is not None and lesson.exercises else (find_exercise(name),)
+    for item in chosen:
+        sys.stdout.write(f"{write_starter(item, out, force=force)}\n")
+
+
+@command
+def check(
+    file: Annotated[Path, Option("Your file, with the function of an exercise.", "FILE.py")],
+    /,
+    out: Annotated[
+        Path | None, Option("Folder for result.json, results.json, junit.xml, summary.md.", "DIR", short="-o")
+    ] = None,
+    hidden: Annotated[bool, Option("Run the hidden checks too, where they are installed.")] = False,
+) -> int:
+    """Judge one file by an exercise's checks; exit code 1 without full marks."""
+    from workbench.exercise.failing import record_failing
+    from workbench.exercise.grading import grade_file
+    from workbench.exercise.reports import terminal, write_files
+    from workbench.exercise.starter import exercises_in
+
+    reports = [grade_file(file, item, hidden=hidden) for item in exercises_in(file)]
+    for report in reports:
+        sys.stdout.write(terminal(report) + "\n")
+        recorded = None if report.is_full else record_failing(report.exercise, file)
+        if recorded is not None:
+            sys.stdout.write(f"  Watch where it goes wrong: workbench replay {recorded}\n")
+    if out is not None:
+        write_files(reports, out)
+    return 0 if all(report.is_full for report in reports) else 1
+
+
+@command
+def grade(
+    folder: Annotated[Path, Option("Submissions: NAME.py files, or a folder per student.", "DIR")],
+    /,
+    out: Annotated[Path | None, Option("Folder for the results; DIR/graded by default.", "DIR", short="-o")] = None,
+    only: Annotated[str | None, Option("Grade this exercise only.", "EXERCISE")] = None,
+    jobs: Annotated[int | None, Option("How many submissions at a time; the number of cores by default.", "N")] = None,
+    dask: Annotated[str | None, Option("Address of a Dask scheduler that does the work.", "ADDRESS")] = None,
+) -> int:
+    """Grade a folder of submissions; goes on where it was interrupted."""
+    from workbench.exercise.classroom import grade_folder
+
+    return grade_folder(
+        folder, out or folder / "graded", only=only, jobs=jobs, dask=dask, tell=sys.stderr, result=sys.stdout
+    )
+
+
+@command
+def publish(
+    out: Annotated[Path, Option("Folder to write the site into.", "OUT")],
+    /,
+    lesson: Annotated[str | None, Option("Only these lessons, comma-separated.", "NAME,NAME")] = None,
+    base_url: Annotated[str | None, Option("The address the site will have.", "URL")] = None,
+) -> None:
+    """Write static tutorial pages that play in any browser, without Python."""
+    from workbench.lesson import find
+    from workbench.progress import bar
+    from workbench.publish.site import publish as publish_site
+    from workbench.publish.site import sizes_told
+
+    chosen = list(catalog().values()) if lesson is None else [find(name.strip()) for name in lesson.split(",")]
+    with bar(sys.stderr, "Publishing") as progress:
+        files = publish_site(out, chosen, base_url=base_url, progress=progress)
+    sys.stdout.write(sizes_told(out, files) + "\n")
+
+
 def main(args: Sequence[str] | None = None) -> int:
     """Carry out a command line and return its exit code."""
     words = list(sys.argv[1:] if args is None else args)
+    code = 0
     try:
-        _carry_out(words)
+        code = _carry_out(words) or 0
         sys.stdout.flush()
     except InputError as error:
         _complain(str(error))
@@ -118,21 +215,22 @@ def main(args: Sequence[str] | None = None) -> int:
         return 0
     except SystemExit:  # after --help
         return 0
-    return 0
+    return code
 
 
-def _carry_out(words: list[str]) -> None:
+def _carry_out(words: list[str]) -> int | None:
     if words == ["--version"]:
         sys.stdout.write(f"{__version__}\n")
     elif not words or words[0].startswith("-"):
-        parse(serve, words, "workbench", _overview())()
+        return parse(serve, words, "workbench", _overview())()
     elif words[0] not in COMMANDS:
         raise InputError(f"no command is named {words[0]!r}; there are: {', '.join(COMMANDS)}")
     elif words == ["list"]:
         list_()  # without tyro: the quickest answer
     else:
         function = COMMANDS[words[0]]
-        parse(function, words[1:], f"workbench {words[0]}", function.__doc__ or "")()
+        return parse(function, words[1:], f"workbench {words[0]}", function.__doc__ or "")()
+    return None
 
 
 def _overview() -> str:

@@ -65,7 +65,9 @@ class _Part:
     owner: Lesson | None = None
 
 
-def parse(function: Callable[..., None], args: Sequence[str], prog: str, description: str) -> Callable[[], None]:
+def parse(
+    function: Callable[..., int | None], args: Sequence[str], prog: str, description: str
+) -> Callable[[], int | None]:
     """Return the call of a command that a command line asks for.
 
     Args:
@@ -190,8 +192,14 @@ def _flag(name: str, kind: Any, option: Option, default: Any, positional: bool =
 
     hint = "(required)" if default is ... else "" if default in (None, "", True, False) and not pair else None
     aliases = (option.short,) if option.short else None
+    shown = name.rstrip("_") if name.endswith("_") else None  # a Python keyword, such as --with
     config = arg(
-        help=option.help, metavar=option.placeholder, prefix_name=False, aliases=aliases, help_behavior_hint=hint
+        name=shown,
+        help=option.help,
+        metavar=option.placeholder,
+        prefix_name=False,
+        aliases=aliases,
+        help_behavior_hint=hint,
     )
     annotated = Annotated[kind, config]
     if positional:

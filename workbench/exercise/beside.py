@@ -3,7 +3,7 @@
 The result is an ordinary lesson, so it is watched live, stepped back through and recorded like any other.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,6 +14,7 @@ from workbench.exercise.model import Exercise, Function
 from workbench.exercise.sandbox import StudentError
 from workbench.lesson import Lesson
 from workbench.scene import Caption, Mesh, Points, Primitive, Scalar, Scene, Segments, caption_of, ghost
+from workbench.timeline import Step
 
 TOLERANCE = 1e-6  # of the larger of 1 and the size of what is compared
 DIFFERENCE = "exercise/difference"
@@ -32,7 +33,7 @@ class Pair:
 
 def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
     """Return the lesson driven by a student's function, with the reference's run as its ghost."""
-    slots = {exercise.slot: Candidate(function, exercise.reference)}
+    slots = {exercise.slot: Candidate(function, exercise.reference, remember=False)}
 
     def run(params: Any) -> Iterator[Pair]:
         ours, theirs = lesson.run(params), lesson.run(params, **slots)
@@ -110,8 +111,9 @@ def _in_world(primitive: Points | Mesh | Segments) -> np.ndarray:
     return p if T is None else p @ T[:3, :3].T + T[:3, 3]
 
 
-def first_difference(captions: Callable[[int], Caption], steps: int) -> int | None:
-    """Return the first step whose caption is that of trouble, None where there is none."""
-    return next(
-        (k for k in range(steps) if captions(k).tone == "wrong" and "your run first differs" in captions(k).text), None
-    )
+def first_difference(steps: Iterable[Step]) -> int | None:
+    """Return the first step at which the student's run differs or fails, None where it never does."""
+    for k, step in enumerate(steps):
+        if isinstance(step.state, Pair) and step.state.first:
+            return k
+    return None

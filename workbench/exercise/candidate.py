@@ -24,11 +24,13 @@ class Candidate:
     Args:
         function: The student's function in its process, or one of ours (a mistake, an alternative).
         reference: Ours, called with the same arguments for the shape of the answer.
+        remember: Whether the calls are kept, to recognise mistakes by; a run that is only watched does not need them.
     """
 
-    def __init__(self, function: Function, reference: Function):
-        self.function, self._reference = function, reference
+    def __init__(self, function: Function, reference: Function, *, remember: bool = True):
+        self.function, self._reference, self._remember = function, reference, remember
         self.calls: list[Call] = []
+        self._changed = False
         self.__name__ = getattr(reference, "__name__", "candidate")
 
     def __call__(self, *args: Any) -> Any:
@@ -39,22 +41,27 @@ class Candidate:
         """
         given = tuple(np.array(arg, copy=True) if isinstance(arg, np.ndarray) else arg for arg in args)
         try:
-            value = self.function(*given)
+            with np.errstate(all="ignore"):
+                value = self.function(*given)
         except StudentError as error:
-            self.calls.append(Call(args, None, error.error or error.kind))
+            self._keep(args, None, error.error or error.kind)
             raise
         except Exception as error:  # one of our own functions, which may be wrong on purpose
-            self.calls.append(Call(args, None, type(error).__name__))
+            self._keep(args, None, type(error).__name__)
             raise StudentError(
                 f"{self.__name__} raised {type(error).__name__}: {error}", "raised", type(error).__name__
             ) from None
-        self.calls.append(Call(args, value, ""))
+        self._keep(args, value, "")
         return held_to_contract(value, self._expected(args), self.__name__)
 
     @property
     def changed_inputs(self) -> bool:
-        """Whether the last call changed what it was given; only a student's process can tell."""
-        return bool(getattr(self.function, "changed_inputs", False))
+        """Whether the last call changed what it was given, in a student's process or, for one of ours, in this one."""
+        return self._changed or bool(getattr(self.function, "changed_inputs", False))
+
+    def _keep(self, args: tuple[Any, ...], value: Any, error: str) -> None:
+        if self._remember:
+            self.calls.append(Call(args, value, error))
 
     def _expected(self, args: tuple[Any, ...]) -> Any:
         try:

@@ -4,22 +4,25 @@ Every finished submission is written at once; a batch that was interrupted goes 
 changed since is graded again.
 """
 
+import contextlib
 import csv
 import hashlib
 import io
 import json
+import os
 from collections import Counter
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import workbench
 from workbench.errors import InputError
 from workbench.exercise.grading import grade_file
 from workbench.exercise.reports import SCHEMA_VERSION, as_dict
 from workbench.exercise.starter import exercises_in, find_exercise
+from workbench.progress import bar
 
 Progress = Callable[[str, int, int], object]
 """progress(the submission that is done, how many are done, of how many)."""
@@ -110,6 +113,44 @@ def grade_class(
     _write(out / "matrix.csv", matrix_csv(ordered))
     _write(out / "summary.md", summary(ordered))
     return ordered
+
+
+def grade_folder(
+    folder: Path, out: Path, *, only: str | None, jobs: int | None, dask: str | None, tell: TextIO, result: TextIO
+) -> int:
+    """Grade a folder as the command does, with a progress bar on `tell` and the summary on `result`.
+
+    Returns:
+        0 when every submission has full marks, 1 when not, 2 when none could be graded.
+    """
+    if jobs is not None and jobs < 1:
+        raise InputError(f"--jobs {jobs}: at least 1")
+    if only is not None:
+        find_exercise(only)
+    with contextlib.ExitStack() as stack:
+        executor = None
+        if dask is not None:
+            executor = _dask_executor(dask, stack)
+        progress = stack.enter_context(bar(tell, "Grading"))
+        results = grade_class(
+            folder, out, only=only, executor=executor, jobs=jobs or os.cpu_count() or 1, progress=progress
+        )
+    result.write(summary(results) + f"\nResults: {out / 'class.csv'}, {out / 'matrix.csv'}\n")
+    graded = [one for one in results if one["error"] is None]
+    perfect = all(report["points"] == report["possible"] for one in graded for report in one["reports"])
+    return 2 if not graded else 0 if perfect and len(graded) == len(results) else 1
+
+
+def _dask_executor(address: str, stack: contextlib.ExitStack) -> Executor:
+    try:
+        from distributed import Client  # type: ignore[import-not-found]
+    except ImportError:
+        raise InputError("--dask needs the package `distributed`: pip install distributed") from None
+    try:
+        client = stack.enter_context(Client(address, timeout="10s"))
+    except OSError:
+        raise InputError(f"--dask {address}: no scheduler answers there") from None
+    return client.get_executor()
 
 
 def _graded(waiting: dict[str, Path], only: str | None, executor: Executor | None, jobs: int) -> Any:

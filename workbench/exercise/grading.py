@@ -105,7 +105,11 @@ def _judged(check: Check, candidate: Candidate) -> Verdict:
 
 
 def recognised(calls: Iterable[Call], exercise: Exercise) -> Mistake | None:
-    """Return the mistake whose answers equal those of the calls, wherever the right answer differs; None if none does."""
+    """Return the mistake whose answers equal those of the calls and differ from the right ones; None if there is none.
+
+    Where the contract asks for an error, another answer than the mistake's does not speak against it: who makes a
+    mistake may also have left such input aside.
+    """
     calls = list(calls)
     best, most = None, 0
     for mistake in exercise.mistakes:
@@ -113,9 +117,10 @@ def recognised(calls: Iterable[Call], exercise: Exercise) -> Mistake | None:
         for call in calls:
             theirs = (call.value, call.error)
             wrong, right = _answer(mistake.function, call.args), _answer(exercise.reference, call.args)
-            if not _alike(theirs, wrong):
+            if _alike(theirs, wrong):
+                telling += not _alike(wrong, right)
+            elif not right[1]:
                 break
-            telling += not _alike(wrong, right)
         else:
             if telling > most:
                 best, most = mistake, telling

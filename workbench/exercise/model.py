@@ -106,7 +106,7 @@ class Exercise:
         checks: The promises; public ones first.
         mistakes: At least three that students make.
         alternatives: Other right solutions, written differently; they keep the checks honest.
-        examples: Calls with their results for the starter, as `(arguments in Python, result in Python)` text.
+        examples: Calls with their results for the starter, as `(call in Python, result in Python)` text.
         seconds: How long one call may take.
     """
 

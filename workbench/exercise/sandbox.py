@@ -14,6 +14,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from pathlib import Path
 from typing import Any
@@ -64,6 +65,7 @@ class Student:
         self.path, self.name, self.__name__ = path, name, name
         self.changed_inputs = False  # whether the last call changed what it was given
         self._seconds, self._megabytes = seconds, megabytes
+        self._lock = threading.Lock()  # one call at a time: several runs may share a function
         self._process: subprocess.Popen | None = None
         self._folder: str | None = None
 
@@ -73,11 +75,12 @@ class Student:
         Raises:
             StudentError: If it raised, took too long, ended its process, or returned what is no value.
         """
-        if self._process is None or self._process.poll() is not None:
-            self.start()
-        reply = self._ask({"do": "call", "args": list(args), "options": list(options.items())}, self._seconds)
-        self.changed_inputs = bool(reply.get("changed"))
-        return reply.get("value")
+        with self._lock:
+            if self._process is None or self._process.poll() is not None:
+                self.start()
+            reply = self._ask({"do": "call", "args": list(args), "options": list(options.items())}, self._seconds)
+            self.changed_inputs = bool(reply.get("changed"))
+            return reply.get("value")
 
     def start(self) -> None:
         """Start the child and load the student's file.

@@ -187,6 +187,18 @@ def checked(out: Path) -> list[tuple[str, int]]:
     return sizes
 
 
+def sizes_told(out: Path, files: Sequence[tuple[str, int]]) -> str:
+    """Return a summary of what a site holds, by kind of file, and where to begin."""
+    kinds = {"pages": ".html", "replays": ".js", "recordings": ".rrd"}
+    lines = []
+    for kind, end in kinds.items():
+        sizes = [size for name, size in files if name.endswith(end)]
+        lines.append(
+            f"{len(sizes)} {kind}, {sum(sizes) / 1e6:.1f} MB, the largest {max(sizes, default=0) / 1e6:.2f} MB"
+        )
+    return "\n".join([*lines, f"begin at {out / 'index.html'}"])
+
+
 def links_in(page: str) -> Iterator[str]:
     """Return the addresses that a page's links, scripts, styles and pictures name."""
     parser = _Links()

@@ -12,6 +12,7 @@ import viser
 
 from workbench import links
 from workbench.errors import InputError
+from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson, catalog
 from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
@@ -40,16 +41,24 @@ class App:
     Args:
         start: Where browsers begin whose address names no lesson; None is the course page.
         host, port: Where it listens; port 0 picks a free one.
+        watched: A student's file that drives the lesson of `start`; loaded again whenever it is saved.
 
     Raises:
         InputError: If the port is taken or may not be used.
     """
 
-    def __init__(self, start: links.Place | None = None, *, host: str = "127.0.0.1", port: int = 8080):
+    def __init__(
+        self,
+        start: links.Place | None = None,
+        *,
+        host: str = "127.0.0.1",
+        port: int = 8080,
+        watched: Watched | None = None,
+    ):
         port = _free_port(host, port)
         self.lessons = dict(catalog())
         if start is not None:
-            self.lessons.setdefault(start.lesson.name, start.lesson)
+            self.lessons[start.lesson.name] = start.lesson
         self.timelines, self._start = Timelines(), start
         with contextlib.redirect_stdout(io.StringIO()):  # its banner; the address is printed when all is ready
             self.server = viser.ViserServer(host=host, port=port, verbose=False)
@@ -59,6 +68,9 @@ class App:
         self.server.request_share_url = lambda *args, **kwargs: None  # type: ignore[method-assign]
         self.host, self.port = host, port
         self.pages: dict[int, Page] = {}
+        self._watched = watched
+        if watched is not None:
+            asyncio.run_coroutine_threadsafe(self._watch(watched), self.server.get_event_loop())
         self.server.on_client_connect(self._connect)
         self.server.on_client_disconnect(self._disconnect)
 
@@ -70,14 +82,39 @@ class App:
 
     def stop(self) -> None:
         """Stop listening and end all pages."""
-        self.server.stop()
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.server.stop()
+        if self._watched is not None:
+            self._watched.close()
 
     async def _connect(self, client: viser.ClientHandle) -> None:
-        page = self.pages[client.client_id] = Page(client, self.lessons, self.timelines, self._start)
+        page = self.pages[client.client_id] = Page(client, self.lessons, self.timelines, self._start, self._watched)
         with contextlib.suppress(RuntimeError):  # the browser left before it answered
             query = await self._address_of(client)
             kept = await self._kept(client, KEY)
             await page.open(query, kept)
+
+    async def _watch(self, watched: Watched) -> None:
+        """Give every page the new run whenever the student's file was saved, and the checks' report when it is there."""
+        while True:
+            report = await asyncio.to_thread(watched.report)
+            for page in list(self.pages.values()):
+                page.show_report(report)
+            while not await asyncio.to_thread(self._saved, watched):
+                await asyncio.sleep(0.3)
+            before, after = self.lessons[watched.lesson.name], watched.lesson
+            self.lessons[after.name] = after
+            if self._start is not None:
+                self._start = links.Place(after, self._start.params, self._start.step)
+            for page in list(self.pages.values()):
+                page.replace_lesson(before, after)
+
+    @staticmethod
+    def _saved(watched: Watched) -> bool:
+        try:
+            return watched.changed()
+        except InputError:  # half a file; the next save is looked at again
+            return False
 
     async def _disconnect(self, client: viser.ClientHandle) -> None:
         page = self.pages.pop(client.client_id, None)
@@ -115,6 +152,7 @@ def serve(
     host: str = "127.0.0.1",
     port: int = 8080,
     browser: bool = True,
+    watched: Watched | None = None,
 ) -> None:
     """Serve the course, or one lesson at a place, until interrupted; print the address when ready.
 
@@ -122,7 +160,7 @@ def serve(
         InputError: If the port is taken or may not be used.
     """
     start = None if lesson is None else links.Place(lesson, params if params is not None else lesson.params(), step)
-    app = App(start, host=host, port=port)
+    app = App(start, host=host, port=port, watched=watched)
     print(app.address, flush=True)  # noqa: T201
     if browser:
         webbrowser.open(app.address)

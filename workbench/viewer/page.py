@@ -16,6 +16,8 @@ import viser
 
 from workbench import links
 from workbench.errors import InputError
+from workbench.exercise.beside import first_difference
+from workbench.exercise.watching import Watched
 from workbench.knobs import Pick, fields_of
 from workbench.lesson import Lesson, Question
 from workbench.picking import picked
@@ -24,6 +26,7 @@ from workbench.timeline import Timelines
 from workbench.viewer.charts import Beside
 from workbench.viewer.code_tab import CodeTab
 from workbench.viewer.course import add_course
+from workbench.viewer.exercise_tab import ExerciseTab
 from workbench.viewer.knob_panel import KnobPanel
 from workbench.viewer.progress import KEY, Progress
 from workbench.viewer.reading import Reading
@@ -44,6 +47,7 @@ class Page:
         lessons: All lessons that are served, by name, in order.
         timelines: The runs kept for everybody.
         start: Where a browser begins whose address names no lesson; None is the course page.
+        watched: A student's file that drives one of the lessons.
     """
 
     def __init__(
@@ -52,8 +56,10 @@ class Page:
         lessons: Mapping[str, Lesson],
         timelines: Timelines,
         start: links.Place | None = None,
+        watched: Watched | None = None,
     ):
         self.client, self.lessons, self.timelines, self._start = client, lessons, timelines, start
+        self._watched, self._report, self._exercise = watched, "The checks are running …", None
         self.session: Session | None = None
         self.progress = Progress()
         self.sink = ViserSink(client.scene)
@@ -143,6 +149,27 @@ class Page:
         self._add_picks(lesson, session)
         self._wake.set()
 
+    def show_report(self, report: str) -> None:
+        """Show what the checks say of the watched file."""
+        self._report = report
+        if self._exercise is not None:
+            self._exercise.show(report)
+            self.client.flush()
+
+    def replace_lesson(self, before: Lesson, after: Lesson) -> None:
+        """Go on in a lesson whose student's function was loaded again, at the same params and step."""
+        session = self.session
+        if session is not None and session.lesson is before:
+            session.open(after, session.params, session.step)
+            self.show_report("The checks are running …")
+            self._wake.set()
+
+    @staticmethod
+    def _to_difference(session: Session) -> None:
+        at = first_difference(session.timeline.known())
+        if at is not None:
+            session.seek(at)
+
     def _reset(self, lesson: Lesson) -> Session:
         self.client.gui.reset()
         self._sides = []
@@ -162,6 +189,14 @@ class Page:
             reading = Reading(gui, lesson, predict, self.progress.answers(lesson.name))
         with panel.add_tab("Code"):
             code = CodeTab(gui)
+        self._exercise = None
+        if lesson.exercises:
+            with panel.add_tab("Exercise"):
+                mine = self._watched if self._watched is not None and self._watched.lesson is lesson else None
+                self._exercise = ExerciseTab(
+                    gui, lesson, mine, lambda: self._wish(lambda: self._to_difference(session))
+                )
+                self._exercise.show(self._report)
         with panel.add_tab("Course"):
             add_course(gui, self.lessons.values(), self.progress, self._enter, current=lesson)
         if not self._narrow:

@@ -1,0 +1,44 @@
+"""The first failing case as a recording that opens where the student's run leaves the reference's."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from workbench.errors import InputError
+from workbench.exercise.beside import beside, first_difference
+from workbench.exercise.model import Exercise
+from workbench.exercise.sandbox import Student
+from workbench.lesson import catalog
+from workbench.recording import record_bytes
+from workbench.timeline import Timeline
+
+
+def record_failing(exercise: Exercise, path: Path, out: Path | None = None) -> Path | None:
+    """Write a recording of the student's run beside the reference's, from just before the first step that differs.
+
+    Args:
+        exercise: What the file is for.
+        path: The student's file.
+        out: The recording; beside the file, with its name, by default.
+
+    Returns:
+        The recording's path; None where the lesson's runs show no difference, or none could be recorded.
+    """
+    lesson = catalog()[exercise.lesson]
+    out = path.with_suffix(".rrd") if out is None else out
+    with Student(path, exercise.name, seconds=exercise.seconds) as student:
+        paired = beside(lesson, exercise, student)
+        for params in (lesson.params(), *(preset.params for preset in lesson.presets)):
+            timeline = Timeline(paired, params).complete()
+            at = first_difference(timeline.known())
+            if at is not None:
+                break
+        else:
+            return None
+    first = max(0, at - 1)
+    states = [step.state for step in timeline.known()][first:]
+    shown = Timeline(replace(paired, run=lambda params: iter(states)), params).complete()
+    try:
+        out.write_bytes(record_bytes(shown))
+    except (OSError, InputError):
+        return None
+    return out
