@@ -15,6 +15,7 @@ import numpy as np
 from lessons.transforms.body import body_of, motion_factors, numbers_of, shape_factors
 from lessons.transforms.compare import ghosts_of, undo_ghosts_of
 from lessons.transforms.draw import draw
+from lessons.transforms.exercise import EXERCISES
 from lessons.transforms.params import Params
 from lessons.transforms.presets import PRESETS, QUESTIONS
 from lessons.transforms.states import Built, Moved, State, Way
@@ -147,5 +148,6 @@ lesson = Lesson(
     view=View(eye=(4.1, -4.6, 3.0), target=(1.1, 0.3, 0.15), grid=0.5),
     presets=PRESETS,
     questions=QUESTIONS,
+    exercises=EXERCISES,
     first_step=5,
 )

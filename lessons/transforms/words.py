@@ -96,7 +96,9 @@ def caption_of_move(state: Moved) -> Caption:
         text += f"; the volume is {100 * state.volume:.0f} % of the start's, so this is no rotation."
         return Caption(text, "wrong")
     if state.t < 1.0:
-        return Caption(f"{text}; {state.off:.1f}° from the shortest turn.")
+        aside = np.linalg.norm(state.T_world_body[:3, 3] - state.T_world_shortest[:3, 3])
+        arc = f", its origin {aside:.2f} m off the straight line" if aside > EXACT else ""
+        return Caption(f"{text}; {state.off:.1f}° from the shortest turn{arc}.")
     p = state.body.solid.p
     missed = np.linalg.norm(transform(state.T_world_body, p) - transform(state.T_world_end, p), axis=1).max()
     text += f". The end is met within {1000 * missed:.1f} mm; the shortest turn needed {shortest:.1f}°."

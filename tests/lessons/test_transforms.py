@@ -278,6 +278,9 @@ def test_a_screw_takes_the_origin_along_an_arc():
     origins = np.array([state.T_world_body[:3, 3] for state in states])
     straight = np.linspace(origins[0], origins[-1], len(origins))
     assert np.linalg.norm(origins - straight, axis=1).max() > 0.3
+    assert (
+        f"{np.linalg.norm(origins - straight, axis=1)[15]:.2f} m off the straight line" in opened("screw").caption.text
+    )
     lerp = np.array([s.T_world_body[:3, 3] for s in moved(dataclasses.replace(preset("screw"), method="slerp + lerp"))])
     np.testing.assert_allclose(lerp, straight, atol=1e-12)
     steps = [b.T_world_body @ inverse(a.T_world_body) for a, b in itertools.pairwise(states)]
