@@ -30,7 +30,7 @@ def point_normals(
         raise ValueError(f"normals need at least 3 points and 3 neighbours, not {len(p)} and {k}")
     if not np.isfinite(p).all():
         raise ValueError("a point is not finite; drop such points first")
-    tree = scipy.spatial.KDTree(p)
+    tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
     k = min(k, len(p))
     normals = np.empty_like(p, dtype=float)
     for start in range(0, len(p), CHUNK):  # in tree order, so that consecutive queries touch the same leaves
