@@ -52,6 +52,8 @@ class Candidate:
                 f"{self.__name__} raised {type(error).__name__}: {error}", "raised", type(error).__name__
             ) from None
         self._keep(args, value, "")
+        pairs = zip(args, given, strict=True)
+        self._changed = any(isinstance(arg, np.ndarray) and arg.tobytes() != now.tobytes() for arg, now in pairs)
         return held_to_contract(value, self._expected(args), self.__name__)
 
     @property

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
 from workbench.lesson import catalog
@@ -109,7 +111,7 @@ def _plain(annotation: Any) -> str:
     """Return an annotation that needs no import but numpy."""
     if annotation in (inspect.Parameter.empty, inspect.Signature.empty):
         return "np.ndarray"
-    if hasattr(annotation, "dim_str"):
+    if annotation is np.ndarray or hasattr(annotation, "dim_str"):
         return "np.ndarray"
     text = (
         annotation.__name__ if isinstance(annotation, type) and not hasattr(annotation, "__args__") else str(annotation)

@@ -74,14 +74,14 @@ def _describe(value: Any, blobs: list[bytes], depth: int) -> Any:
     if kind is float:
         return {"f": value.hex()}  # JSON has no NaN
     if isinstance(value, (np.ndarray, np.generic)):
+        if value.nbytes > MOST_BYTES:
+            raise WireError(f"{value.nbytes >> 20} MB is more than the {MOST_BYTES >> 20} MB a result may have")
         array = np.array(value, copy=True, subok=False)  # a subclass leaves its own ideas behind
         if array.dtype.kind not in _KINDS or array.dtype.itemsize > 8:
             raise WireError(f"an array of {array.dtype} cannot be a result; use numbers")
-        array = np.ascontiguousarray(array.astype(array.dtype.newbyteorder("<")))
-        if array.nbytes > MOST_BYTES:
-            raise WireError(f"{array.nbytes >> 20} MB is more than the {MOST_BYTES >> 20} MB a result may have")
+        array = array.astype(array.dtype.newbyteorder("<"))
         blobs.append(array.tobytes())
-        return {"a": array.dtype.str, "s": list(np.shape(value))}
+        return {"a": array.dtype.str, "s": list(array.shape)}
     if isinstance(value, (list, tuple)):
         return {"l": [_describe(item, blobs, depth + 1) for item in value]}
     raise WireError(f"a {kind.__name__} cannot cross; return arrays and numbers")

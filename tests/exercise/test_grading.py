@@ -1,0 +1,175 @@
+import json
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+
+from tests import fake
+from tests.exercise.centroid import EXERCISE, centroid
+from workbench.errors import InputError
+from workbench.exercise import reports
+from workbench.exercise.beside import beside, first_difference, gap
+from workbench.exercise.candidate import Candidate, held_to_contract
+from workbench.exercise.grading import grade_function, values_alike
+from workbench.exercise.model import Exercise, Verdict, band, check, full
+from workbench.exercise.sandbox import StudentError
+from workbench.exercise.starter import starter
+from workbench.timeline import Timeline
+
+
+def test_the_reference_has_full_marks_and_each_mistake_is_named():
+    assert grade_function(centroid, EXERCISE).is_full
+    for mistake in EXERCISE.mistakes:
+        report = grade_function(mistake.function, EXERCISE)
+        assert not report.is_full
+        assert report.mistake is mistake
+
+
+def test_an_unknown_mistake_is_not_named():
+    assert grade_function(lambda p: p[0], EXERCISE).mistake is None
+    assert grade_function(lambda p: p.mean(0) + 1e-4, EXERCISE).outcomes[0].verdict.word == "partial"
+
+
+def test_a_check_that_stumbles_costs_itself_only():
+    @check(1)
+    def stumbles(candidate):
+        """It stumbles."""
+        raise KeyError("ours")
+
+    exercise = Exercise("centroid", "fake", "turn", centroid, "Do.", (stumbles, *EXERCISE.checks), ())
+    report = grade_function(centroid, exercise)
+    assert [outcome.verdict.word for outcome in report.outcomes] == ["fail", "pass", "pass", "pass"]
+    assert "could not be judged" in report.outcomes[0].verdict.message
+
+
+@pytest.mark.parametrize(
+    ("value", "word"), [(0.05, "pass"), (0.1, "pass"), (0.5, "partial"), (2.1, "fail"), (np.nan, "fail")]
+)
+def test_bands_give_partial_credit(value, word):
+    assert band("error", value, "degrees", good=0.1, fair=2.0, hint="Try.").word == word
+
+
+@pytest.mark.parametrize("share", [-0.1, 1.1])
+def test_a_verdict_is_a_share(share):
+    with pytest.raises(ValueError, match="share"):
+        Verdict(share, "x")
+
+
+@pytest.mark.parametrize(
+    ("value", "expected", "said"),
+    [
+        (np.zeros(2), np.zeros(3), r"an array \(2,\).*asks for an array \(3,\)"),
+        (np.zeros(3), np.zeros(3, int), "float64 values.*whole numbers"),
+        (None, np.zeros(3), "nothing.*return missing"),
+        (np.array([np.inf, 0, 0]), np.zeros(3), "not finite"),
+        ([1, 2], (1, 2, 3), "3 values"),
+        ("a", 1.0, "a text"),
+        ([[1, 2], [3]], np.zeros((2, 2)), "unequal length"),
+    ],
+)
+def test_an_answer_is_held_to_the_contract(value, expected, said):
+    with pytest.raises(StudentError, match=said):
+        held_to_contract(value, expected, "f")
+
+
+def test_a_right_answer_becomes_plain():
+    got = held_to_contract(np.ones(3, np.float32), np.zeros(3), "f")
+    assert got.dtype == np.float64
+    assert held_to_contract(np.int32(3), 7, "f") == 3
+    assert held_to_contract([np.ones(2), 1.5], (np.zeros(2), 0.0), "f")[1] == 1.5
+    assert values_alike((np.ones(2), 1.0), [np.ones(2) + 1e-9, 1])
+
+
+def test_reports_say_what_was_not_run():
+    report = grade_function(centroid, EXERCISE, hidden=False, file="my.py")
+    assert reports.counted(report) == "public 2/2 · hidden 1 not run here · 3 of 3 points"
+    text = reports.terminal(grade_function(lambda p: p.sum(0), EXERCISE, file="my.py"))
+    assert "✗ fail" in text
+    assert "divide by the number of points" in text
+    assert "passed" not in text
+
+
+def test_files_for_machines_agree_with_the_report(tmp_path):
+    report = grade_function(lambda p: p.sum(0), EXERCISE, file="<my>.py")
+    reports.write_files([report], tmp_path)
+    result = json.loads((tmp_path / "result.json").read_text())
+    jsonschema = pytest.importorskip("jsonschema")
+    jsonschema.validate(result, json.loads(reports.SCHEMA.read_text()))
+    assert result["reports"][0]["points"] == report.points == 1
+    scope = json.loads((tmp_path / "results.json").read_text())
+    assert scope["score"] == sum(test["score"] for test in scope["tests"]) == 1
+    suites = ET.parse(tmp_path / "junit.xml").getroot()
+    assert [suite.get("failures") for suite in suites] == ["2"]
+    assert "| ✗ |" in (tmp_path / "summary.md").read_text()
+
+
+def test_the_starter_is_python_that_is_not_written_yet():
+    text = starter(EXERCISE)
+    scope: dict = {}
+    exec(compile(text, "starter", "exec"), scope)
+    with pytest.raises(NotImplementedError):
+        scope["centroid"](np.ones((2, 3)))
+    for part in ("centroid(np.array([[0, 0, 0], [2, 4, 6]]))", "workbench check my_centroid.py", "metres"):
+        assert part in text
+
+
+def turning(angle: float) -> np.ndarray:
+    return fake.turn_about_z(angle)
+
+
+TURN = Exercise("turn", "fake", "turn", turning, "Turn.", EXERCISE.checks, ())
+
+
+def test_the_right_function_never_differs():
+    timeline = Timeline(beside(fake.lesson, TURN, turning), fake.Params()).complete()
+    assert len(timeline) == 6
+    assert first_difference(timeline.known()) is None
+    assert not any(path.startswith("ghost/") for step in timeline.known() for path in step.scene)
+
+
+def test_a_wrong_function_differs_from_a_step_on_with_the_reference_as_ghost():
+    timeline = Timeline(beside(fake.lesson, TURN, lambda angle: fake.turn_about_z(-angle)), fake.Params()).complete()
+    assert first_difference(timeline.known()) == 1  # at step 0 both turn by nothing
+    assert "ghost/source" in timeline[1].scene
+    assert timeline[1].caption.tone == "wrong"
+    assert "ghost/source" not in timeline[0].scene
+
+
+def test_a_function_that_fails_becomes_the_caption_and_the_run_ends():
+    def late(angle):
+        if angle > 0.7:
+            raise ValueError("too far")
+        return fake.turn_about_z(angle)
+
+    timeline = Timeline(beside(fake.lesson, TURN, late), fake.Params()).complete()
+    assert timeline.stopped is None
+    assert "too far" in timeline[-1].caption.text
+    assert timeline[-1].caption.tone == "wrong"
+    assert len(timeline) == 4
+
+
+def test_the_gap_is_what_can_be_seen():
+    scene = Timeline(fake.lesson, fake.Params()).complete()
+    assert gap(scene[1].scene, scene[1].scene) == 0
+    assert gap(scene[1].scene, scene[2].scene) > 1e-3
+
+
+def test_the_candidate_remembers_what_it_was_given():
+    candidate = Candidate(lambda p: p.sum(0), centroid)
+    p = np.ones((2, 3))
+    candidate(p)
+    assert candidate.calls[0].args[0] is p
+    watched = Candidate(lambda p: p.sum(0), centroid, remember=False)
+    watched(p)
+    assert watched.calls == []
+
+
+def test_an_exercise_needs_checks_with_names():
+    with pytest.raises(ValueError, match="checks"):
+        Exercise("a", "b", "c", centroid, "d", (), ())
+    with pytest.raises(TypeError, match="docstring"):
+        check(1)(lambda candidate: full("x"))
+
+
+def test_errors_are_input_errors():
+    assert issubclass(StudentError, InputError)

@@ -1,0 +1,194 @@
+"""Attacks on the grader: each is tried, costs its own call only, and the next honest call still works."""
+
+import os
+import textwrap
+
+import numpy as np
+import pytest
+
+from tests.exercise.centroid import EXERCISE
+from workbench.errors import InputError
+from workbench.exercise.grading import grade_file
+from workbench.exercise.sandbox import Student, StudentError
+
+POINTS = np.arange(12.0).reshape(4, 3)
+
+
+def written(folder, body: str, head: str = "") -> Student:
+    path = folder / "my_centroid.py"
+    code = f"import numpy as np\n{head}\ndef centroid(p):\n{textwrap.indent(textwrap.dedent(body), '    ')}\n"
+    path.write_text(code, encoding="utf-8")
+    return Student(path, "centroid", seconds=1.0)
+
+
+@pytest.fixture
+def student(tmp_path):
+    made: list[Student] = []
+
+    def make(body: str, head: str = "") -> Student:
+        made.append(written(tmp_path, body, head))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.close()
+
+
+def test_an_honest_function_gives_plain_values(student):
+    function = student("return p.mean(axis=0)")
+    np.testing.assert_allclose(function(POINTS), [4.5, 5.5, 6.5])
+    assert not function.changed_inputs
+
+
+ATTACKS = {
+    "endless loop": ("while True: pass", "timeout", "took more than 1 s"),
+    "sleeping": ("import time; time.sleep(60)", "timeout", "took more than"),
+    "os._exit": ("import os; os._exit(0)", "died", "ended"),
+    "sys.exit": ("import sys; sys.exit(0)", "raised", "SystemExit"),
+    "fork": ("import os\nwhile True: os.fork()", "raised", "os.fork"),
+    "process": ("import subprocess; subprocess.run(['true'])", "raised", "subprocess"),
+    "system": ("import os; os.system('true')", "raised", "os.system"),
+    "signal to the parent": ("import os; os.kill(os.getppid(), 9)", "raised", "os.kill"),
+    "signal to the group": ("import os; os.killpg(os.getpgid(os.getppid()), 9)", "raised", "os.killpg"),
+    "socket": ("import socket; socket.socket()", "raised", "socket"),
+    "foreign code": ("import ctypes; ctypes.CDLL('libc.so.6')", "raised", "ctypes.dlopen"),
+    "our solution": ("from workbench.geometry.alignment import align_rigid", "raised", "write the function yourself"),
+    "the lessons": ("import lessons.icp.lesson", "raised", "write the function yourself"),
+    "reading files": ("return open('/etc/passwd').read()", "raised", "may not open"),
+    "deleting outside": ("import shutil; shutil.rmtree('/tmp')", "raised", "outside its folder"),
+    "writing outside": ("open('/tmp/taken', 'w')", "raised", "may not open"),
+    "lifting the limits": ("import resource; resource.setrlimit(resource.RLIMIT_AS, (-1, -1))", "raised", "setrlimit"),
+    "nothing": ("pass", None, None),
+    "an object": ("return object()", "result", "cannot cross"),
+    "a dict": ("return {'a': 1}", "result", "cannot cross"),
+    "objects in an array": ("return np.array([object()])", "result", "cannot be a result"),
+    "a huge array": ("return np.zeros((10**7, 3))", "result", "more than"),
+    "too deep": ("x = []\nfor _ in range(99): x = [x]\nreturn x", "result", "too many parts"),
+    "recursion": ("return centroid(p)", "raised", "RecursionError"),
+}
+
+
+@pytest.mark.parametrize("name", ATTACKS)
+def test_an_attack_costs_its_own_call_only(student, name):
+    body, kind, said = ATTACKS[name]
+    function = student(body)
+    if kind is None:
+        assert function(POINTS) is None
+    else:
+        with pytest.raises(StudentError, match=said) as caught:
+            function(POINTS)
+        assert caught.value.kind == kind
+        assert "\n" not in str(caught.value)
+    honest = student("return p.mean(axis=0)")
+    assert honest(POINTS).shape == (3,)
+
+
+def test_memory_is_bounded(student):
+    function = student("x = []\nwhile True: x.append(np.empty(50_000_000))")
+    with pytest.raises(StudentError, match=r"MemoryError|took more|was killed"):
+        function(POINTS)
+
+
+def test_printing_for_ever_fills_no_disk(student):
+    function = student("while True: print('x' * 10_000)")
+    with pytest.raises(StudentError):
+        function(POINTS)
+
+
+def test_what_is_printed_can_be_read(student):
+    function = student("print('hello', p.shape, flush=True)\nreturn p[0]")
+    function(POINTS)
+    assert function.printed() == "hello (4, 3)\n"
+
+
+def test_patching_numpy_in_the_child_changes_nothing_here(student):
+    function = student("np.allclose = lambda *a, **k: True\nnp.linalg.norm = lambda *a, **k: 0.0\nreturn p[0] + 99")
+    np.testing.assert_allclose(function(POINTS), POINTS[0] + 99)
+    assert np.linalg.norm(np.ones(4)) == 2.0
+
+
+def test_writing_to_the_pipe_is_noticed_or_is_an_answer_like_any_other(student):
+    forged = student(
+        "import os, sys\nfor fd in range(3, 64):\n    try: os.write(fd, b'x' * 64)\n    except OSError: pass\nreturn p[0]"
+    )
+    with pytest.raises(StudentError):
+        forged(POINTS)
+
+
+def test_the_child_knows_no_expected_answer_and_not_our_environment(student, monkeypatch):
+    monkeypatch.setenv("SECRET_OF_THE_GRADER", "42")
+    function = student("import os\nreturn [len(os.listdir('.')), 'SECRET_OF_THE_GRADER' in os.environ]")
+    assert function(POINTS) == [1, False]  # its folder holds only what it printed
+
+
+def test_deleting_its_own_folder_hurts_nobody(student):
+    function = student("import os, shutil\nshutil.rmtree('.', ignore_errors=True)\nreturn p[0]")
+    np.testing.assert_allclose(function(POINTS), POINTS[0])
+    np.testing.assert_allclose(function(POINTS), POINTS[0])
+
+
+def test_changed_input_is_noticed_and_ours_is_untouched(student):
+    function = student("p[0] = 99\nreturn p[1]")
+    ours = POINTS.copy()
+    function(ours)
+    assert function.changed_inputs
+    assert np.array_equal(ours, POINTS)
+
+
+@pytest.mark.parametrize(
+    ("head", "said"),
+    [
+        ("x = = 1", "line 2.*SyntaxError"),
+        ("1 / 0", "line 2.*ZeroDivisionError"),
+        ("import nothing_such", "ModuleNotFoundError"),
+    ],
+)
+def test_a_file_that_does_not_load_names_the_line(student, head, said):
+    with pytest.raises(StudentError, match=said):
+        student("return p", head)(POINTS)
+
+
+def test_a_missing_function_and_a_missing_file_are_told(tmp_path):
+    (tmp_path / "my.py").write_text("x = 1\n")
+    with pytest.raises(StudentError, match="defines no function centroid"):
+        Student(tmp_path / "my.py", "centroid").start()
+    with pytest.raises(InputError, match="cannot be read"):
+        Student(tmp_path / "other.py", "centroid")
+
+
+def test_an_error_names_the_students_own_line(student):
+    with pytest.raises(StudentError, match=r"my_centroid.py, line 5: .* IndexError") as caught:
+        student("x = 1\nreturn p[99]")(POINTS)
+    assert caught.value.line == 5
+
+
+def test_nothing_is_left_behind(student, tmp_path):
+    function = student("return p[0]")
+    function(POINTS)
+    process, folder = function._process, function._folder
+    function.close()
+    assert process is not None
+    assert process.poll() is not None
+    assert not os.path.exists(folder or "")
+
+
+CHEATS = {
+    "sly arrays": "class Sly(np.ndarray):\n    def __abs__(s): return np.zeros(3)\n"
+    "    def __sub__(s, o): return np.zeros(3)\n    def __eq__(s, o): return np.ones(3, bool)\n"
+    "    def __array_function__(s, *a): return 0.0\nreturn np.ones(3).view(Sly)",
+    "NaN": "return np.full(3, np.nan)",
+    "infinity": "return np.full(3, np.inf)",
+    "wrong shape": "return p",
+    "wrong kind": "return 'right'",
+    "a scalar": "return 0.0",
+    "a tuple": "return (p, p)",
+}
+
+
+@pytest.mark.parametrize("name", CHEATS)
+def test_a_cheat_earns_nothing(tmp_path, name):
+    student = written(tmp_path, CHEATS[name])
+    report = grade_file(student.path, EXERCISE)
+    by_name = {outcome.check.name: outcome for outcome in report.outcomes}
+    assert by_name["is_the_mean"].points == 0
+    assert by_name["moves_along"].points == 0
