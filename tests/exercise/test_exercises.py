@@ -3,7 +3,6 @@
 import ast
 import inspect
 import sys
-import textwrap
 from collections.abc import Callable
 
 import numpy as np
@@ -52,11 +51,11 @@ def test_it_is_complete(exercise):
     assert len({mistake.name for mistake in exercise.mistakes}) == len(exercise.mistakes) >= 3
     assert len(exercise.alternatives) >= 1
     assert len(exercise.examples) >= 2
-    assert 1 <= exercise.task.count(".") <= 8
+    assert 40 <= len(exercise.task) <= 600
     assert inspect.getdoc(exercise.reference)
 
 
-def test_the_reference_gets_full_marks_and_so_do_its_values_in_single_precision_lists(exercise):
+def test_the_reference_gets_full_marks(exercise):
     report = grade_function(exercise.reference, exercise)
     assert report.is_full, found(report)
     assert report.mistake is None
@@ -106,7 +105,9 @@ def test_the_starter_runs_says_its_contract_and_earns_nothing(exercise, tmp_path
 
 
 def test_the_starter_imports_nothing_but_numpy(exercise):
-    imports = [node for node in ast.walk(ast.parse(starter(exercise))) if isinstance(node, (ast.Import, ast.ImportFrom))]
+    imports = [
+        node for node in ast.walk(ast.parse(starter(exercise))) if isinstance(node, (ast.Import, ast.ImportFrom))
+    ]
     assert [ast.unparse(node) for node in imports] == ["import numpy as np"]
 
 
@@ -141,7 +142,7 @@ def standalone(function: Callable) -> str:
     return "\n\n".join(["from __future__ import annotations", *map(ast.unparse, chosen)])
 
 
-# mistakes of more than one kind ---------------------------------------------------------------------------------------
+# what no exercise lets pass -------------------------------------------------------------------------------------------
 
 
 def test_a_function_that_returns_nothing_earns_nothing(exercise):
@@ -160,10 +161,3 @@ def test_a_function_that_changes_its_input_is_told_so(exercise):
     report = grade_function(spoiling, exercise)
     assert 0 < report.points < report.possible, found(report)
     assert "changed" in " ".join(outcome.verdict.message for outcome in report.outcomes)
-
-
-# alignment is judged in degrees and metres ----------------------------------------------------------------------------
-
-
-def text(source: str) -> str:
-    return textwrap.dedent(source)
