@@ -9,6 +9,8 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Shaped
 
+from workbench.geometry.lines_planes import hyperplane_distances
+
 Score = Callable[[np.ndarray, float], np.ndarray]
 """score(distances, inlier_distance) -> one number per row of distances."""
 
@@ -63,3 +65,8 @@ def inlier_distance_for(sigma: float, *, directions: int = 1, kept: float = 0.95
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.7.1 and table 4.2.
     """
     return sigma * float(np.sqrt(scipy.stats.chi2.ppf(kept, directions)))
+
+
+def count_inliers(plane: Float[np.ndarray, "4"], p: Float[np.ndarray, "n 3"], inlier_distance: float) -> int:
+    """Count the points within the inlier distance of a plane (a, b, c, d), on both its sides; metres."""
+    return int(np.count_nonzero(np.abs(hyperplane_distances(plane, p)) <= inlier_distance))

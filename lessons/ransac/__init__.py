@@ -1,0 +1,1 @@
+"""Guess, count, keep the best."""

@@ -1,0 +1,146 @@
+"""What one step of RANSAC looks like: points, the sample, the model it gives, the best so far, and the curves."""
+
+import numpy as np
+
+from lessons.ransac.shapes import fan, frames, outline, plane_polygon
+from lessons.ransac.state import State
+from lessons.ransac.subject import Subject
+from lessons.ransac.words import caption_of
+from workbench.algorithms.ransac import Fit
+from workbench.scene import Classes, Curve, Label, Mesh, Picture, Points, Primitive, Role, Scalar, Scene, Segments
+
+MOST_LINES = 150
+EPIPOLAR_ROWS = 8
+IN_OR_OUT: tuple[tuple[Role, ...], tuple[str, ...]] = (("target", "wrong"), ("inlier", "outlier"))
+RIVAL_COLORS: dict[str, Role] = {"least squares": "other", "Huber": "neutral"}
+
+
+def draw(state: State) -> Scene:
+    """Return the picture of one step."""
+    scene: dict[str, Primitive] = {"caption": caption_of(state)}
+    scene |= _background(state.subject) | _rows(state) | _sample(state) | _models(state) | _curves(state)
+    return scene
+
+
+def _rows(state: State) -> dict[str, Primitive]:
+    """Draw all rows, coloured as the fit in question sees them: the trial's, or else the best's."""
+    subject, now = state.subject, state.now
+    fit = now.trial if now.phase in ("inliers", "best", "refit") else now.best if now.phase == "stop" else None
+    radius = float(np.clip(0.45 / np.sqrt(len(subject.p)), 0.005, 0.02))
+    color = "neutral" if fit is None else Classes((~fit.inliers).astype(np.uint8), *IN_OR_OUT)
+    names = (subject.noun,) if len(subject.shown) == 1 else ("first image", "second image")
+    scene: dict[str, Primitive] = {
+        path: Points(p, color, radius, name=name)
+        for path, p, name in zip(("points", "points in second"), subject.shown, names, strict=False)
+    }
+    if len(subject.shown) == 2:
+        rows = np.zeros(0, int) if fit is None else np.flatnonzero(fit.inliers)[:: 1 + fit.count // MOST_LINES]
+        ends = np.stack([p[rows] for p in subject.shown], axis=1)
+        scene["matches"] = Segments(ends, "correspondence", 1.0, opacity=0.5, name="inlier matches")
+    return scene
+
+
+def _sample(state: State) -> dict[str, Primitive]:
+    subject, now = state.subject, state.now
+    rows = now.sample if now.phase not in ("refit", "stop") else now.sample[:0]
+    if not len(rows):
+        return {}
+    radius = 1.8 * float(np.clip(0.45 / np.sqrt(len(subject.p)), 0.008, 0.02))
+    p = np.concatenate([shown[rows] for shown in subject.shown])
+    scene: dict[str, Primitive] = {"sample": Points(p, "highlight", radius, name="the sample")}
+    if len(subject.shown) == 2:
+        ends = np.stack([shown[rows] for shown in subject.shown], axis=1)
+        scene["sample matches"] = Segments(ends, "highlight", 2.0, name="matches of the sample")
+    return scene
+
+
+def _models(state: State) -> dict[str, Primitive]:
+    """Draw the truth, the rivals, the best so far, and the model under test."""
+    subject, now = state.subject, state.now
+    scene: dict[str, Primitive] = {}
+    if subject.truth is not None:
+        scene |= _model(subject, "truth", subject.truth, "truth", 3.0, 0.0, "truth")
+    for rival in state.rivals:
+        color = RIVAL_COLORS[rival.name]
+        scene |= _model(subject, f"rival {rival.name}", rival.estimate, color, 2.0, 0.0, rival.name)
+    if now.best is not None:
+        last = now.phase in ("best", "refit", "stop")
+        scene |= _model(subject, "best", now.best.estimate, "source", 3.0, 0.45 if last else 0.2, "best so far")
+    if now.estimate is not None and now.phase in ("model", "inliers"):
+        scene |= _model(subject, "trial", now.estimate, "highlight", 2.5, 0.4, f"{subject.model.name} of the sample")
+    return scene
+
+
+def _model(
+    subject: Subject, path: str, estimate: np.ndarray, color: Role, width: float, opacity: float, name: str
+) -> dict[str, Primitive]:
+    rows = np.arange(0, len(subject.p), max(1, len(subject.p) // EPIPOLAR_ROWS))[:EPIPOLAR_ROWS]
+    if subject.is_inlier is not None:
+        rows = np.flatnonzero(subject.is_inlier)[:EPIPOLAR_ROWS]
+    scene: dict[str, Primitive] = {path: Segments(outline(subject, estimate, rows), color, width, name=name)}
+    if subject.model.name == "plane" and opacity > 0.0:
+        corners = plane_polygon(subject, estimate)
+        if len(corners):
+            scene[f"{path}/surface"] = Mesh(subject.places[0](corners), fan(corners), color, opacity=opacity, flat=True)
+    return scene
+
+
+def _background(subject: Subject) -> dict[str, Primitive]:
+    scene: dict[str, Primitive] = {}
+    borders = frames(subject)
+    if len(borders):
+        scene["frame"] = Segments(borders, "neutral", 1.5, name="image borders" if subject.sizes else "window")
+    for k, (word, place) in enumerate(zip(("first image", "second image"), subject.places, strict=False)):
+        if not subject.sizes:
+            break
+        w, _ = subject.sizes[k]
+        scene[f"label {word}"] = Label(word, place(np.array([[w / 2.0, -14.0 * w / 640.0]]))[0])
+        image = subject.images[k]
+        if image is not None:
+            scene[f"picture {word}"] = _photograph(image, place)
+    return scene
+
+
+def _photograph(image: np.ndarray, place) -> Picture:
+    """Hang a photograph just behind its pixels."""
+    h, w = image.shape[:2]
+    corner, right = place(np.array([[0.0, 0.0], [w - 1.0, 0.0]]))
+    centre = place(np.array([[(w - 1.0) / 2.0, (h - 1.0) / 2.0]]))[0]
+    T_world_image = np.eye(4)
+    T_world_image[:3, :3] = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]  # columns right, rows down
+    T_world_image[:3, 3] = centre + np.array([0.0, 0.01, 0.0])
+    return Picture(image, width=float(right[0] - corner[0]) * w / (w - 1.0), T_world_object=T_world_image)
+
+
+def _curves(state: State) -> dict[str, Primitive]:
+    subject, now = state.subject, state.now
+    unit, drawn = subject.model.unit, float(now.iteration)
+    scene: dict[str, Primitive] = {
+        "best score": Scalar(now.best.score if now.best else 0.0, "best so far", "Score", "", "source"),
+        "needed": Scalar(float(max(now.needed - drawn, 0.0)), "still needed", "Samples", "", "other"),
+        "drawn": Scalar(drawn, "drawn", "Samples", "", "neutral"),
+    }
+    if now.trial is not None and now.phase == "inliers":
+        scene["trial score"] = Scalar(now.trial.score, "this sample", "Score", "", "highlight")
+    if np.isfinite(state.best_error):
+        scene["best error"] = Scalar(state.best_error, "best so far", "Error to the truth", unit, "source", log=True)
+    if len(subject.p_true):
+        for rival in state.rivals:
+            color = RIVAL_COLORS[rival.name]
+            scene[f"error {rival.name}"] = Scalar(rival.error, rival.name, "Error to the truth", unit, color, log=True)
+    fit = now.trial if now.trial is not None else now.best
+    if fit is not None:
+        scene["distances"] = _histogram(fit, state)
+    return scene
+
+
+def _histogram(fit: Fit, state: State) -> Curve:
+    """Count how many rows lie how far from the model in question; the mark is the inlier distance."""
+    limit, unit = state.inlier_distance, state.subject.model.unit
+    edges = np.linspace(0.0, 8.0 * limit, 33)
+    counts = np.histogram(fit.distances, edges)[0]
+    x = (edges[1:] + edges[:-1]) / 2.0
+    return Curve(
+        x, counts.astype(float), state.subject.noun, "Distances to the model", f"distance ({unit})", "how many",
+        "target", "bars", (limit,),
+    )  # fmt: skip

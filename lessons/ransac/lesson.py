@@ -1,0 +1,146 @@
+"""RANSAC: guess a model from the fewest points, count who agrees, keep the best guess, refit it.
+
+What it teaches: a fit to all points is dragged off by those that do not belong; a guess from few points is right
+whenever the few are, and a formula says how often one must guess. What wins is the model with the most points near it:
+mind the distance that counts as near, the noise in the sample, and models one did not mean.
+
+`params.py` has the inputs, `subject.py` the points, `shapes.py`, `draw.py` and `words.py` the picture, `presets.py` the
+experiments and questions.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+
+from lessons.ransac.draw import draw
+from lessons.ransac.params import Params
+from lessons.ransac.presets import PRESETS, QUESTIONS
+from lessons.ransac.state import Rival, State, error_of
+from lessons.ransac.subject import Subject, subject_of
+from workbench.algorithms.models import PLANE, from_points
+from workbench.algorithms.ransac import Fit, Judge, iterations_needed, ransac
+from workbench.algorithms.robust import huber_fit
+from workbench.algorithms.samplers import prosac_samples, uniform_samples
+from workbench.algorithms.scores import Score, count_inliers, count_score, mlesac_score, msac_score
+from workbench.errors import InputError
+from workbench.geometry.lines_planes import plane_from_points
+from workbench.lesson import Lesson, View
+
+SHOWN_IN_PARTS = 3  # samples
+
+
+def run(
+    params: Params,
+    *,
+    plane_from_points: Callable[[np.ndarray], np.ndarray] = plane_from_points,
+    count_inliers: Callable[[np.ndarray, np.ndarray, float], float] = count_inliers,
+    iterations_needed: Callable[[float, int, float], float] = iterations_needed,
+) -> Iterator[State]:
+    """Yield the steps of RANSAC. With the plane, its minimal fit and the count are the functions given here."""
+    subject = subject_of(params)
+    rng = np.random.default_rng(params.seed)
+    distance = params.inlier_pixels if subject.model.unit == "px" else params.inlier_distance
+    model, judge = subject.model, Judge(subject.p, subject.model, distance, score_of(params, subject))
+    if model is PLANE:
+        model = replace(PLANE, solve=from_points(checked(plane_from_points)))
+        judge = counting(judge, count_inliers) if params.score == "count" else judge
+    chosen = chosen_sample(params, subject)
+    rivals, before = rivals_of(subject, distance), None
+    for now in ransac(
+        subject.p,
+        model,
+        chain(chosen, samples_of(params, subject, rng)),
+        judge,
+        needed_for=iterations_needed,
+        confidence=params.confidence,
+        max_iterations=params.most_samples,
+        local_refit=params.local_refit,
+    ):
+        if shown(params, now.phase, now.iteration):
+            own = bool(chosen) and now.iteration == 1
+            best = now.best.estimate if now.best else None
+            errors = error_of(subject, now.estimate), error_of(subject, best)
+            yield State(params, subject, now, distance, *errors, own, rivals, before)
+        before = now.best
+
+
+def shown(params: Params, phase: str, iteration: int) -> bool:
+    """Tell whether a part of a sample becomes a step."""
+    if params.steps == "every part" or iteration <= SHOWN_IN_PARTS or phase in ("best", "refit", "stop"):
+        return True
+    return params.steps == "every sample" and phase in ("inliers", "degenerate")
+
+
+def score_of(params: Params, subject: Subject) -> Score:
+    """Return the score that the params name. An outlier may be anywhere in the window of the model."""
+    span = float(np.linalg.norm(subject.high - subject.low))
+    return {"count": count_score, "MSAC": msac_score, "MLESAC": partial(mlesac_score, span=span)}[params.score]
+
+
+def checked(plane_from_points: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndarray], np.ndarray]:
+    """Return the function, made to say so when it does not give a plane."""
+
+    def plane(p: np.ndarray) -> np.ndarray:
+        found = np.asarray(plane_from_points(p), dtype=float)
+        if found.shape != (4,):
+            raise InputError(f"plane_from_points returned {found.shape} numbers; a plane is 4 numbers: a, b, c, d")
+        return found
+
+    return plane
+
+
+def counting(
+    judge: Judge, count_inliers: Callable[[np.ndarray, np.ndarray, float], float]
+) -> Callable[[np.ndarray], Fit]:
+    """Return a judge whose score is somebody's count."""
+    return lambda plane: replace(judge(plane), score=float(count_inliers(plane, judge.p, judge.inlier_distance)))
+
+
+def samples_of(params: Params, subject: Subject, rng: np.random.Generator) -> Iterator[np.ndarray]:
+    """Return the samples that chance draws."""
+    n, size = len(subject.p), subject.model.sample_size
+    if params.sampler == "uniform":
+        return uniform_samples(n, size, rng)
+    if subject.quality is None:
+        raise InputError(
+            "PROSAC draws the most trusted first, and this file does not say whom to trust: set sampler to uniform"
+        )
+    return prosac_samples(subject.quality, size, rng)
+
+
+def chosen_sample(params: Params, subject: Subject) -> list[np.ndarray]:
+    """Return the sample that the person picked, once enough different points are."""
+    picked = [row for row in dict.fromkeys(reversed(params.sample)) if 0 <= row < len(subject.p)]
+    size = subject.model.sample_size
+    return [np.array(picked[:size])] if len(picked) >= size else []
+
+
+def rivals_of(subject: Subject, corner: float) -> tuple[Rival, ...]:
+    """Return least squares over all rows, and Huber's fit with its corner at the inlier distance."""
+    if len(subject.p) < subject.model.fewest:
+        return ()
+    first, *_, last = huber_fit(subject.p, subject.model, corner=corner, max_iterations=30)
+    found = (("least squares", first.estimate), ("Huber", last.estimate))
+    return tuple(
+        Rival(name, estimate, error_of(subject, estimate)) for name, estimate in found if np.isfinite(estimate).all()
+    )
+
+
+lesson = Lesson(
+    name="ransac",
+    title="RANSAC",
+    summary="Guess from few points, count who agrees, keep the best: fits that outliers cannot drag off.",
+    page=Path(__file__).with_name("page.md"),
+    params=Params,
+    run=run,
+    draw=draw,
+    order=400,
+    view=View(eye=(0.9, -3.5, 1.7), target=(0.0, 0.0, 0.45), grid=0.5, grid_height=-0.35, axes=False),
+    presets=PRESETS,
+    questions=QUESTIONS,
+    first_step=2,
+)

@@ -1,0 +1,393 @@
+"""Holds the RANSAC lesson to what its page, presets and questions say, in numbers."""
+
+import functools
+from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
+import pytest
+
+from lessons.ransac import presets
+from lessons.ransac.lesson import chosen_sample, lesson, run
+from lessons.ransac.params import Params
+from lessons.ransac.presets import clean_share, end, first, share_reached
+from lessons.ransac.shapes import outline
+from lessons.ransac.subject import subject_of
+from lessons.ransac.words import is_right
+from workbench.algorithms.models import MODELS, PLANE
+from workbench.algorithms.ransac import Stop, iterations_needed
+from workbench.algorithms.scores import count_inliers
+from workbench.errors import InputError
+from workbench.geometry.lines_planes import plane_from_points
+from workbench.scene import Caption, Classes, Points, Segments
+from workbench.timeline import Timeline
+
+Kind = TypeVar("Kind")
+
+
+@functools.cache
+def states_of(params):
+    return Timeline(lesson, params).states()
+
+
+def best(state):
+    assert state.now.best is not None
+    return state.now.best
+
+
+def members(subject) -> np.ndarray:
+    """Which rows were made from the model, which has to be known."""
+    assert subject.is_inlier is not None
+    return subject.is_inlier
+
+
+def truth_of(subject) -> np.ndarray:
+    assert subject.truth is not None
+    return subject.truth
+
+
+def part(scene, path: str, kind: type[Kind]) -> Kind:
+    """The primitive at a path, which has to be of a kind."""
+    primitive = scene[path]
+    assert isinstance(primitive, kind)
+    return primitive
+
+
+def rivals(state):
+    return {rival.name: rival.error for rival in state.rivals}
+
+
+def page() -> str:
+    return " ".join(lesson.page.read_text(encoding="utf-8").split())
+
+
+# the page ----------------------------------------------------------------------------------------------------------
+
+
+def test_the_numbers_of_the_page():
+    assert [iterations_needed(w, 3, 0.99) for w in (0.5, 0.3, 0.2)] == [35, 169, 574]
+    assert "35, 169 or 574 samples for $w = 0.5$, $0.3$ or $0.2$" in page()
+    assert (iterations_needed(0.5, 4, 0.99), iterations_needed(0.5, 7, 0.99)) == (72, 588)
+    assert "four points need 72 samples, seven need 588" in page()
+    for model in MODELS.values():
+        assert f"{model.name} {model.sample_size}" in page()
+
+
+def test_only_about_nine_percent_of_the_clean_samples_reach_nine_tenths_of_the_inliers():
+    params = Params()
+    assert params.inlier_distance == 2 * params.noise
+    subject, rng = subject_of(params), np.random.default_rng(0)
+    clean = np.flatnonzero(members(subject))
+    planes = PLANE.solve(subject.p[rng.choice(clean, (4000, 3))])
+    reached = (PLANE.distances(planes, subject.p[clean]) <= params.inlier_distance).mean(axis=1)
+    assert 0.07 < (reached >= 0.9).mean() < 0.11
+
+
+def test_the_default_run_does_what_the_page_says():
+    states = states_of(Params())
+    last, before = end(states), [state for state in states if state.now.phase == "best"][-1]
+    assert 0.004 < before.best_error < 0.006
+    assert last.best_error < 0.001
+    assert rivals(last)["least squares"] == pytest.approx(0.25, abs=0.005)
+    assert [state.now.phase for state in states[:3]] == ["sample", "model", "inliers"]
+    scores = [best(state).score for state in states if state.now.best and state.now.phase not in ("refit", "stop")]
+    assert scores == sorted(scores)
+    needed = [state.now.needed for state in states]
+    assert needed == sorted(needed, reverse=True)
+    assert is_right(last)
+
+
+# the presets -------------------------------------------------------------------------------------------------------
+
+
+def test_thirty_and_seventy_percent():
+    thirty, seventy = end(states_of(presets.THIRTY)), end(states_of(presets.SEVENTY))
+    assert 10 <= thirty.now.iteration <= 20
+    assert 100 < seventy.now.iteration < 200
+    assert clean_share(thirty) ** 3 == pytest.approx(1 / 3, abs=0.02)
+    assert 1 / clean_share(seventy) ** 3 == pytest.approx(37, abs=0.1)
+    assert rivals(thirty)["least squares"] == pytest.approx(0.15, abs=0.01)
+    assert max(thirty.best_error, seventy.best_error) < 0.004
+    assert thirty.now.stop is seventy.now.stop is Stop.ENOUGH
+
+
+def test_an_inlier_distance_too_small():
+    last = end(states_of(presets.TIGHT))
+    reference = end(states_of(Params()))
+    assert presets.TIGHT.inlier_distance == pytest.approx(presets.TIGHT.noise / 4, rel=0.1)
+    assert last.now.stop is Stop.MAX_ITERATIONS
+    assert best(last).inliers[members(last.subject)].mean() == pytest.approx(0.25, abs=0.05)
+    assert last.best_error > 5 * reference.best_error
+
+
+def test_an_inlier_distance_too_large():
+    last = end(states_of(presets.LOOSE))
+    assert presets.LOOSE.inlier_distance == pytest.approx(20 * presets.LOOSE.noise)
+    assert last.now.iteration == 13
+    assert last.best_error == pytest.approx(0.04, abs=0.005)
+    assert best(last).inliers[~members(last.subject)].mean() > 0.3
+    assert not is_right(last)
+    assert Timeline(lesson, presets.LOOSE).complete()[-1].caption.tone == "wrong"
+
+
+def test_msac_keeps_a_sample_nearer_to_the_truth():
+    def error(params):
+        return [state for state in states_of(params) if state.now.phase == "best"][-1].best_error
+
+    assert error(presets.MSAC) < 0.1 * error(replace(presets.MSAC, score="count"))
+
+
+def test_the_largest_plane_wins():
+    states = states_of(presets.WALL)
+    last = end(states)
+    wall = abs(best(last).estimate[2]) < 0.3
+    assert wall
+    assert last.best_error > 0.5
+    assert not is_right(last)
+    on_table, on_wall = np.count_nonzero(members(last.subject)), best(last).count
+    assert on_wall == pytest.approx(2 * on_table, rel=0.1)
+
+
+def test_the_picked_wire_is_degenerate_and_counts():
+    states = states_of(presets.WIRE)
+    assert [state.now.phase for state in states[:2]] == ["sample", "degenerate"]
+    assert states[0].chosen
+    assert members(states[0].subject)[states[0].now.sample].all()
+    assert states[2].now.iteration == 2
+    assert not states[2].chosen
+    assert is_right(end(states))
+    assert len([s for s in states if s.now.phase == "degenerate"]) > 1  # chance meets the wire again
+
+
+def test_three_near_inliers_make_a_bad_plane():
+    state = first(states_of(presets.NEAR), "inliers")
+    assert state.chosen
+    assert members(state.subject)[state.now.sample].all()
+    assert np.ptp(state.subject.p[state.now.sample], axis=0).max() < 0.2
+    assert share_reached(state) < 0.1
+    assert lesson.preset("near-sample").step == 2
+
+
+def test_huber_lies_between_and_ransac_below():
+    last = end(states_of(presets.THIRTY))
+    errors = rivals(last)
+    assert errors["least squares"] == pytest.approx(0.15, abs=0.01)
+    assert errors["Huber"] == pytest.approx(0.014, abs=0.001)
+    assert last.best_error == pytest.approx(0.002, abs=0.0005)
+
+
+def test_the_local_refit_ends_sooner():
+    with_it, without = (end(states_of(replace(presets.LOCAL, local_refit=local))) for local in (True, False))
+    assert with_it.now.iteration < 0.75 * without.now.iteration
+    assert is_right(with_it)
+
+
+def test_prosac_gets_there_in_a_tenth_of_the_draws():
+    def reached(params):
+        states = states_of(params)
+        enough = 0.8 * best(end(states)).count
+        return next(state.now.iteration for state in states if state.now.best and best(state).count >= enough)
+
+    assert reached(presets.PROSAC) <= 24
+    assert reached(replace(presets.PROSAC, sampler="uniform", steps="improvements")) > 200
+
+
+def test_two_views_and_their_lines():
+    last = end(states_of(presets.MATCHES))
+    assert is_right(last)
+    assert best(last).inliers[members(last.subject)].mean() > 0.9
+    assert iterations_needed(clean_share(last), 7, 0.99) > 50
+    assert last.now.iteration > 50
+
+
+def test_every_preset_opens_where_its_line_points():
+    for name, phase in (
+        ("thirty", "inliers"),
+        ("collinear", "degenerate"),
+        ("near-sample", "inliers"),
+        ("loose", "stop"),
+    ):
+        preset = lesson.preset(name)
+        states = states_of(preset.params)
+        assert states[preset.step or 0].now.phase == phase
+
+
+# the questions -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "answer"),
+    [
+        ("predict-needed", 35.0),
+        ("predict-near-sample", 2.0),
+        ("predict-two-planes", 1.0),
+        ("predict-size", 2.0),
+        ("predict-huber", 1.0),
+    ],
+)
+def test_the_answers_are_read_off_the_runs(name, answer):
+    question = next(question for question in lesson.questions if question.name == name)
+    states = states_of(question.params)
+    assert question.answer(states) == answer
+    assert "nan" not in question.why(states)
+
+
+# the pieces --------------------------------------------------------------------------------------------------------
+
+
+def test_the_student_functions_drive_the_run():
+    calls = {"plane": 0, "count": 0, "needed": 0}
+
+    def plane(p):
+        calls["plane"] += 1
+        return plane_from_points(p)
+
+    def count(plane, p, inlier_distance):
+        calls["count"] += 1
+        return count_inliers(plane, p, inlier_distance)
+
+    def needed(inlier_ratio, sample_size, confidence):
+        calls["needed"] += 1
+        return iterations_needed(inlier_ratio, sample_size, confidence)
+
+    ours = list(run(Params(steps="every part")))
+    theirs = list(
+        run(Params(steps="every part"), plane_from_points=plane, count_inliers=count, iterations_needed=needed)
+    )
+    assert len(ours) == len(theirs)
+    np.testing.assert_array_equal(best(end(ours)).estimate, best(end(theirs)).estimate)
+    assert calls["plane"] == end(ours).now.iteration
+    assert calls["count"] >= calls["plane"]
+    assert calls["needed"] == sum(state.now.phase == "best" for state in ours)
+
+
+def test_wrong_functions_have_the_effect_they_deserve():
+    horizontal = list(run(Params(), plane_from_points=lambda p: np.array([0.0, 0.0, 1.0, -p[0, 2]])))
+    assert best([s for s in horizontal if s.now.phase == "best"][-1]).estimate[2] == 1.0
+    turned_round = list(
+        run(Params(), count_inliers=lambda plane, p, t: int(np.sum(np.abs(p @ plane[:3] + plane[3]) > t)))
+    )
+    assert [s for s in turned_round if s.now.phase == "best"][-1].best_error > 0.2
+    hasty = end(run(Params(seed=3), iterations_needed=lambda w, m, p: 1))
+    assert hasty.now.iteration <= 2
+
+
+def test_a_function_that_returns_no_plane_is_told_so():
+    with pytest.raises(InputError, match=r"4 numbers"):
+        list(run(Params(), plane_from_points=lambda p: p[0]))
+
+
+@pytest.mark.parametrize("model", list(MODELS))
+@pytest.mark.parametrize("score", ["count", "MSAC", "MLESAC"])
+def test_every_model_with_every_score_is_right(model, score):
+    params = Params(model=model, score=score, outliers=0.3, points=200, inlier_pixels=3.0, steps="improvements")
+    last = end(states_of(params))
+    assert is_right(last)
+    assert last.best_error < 0.2 * rivals(last)["least squares"]
+
+
+@pytest.mark.parametrize("model", list(MODELS))
+def test_the_picture_has_its_parts(model):
+    timeline = Timeline(
+        lesson, Params(model=model, outliers=0.1, points=100, inlier_pixels=3.5, steps="every part")
+    ).complete()
+    assert timeline.stopped is None, timeline.failure
+    for step in timeline.known():
+        state, scene = step.state, step.scene
+        assert isinstance(scene["caption"], Caption)
+        assert len(step.caption.text) <= 400
+        points = part(scene, "points", Points)
+        assert len(points.p) == 100
+        if state.now.phase == "inliers":
+            assert isinstance(points.color, Classes)
+            np.testing.assert_array_equal(points.color.ids == 0, state.now.trial.inliers)
+        if state.now.phase == "sample":
+            np.testing.assert_array_equal(
+                part(scene, "sample", Points).p[: len(state.now.sample)], points.p[state.now.sample]
+            )
+        for path, primitive in scene.items():
+            if isinstance(primitive, Points | Segments):
+                assert primitive.name, path
+    truth = part(timeline[-1].scene, "truth", Segments)
+    assert len(truth.ends) > 0
+    low, high = truth.ends.reshape(-1, 3).min(0), truth.ends.reshape(-1, 3).max(0)
+    assert (low > -3).all()
+    assert (high < 3).all()
+
+
+@pytest.mark.parametrize("model", ["line", "plane", "circle", "sphere"])
+def test_an_outline_lies_on_its_model(model):
+    subject = subject_of(Params(model=model))
+    ends = outline(subject, truth_of(subject), np.zeros(0, int)).reshape(-1, 3)
+    p = ends[:, [0, 2]] - [0.0, 0.7] if subject.model.columns == 2 else ends
+    assert subject.model.distances(truth_of(subject), p).max() < 1e-9
+
+
+def test_a_model_outside_the_window_is_not_drawn():
+    subject = subject_of(Params())
+    assert outline(subject, np.array([0.0, 0.0, 1.0, -50.0]), np.zeros(0, int)).shape == (0, 2, 3)
+    subject = subject_of(Params(model="line"))
+    assert outline(subject, np.array([0.0, 1.0, -50.0]), np.zeros(0, int)).shape == (0, 2, 3)
+
+
+def test_picks_need_enough_different_points():
+    subject = subject_of(Params())
+    assert chosen_sample(Params(), subject) == []
+    assert chosen_sample(Params(sample=(-1, -1, 4, 9)), subject) == []
+    assert chosen_sample(Params(sample=(4, 9, 4, 9)), subject) == []
+    assert chosen_sample(Params(sample=(-1, 700, 4, 9)), subject) == []
+    np.testing.assert_array_equal(chosen_sample(Params(sample=(1, 2, 4, 9)), subject), [[9, 4, 2]])
+    four = subject_of(Params(model="sphere"))
+    assert len(chosen_sample(Params(sample=(1, 2, 4, 9)), four)[0]) == 4
+
+
+# own data ----------------------------------------------------------------------------------------------------------
+
+
+def test_an_own_cloud_and_what_does_not_fit_it(tmp_path):
+    p = subject_of(Params(outliers=0.3)).p * 10 + 500
+    np.savetxt(tmp_path / "cloud.csv", p, delimiter=",")
+    params = Params(cloud=tmp_path / "cloud.csv", inlier_distance=0.3)
+    timeline = Timeline(lesson, params).complete()
+    assert timeline.stopped is None, timeline.failure
+    last = end(timeline.states())
+    assert best(last).count == pytest.approx(410, abs=20)
+    assert np.isnan(last.best_error)
+    shown = part(timeline[-1].scene, "points", Points)
+    assert np.abs(shown.p).max() < 2.5
+    for other, message in (("line", "plane or sphere"), ("homography", "plane or sphere")):
+        assert message in str(Timeline(lesson, replace(params, model=other)).complete().stopped)
+    assert "does not say whom to trust" in str(Timeline(lesson, replace(params, sampler="PROSAC")).complete().stopped)
+    assert "no such file" in str(Timeline(lesson, replace(params, cloud=tmp_path / "none.csv")).complete().stopped)
+
+
+def test_own_matches_with_their_truth(tmp_path):
+    subject = subject_of(Params(model="fundamental matrix", outliers=0.2, points=150))
+    np.savez(
+        tmp_path / "m.npz",
+        x1=subject.p[:, :2],
+        x2=subject.p[:, 2:],
+        F=truth_of(subject),
+        quality=np.asarray(subject.quality),
+    )
+    params = Params(model="fundamental matrix", matches=tmp_path / "m.npz", sampler="PROSAC", steps="improvements")
+    last = end(states_of(params))
+    assert is_right(last)
+    assert "homography or fundamental" in str(Timeline(lesson, replace(params, model="plane")).complete().stopped)
+    np.savetxt(tmp_path / "few.csv", subject.p[:5], delimiter=",")
+    few = Timeline(lesson, replace(params, matches=tmp_path / "few.csv")).complete()
+    assert "5 matches; at least 7" in str(few.stopped)
+
+
+def test_the_real_photographs_and_the_real_room(shared_data):
+    folder = shared_data / "ransac"
+    pair = Params(
+        model="fundamental matrix", matches=folder / "fountain-P11" / "gt_and_matches.npz", inlier_pixels=1.0,
+        first_image=folder / "fountain-P11" / "0004_third.jpg", second_image=folder / "fountain-P11" / "0005_third.jpg",
+        steps="improvements",
+    )  # fmt: skip
+    last = end(states_of(pair))
+    assert best(last).inliers[members(last.subject)].mean() >= 0.95
+    room = Params(cloud=folder / "capture0001.pcd", up="-y", inlier_distance=0.02, steps="improvements")
+    last = end(states_of(room))
+    assert best(last).count / len(last.subject.p) == pytest.approx(0.27, abs=0.03)

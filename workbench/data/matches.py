@@ -1,0 +1,130 @@
+"""Matches between two images that people bring, read or refused in one clear line."""
+
+import io
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from workbench.errors import InputError
+
+MOST_BYTES = 100 * 10**6
+_FIRST, _SECOND = ("x1", "uv1", "p1", "first"), ("x2", "uv2", "p2", "second")
+_BOTH, _QUALITY = ("matches", "p"), ("quality", "score", "scores")
+
+
+@dataclass(frozen=True, eq=False)
+class Matches:
+    """Matches of a file.
+
+    Attributes:
+        p: Rows (u, v, u', v'), pixels of the first image and of the second.
+        quality: How much each is trusted, more is better; None where the file does not say.
+        H: The true homography, first to second, where the file has one.
+        F: The true fundamental matrix, `uv_second_h.T @ F @ uv_first_h = 0`, where the file has one.
+    """
+
+    p: Float[np.ndarray, "n 4"]
+    quality: Float[np.ndarray, " n"] | None
+    H: Float[np.ndarray, "3 3"] | None
+    F: Float[np.ndarray, "3 3"] | None
+
+
+def read_matches(path: Path, fewest: int = 4) -> Matches:
+    """Return the matches of a file.
+
+    Formats: npz with arrays x1 and x2 (n, 2), or matches (n, 4), and optionally quality (n,), H and F (3, 3); or text with
+    four numbers a line, u v u' v', separated by commas or white space, and optionally a quality as the fifth.
+
+    Raises:
+        InputError: If the file is missing, too large, not understood, holds NaN, or has fewer than `fewest` matches.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise InputError(f"{path}: no such file")
+    if path.stat().st_size > MOST_BYTES:
+        raise InputError(f"{path.name}: over {MOST_BYTES // 10**6} MB; that is too large for matches")
+    found = _from_arrays(path) if path.suffix.lower() == ".npz" else _from_text(path)
+    bad = ~np.isfinite(found.p).all(axis=1)
+    if bad.any():
+        raise InputError(f"{path.name}: match {int(np.argmax(bad)) + 1} is NaN or infinite; leave such rows out")
+    if len(found.p) < fewest:
+        raise InputError(f"{path.name}: {len(found.p)} matches; at least {fewest} are needed")
+    return found
+
+
+def _from_arrays(path: Path) -> Matches:
+    try:
+        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as loaded:
+            arrays = {name: np.asarray(loaded[name]) for name in loaded.files}
+    except (AttributeError, ValueError, EOFError, OSError, TypeError, zipfile.BadZipFile):
+        raise InputError(f"{path.name}: not readable as arrays of numpy") from None
+    first, second, both = (_named(arrays, names) for names in (_FIRST, _SECOND, _BOTH))
+    if first is not None and second is not None:
+        p = (
+            np.concatenate([_rows(path, first, 2), _rows(path, second, 2)], axis=1)
+            if len(first) == len(second)
+            else None
+        )
+        if p is None:
+            raise InputError(f"{path.name}: {len(first)} pixels in the first image and {len(second)} in the second")
+    elif both is not None:
+        p = _rows(path, both, 4)
+    else:
+        raise InputError(f"{path.name}: no arrays x1 and x2, nor matches, but {', '.join(arrays) or 'nothing'}")
+    quality = _named(arrays, _QUALITY)
+    if quality is not None and (quality.shape != (len(p),) or quality.dtype.kind not in "fiu"):
+        raise InputError(
+            f"{path.name}: quality is {quality.dtype} {quality.shape}, where ({len(p)},) numbers are wanted"
+        )
+    return Matches(
+        p, None if quality is None else quality.astype(float), _truth(path, arrays, "H"), _truth(path, arrays, "F")
+    )
+
+
+def _from_text(path: Path) -> Matches:
+    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    kept = [
+        line.replace(",", " ").replace(";", " ").split() for line in lines if line.strip() and line.strip()[0] != "#"
+    ]
+    if kept and not _is_number(kept[0][0]):
+        kept = kept[1:]  # a line of names
+    widths = {len(words) for words in kept}
+    if len(widths) != 1 or widths <= {0, 1, 2, 3}:
+        raise InputError(f"{path.name}: not lines of four numbers u v u' v', with a quality as the fifth where known")
+    try:
+        table = np.array(kept, dtype=float)
+    except ValueError:
+        raise InputError(f"{path.name}: not all of it are numbers; four or five a line are wanted") from None
+    return Matches(table[:, :4].copy(), table[:, 4].copy() if table.shape[1] > 4 else None, None, None)
+
+
+def _named(arrays: dict[str, np.ndarray], names: tuple[str, ...]) -> np.ndarray | None:
+    return next((arrays[name] for name in names if name in arrays), None)
+
+
+def _rows(path: Path, array: np.ndarray, columns: int) -> np.ndarray:
+    if array.ndim != 2 or array.shape[1] != columns or array.dtype.kind not in "fiu":
+        raise InputError(
+            f"{path.name}: an array of {array.dtype} {array.shape}, where (n, {columns}) numbers are wanted"
+        )
+    return array.astype(float)
+
+
+def _truth(path: Path, arrays: dict[str, np.ndarray], name: str) -> np.ndarray | None:
+    if name not in arrays:
+        return None
+    matrix = arrays[name]
+    if matrix.shape != (3, 3) or matrix.dtype.kind not in "fiu" or not np.isfinite(matrix).all() or not matrix.any():
+        raise InputError(f"{path.name}: {name} is no 3 x 3 matrix of finite numbers")
+    return matrix / np.linalg.norm(matrix)
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
