@@ -87,8 +87,11 @@ def record(
 
     if str(out) == "-":
         record_to_stdout(run.lesson, run.params, preset=run.preset)
-    else:
-        record_file(run.lesson, run.params, out, preset=run.preset, force=force, progress=sys.stderr)
+        return
+    written = record_file(run.lesson, run.params, out, preset=run.preset, force=force, progress=sys.stderr)
+    if written.stopped is not None:
+        _complain(f"{written.stopped} What there is, is recorded.")
+    sys.stdout.write(f"{out}: {written.steps:,} steps, {written.bytes / 1e6:.1f} MB\n")
 
 
 @command

@@ -36,7 +36,7 @@ class _Scale:
 
 def frame_key(curves: Sequence[Curve]) -> tuple[object, ...]:
     """Return what the frame of a chart depends on."""
-    names = [(curve.name, curve.color, curve.x_label, curve.y_label) for curve in curves]
+    names = [(curve.name, curve.color, curve.x_label) for curve in curves]
     return (_scales(curves), names)
 
 
@@ -119,10 +119,12 @@ def _legend_places(entries: Sequence[tuple[str, tuple[int, int, int]]]) -> tuple
 
 def ticks(low: float, high: float, most: int = 5) -> np.ndarray:
     """Return round numbers inside [low, high], at most `most` of them."""
-    raw = (high - low) / max(most - 1, 1)
-    power = 10.0 ** np.floor(np.log10(raw))
-    step = next(factor * power for factor in (1, 2, 5, 10) if factor * power >= raw * (1 - 1e-9))
-    return np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1) * step + 0.0
+    power = 10.0 ** np.floor(np.log10((high - low) / most))
+    for step in power * np.array([1.0, 2.0, 5.0, 10.0, 20.0]):
+        first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
+        if last - first < most:
+            return np.arange(first, last + 1) * step + 0.0  # + 0.0 makes -0.0 a plain zero
+    return np.array([low, high])
 
 
 def number(value: float) -> str:
@@ -188,10 +190,9 @@ def _words(x: _Scale, y: _Scale, curves: Sequence[Curve]) -> Any:
     colors: list[tuple[int, int, int]] = [GREY] * len(places)
     at = LEFT
     for curve in curves:
-        name = _with_unit(curve.name, curve.y_label if curve.y_label != curve.name else "")
-        room = 18.0 + 6.6 * len(name)
+        room = 18.0 + 6.6 * len(curve.name)
         places.append((at + room / 2, 0.0))
-        words.append(name)
+        words.append(curve.name)
         colors.append(PALETTE[curve.color])
         at += room
     return _text(np.array(places), words, colors)

@@ -50,7 +50,6 @@ def send_series(stream: Any, path: str, series: Series, order: int) -> None:
 def curve_style(scalar: Scalar, name: str, *, second: bool = False) -> Any:
     """Return how a curve is drawn; that of a second run is thinner and darker."""
     color = np.array(PALETTE[scalar.color]) * (0.6 if second else 1.0)
-    name = f"log10 {name}" if scalar.log else name
     return rr.SeriesLines(colors=[color.astype(np.uint8)], names=safe(name), widths=1.2 if second else 2.2)
 
 

@@ -2,7 +2,8 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
+from itertools import takewhile
 from typing import Any
 
 import numpy as np
@@ -50,9 +51,10 @@ def contents_of(scenes: Sequence[Scene]) -> Contents:
             if isinstance(primitive, Scalar):
                 found.scalars.setdefault(primitive.chart, {}).setdefault(path, primitive)
             elif isinstance(primitive, Curve):
-                found.charts.setdefault(primitive.chart, Canvas(primitive.chart, WIDTH, HEIGHT, k))
-            elif isinstance(primitive, Picture) and not in_space(primitive) and path not in found.pictures:
-                found.pictures[path] = _picture_canvas(path, primitive, k)
+                found.charts.setdefault(primitive.chart, Canvas(_chart_title(primitive), WIDTH, HEIGHT, k))
+            elif isinstance(primitive, Picture) and not in_space(primitive):
+                known = found.pictures.setdefault(path, _picture_canvas(path, primitive, k))
+                found.pictures[path] = replace(known, title=_common(known.title, primitive.title or path, path))
             elif isinstance(primitive, Table):
                 found.tables = True
         entries, fields = legend_of(scene)
@@ -110,6 +112,19 @@ def both(a: Contents, b: Contents) -> Contents:
         tables=a.tables or b.tables,
         legend_height=max(a.legend_height, b.legend_height),
     )
+
+
+def _chart_title(curve: Curve) -> str:
+    return curve.chart if not curve.y_label or curve.y_label in curve.chart else f"{curve.chart} · {curve.y_label}"
+
+
+def _common(title: str, other: str, path: str) -> str:
+    """Return one title for both: their common beginning where they differ, or the path where they have none."""
+    if title == other:
+        return title
+    pairs = takewhile(lambda pair: pair[0] == pair[1], zip(title.removesuffix(" …"), other, strict=False))
+    start = "".join(letter for letter, _ in pairs).rstrip()
+    return f"{start} …" if len(start) > 3 else path
 
 
 def _picture_canvas(path: str, picture: Picture, first: int) -> Canvas:

@@ -15,6 +15,8 @@ from workbench.recording.sink import entity_of
 from workbench.scene import Scalar
 
 RERUN_FOV = 55.0  # degrees, of the viewer's eye, from top to bottom
+TINY = 1e-9
+"""A plot does not zoom in on differences below this: they are rounding, whatever the unit."""
 MOST_ROWS = 5.0
 """Shares of height in the column beside the scene; what is more goes behind a tab."""
 
@@ -41,7 +43,8 @@ def two_runs(view: View, contents: Contents, runs: Mapping[str, Values], names: 
     scenes = [
         rrb.Vertical(scene_view(root, view, names[root]), caption_view(root), row_shares=[4, 1.4]) for root in runs
     ]
-    rows, shares = [rrb.Horizontal(*scenes)], [4.0]
+    rows: list[Any] = [rrb.Horizontal(*scenes)]
+    shares = [4.0]
     if contents.legend_height:
         rows.append(legend_view(next(iter(runs)), contents))
         shares.append(0.5 * legend_share(contents))
@@ -60,7 +63,10 @@ def scene_view(root: str, view: View, name: str) -> Any:
         color = [150, 155, 160, 110]
         grid = rrb.LineGrid3D(visible=True, spacing=view.grid, plane=plane, stroke_width=1.0, color=color)
     eye = rrb.EyeControls3D(kind=rrb.Eye3DKind.Orbital, position=_eye(view), look_target=view.target, eye_up=view.up)
-    return rrb.Spatial3DView(origin=f"{root}/world", name=safe(name), line_grid=grid, eye_controls=eye)
+    axes = rrb.SpatialInformation(target_frame="tf#/", show_axes=view.axes)
+    return rrb.Spatial3DView(
+        origin=f"{root}/world", name=safe(name), line_grid=grid, eye_controls=eye, spatial_information=axes
+    )
 
 
 def page_view(root: str = "") -> Any:
@@ -102,7 +108,7 @@ def finished(content: Any) -> Any:
 
 
 def _beside(contents: Contents, runs: Mapping[str, Values]) -> list[tuple[Any, float]]:
-    """Return rows of curves, charts, pictures and tables, each with its share of the height."""
+    """Return rows of pictures, curves, charts and tables, each with its share of the height."""
     plots = [_curve_view(chart, scalars, runs) for chart, scalars in contents.scalars.items()]
     beside = {
         entity: [_canvas_view(root + entity, canvas, root) for root in runs]
@@ -112,9 +118,9 @@ def _beside(contents: Contents, runs: Mapping[str, Values]) -> list[tuple[Any, f
     pictures = [view for entity, views in beside.items() if entity.startswith("/pictures/") for view in views]
     tables = [rrb.TextDocumentView(origin=f"{root}/tables", name=_titled("Numbers", root)) for root in runs]
     return [
+        *_rows(pictures, 1.4, 2),
         *_rows(plots, 1.0, 1 if len(plots) < 3 else 2),
         *_rows(charts, 1.3, 2),
-        *_rows(pictures, 1.4, 2),
         *_rows(tables if contents.tables else [], 1.0, 2),
     ]
 
@@ -145,6 +151,8 @@ def _column(rows: Sequence[tuple[Any, float]]) -> Any:
 def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Values]) -> Any:
     """Return a plot of scalars over all steps, with a cursor at the current one."""
     unit = next((scalar.unit for scalar in scalars.values() if scalar.unit), "")
+    if any(scalar.log for scalar in scalars.values()):
+        unit = f"log10 of {unit or 'the value'}"
     curves = [
         plotted_values(scalar, values[path])
         for values in runs.values()
@@ -156,7 +164,7 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
     y = np.concatenate(curves)
     x, y = (x[np.isfinite(y)], y[np.isfinite(y)]) if np.isfinite(y).any() else (np.zeros(1), np.zeros(1))
     low, high = float(y.min()), float(y.max())
-    room = 0.06 * (high - low) or 0.5 * abs(high) or 0.5
+    room = 0.06 * (high - low) if high - low > TINY else 0.5 * max(abs(high), 1e-3)
     end, infinite = rrb.TimeRangeBoundary.absolute(seq=max(steps - 1, 1)), rrb.TimeRangeBoundary.infinite()
     return rrb.TimeSeriesView(
         origin="/",

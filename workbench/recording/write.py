@@ -5,6 +5,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TextIO
 from uuid import uuid4
@@ -29,6 +30,15 @@ Progress = Callable[[str, int, int | None], None]
 """progress(what is done, how much is done, of how much or None)."""
 
 
+@dataclass(frozen=True)
+class Written:
+    """What was written: how many steps, how many bytes, and why the run ended early if it did."""
+
+    steps: int
+    bytes: int
+    stopped: str | None
+
+
 def record(
     lesson: Lesson | str, path: str | Path, params: Any = None, *, preset: str | None = None, force: bool = False
 ) -> Path:
@@ -47,7 +57,8 @@ def record(
     lesson = find(lesson) if isinstance(lesson, str) else lesson
     if params is None:
         params = lesson.params() if preset is None else lesson.preset(preset).params
-    return record_file(lesson, params, Path(path), preset=preset, force=force)
+    record_file(lesson, params, Path(path), preset=preset, force=force)
+    return Path(path)
 
 
 def record_file(
@@ -58,20 +69,26 @@ def record_file(
     preset: str | None = None,
     force: bool = False,
     progress: TextIO | None = None,
-) -> Path:
-    """Run a lesson, write the run to `path`, and return it; a bar is drawn on `progress` where that is a terminal."""
+) -> Written:
+    """Run a lesson and write the run to `path`; a bar is drawn on `progress` where that is a terminal.
+
+    Raises:
+        InputError: If the run fails, or the file is there or cannot be written; then nothing has changed.
+    """
     _check_place(path, force)
     with _bar(progress) as tell:
-        data = _run_bytes(lesson, params, preset, tell)
+        timeline = _run(lesson, params, tell)
+        data = record_bytes(timeline, preset=preset, progress=tell)
     _write(path, data)
-    return path
+    return Written(len(timeline), len(data), timeline.stopped)
 
 
 def record_to_stdout(lesson: Lesson, params: Any, *, preset: str | None = None) -> None:
     """Run a lesson and write the recording to standard output."""
     if sys.stdout.isatty():
         raise InputError("standard output is a terminal: pipe it somewhere, or write -o FILE.rrd")
-    sys.stdout.buffer.write(_run_bytes(lesson, params, preset, lambda what, done, of: None))
+    sys.stdout.buffer.write(record_bytes(_run(lesson, params, lambda what, done, of: None), preset=preset))
+    sys.stdout.buffer.flush()
 
 
 def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Progress | None = None) -> bytes:
@@ -111,16 +128,17 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
     return stream_bytes(application, fill)
 
 
-def _run_bytes(lesson: Lesson, params: Any, preset: str | None, tell: Progress) -> bytes:
+def _run(lesson: Lesson, params: Any, tell: Progress) -> Timeline:
+    """Return a run to its end, or to the bound at which it was cut; raise InputError where it failed."""
     timeline = Timeline(lesson, params)
     while timeline.extend():
         tell("computed", len(timeline), None)
-        if timeline.stopped is not None:  # cut at a bound, after a good step: what there is, is kept
-            return record_bytes(timeline, preset=preset, progress=tell)
+        if timeline.stopped is not None:  # cut after a good step
+            return timeline
     if timeline.stopped is not None:
         at = f" (at step {len(timeline)})" if len(timeline) else ""
         raise InputError(f"{timeline.stopped}{at}; nothing was written")
-    return record_bytes(timeline, preset=preset, progress=tell)
+    return timeline
 
 
 def _title(timeline: Timeline, preset: str | None) -> str:
