@@ -1,0 +1,96 @@
+import csv
+import io
+import json
+from dataclasses import replace
+
+import pytest
+
+from tests import fake
+from tests.exercise.batch import write_class
+from tests.exercise.centroid import EXERCISE
+from workbench.errors import InputError
+from workbench.exercise import classroom, starter
+
+POINTS = {"right": 4.0, "sum": 1.0, "hang": 0.0, "crash": 0.0}
+
+
+@pytest.fixture(autouse=True)
+def only_the_centroid(monkeypatch):
+    lesson = replace(fake.lesson, exercises=(replace(EXERCISE, seconds=0.4),))
+    monkeypatch.setattr(starter, "catalog", lambda: {"fake": lesson})
+
+
+def test_a_class_is_graded_whole_in_parallel_and_goes_on_where_it_stopped(tmp_path):
+    kinds = write_class(tmp_path / "in", 20)
+    seen: list[str] = []
+
+    def stop_after_seven(name, done, of):
+        seen.append(name)
+        if len(seen) == 7:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        classroom.grade_class(tmp_path / "in", tmp_path / "out", progress=stop_after_seven)
+    first = set(seen)
+    seen.clear()
+    results = classroom.grade_class(
+        tmp_path / "in", tmp_path / "out", progress=lambda name, done, of: seen.append(name)
+    )
+    assert not first & set(seen)
+    assert len(results) == 20
+    for result in results:
+        kind = kinds[result["student"]]
+        if kind == "broken":
+            assert "line 1" in result["error"]
+        else:
+            assert result["error"] is None
+            assert sum(report["points"] for report in result["reports"]) == POINTS[kind], kind
+            assert (result["reports"][0]["mistake"] or {}).get("name") == ("sum" if kind == "sum" else None)
+    rows = list(csv.DictReader(io.StringIO((tmp_path / "out" / "class.csv").read_text())))
+    assert [row["student"] for row in rows] == sorted(kinds)
+    matrix = list(csv.reader(io.StringIO((tmp_path / "out" / "matrix.csv").read_text())))
+    assert matrix[-1][0] == "most frequent mistake"
+    assert "sum (6)" in matrix[-1]
+    summary = (tmp_path / "out" / "summary.md").read_text()
+    assert "18 graded, 8 with full marks, 2 could not be graded" in summary
+
+
+def test_a_file_that_changed_is_graded_again(tmp_path):
+    write_class(tmp_path / "in", 1)
+    classroom.grade_class(tmp_path / "in", tmp_path / "out")
+    graded: list[str] = []
+    classroom.grade_class(tmp_path / "in", tmp_path / "out", progress=lambda name, *_: graded.append(name))
+    assert graded == []
+    (tmp_path / "in" / "student000.py").write_text("def centroid(p):\n    return p.sum(axis=0)\n")
+    results = classroom.grade_class(tmp_path / "in", tmp_path / "out", progress=lambda name, *_: graded.append(name))
+    assert graded == ["student000"]
+    assert results[0]["reports"][0]["points"] == 1.0
+
+
+def test_folders_per_student_and_names_that_a_spreadsheet_would_run(tmp_path):
+    for name in ("ada", "=cmd()"):
+        (tmp_path / "in" / name).mkdir(parents=True)
+        (tmp_path / "in" / name / "my_centroid.py").write_text("def centroid(p):\n    return p.mean(axis=0)\n")
+    classroom.grade_class(tmp_path / "in", tmp_path / "out")
+    rows = list(csv.reader(io.StringIO((tmp_path / "out" / "class.csv").read_text())))
+    assert {row[0] for row in rows[1:]} == {"ada", "'=cmd()"}
+
+
+@pytest.mark.parametrize("files", [[], ["notes.txt"]])
+def test_a_folder_without_submissions_is_told(tmp_path, files):
+    for name in files:
+        (tmp_path / name).write_text("x")
+    with pytest.raises(InputError, match=r"holds no \.py file"):
+        classroom.grade_class(tmp_path, tmp_path / "out")
+    with pytest.raises(InputError, match="no such folder"):
+        classroom.grade_class(tmp_path / "nowhere", tmp_path / "out")
+
+
+def test_a_result_that_was_half_written_is_graded_again(tmp_path):
+    write_class(tmp_path / "in", 1)
+    classroom.grade_class(tmp_path / "in", tmp_path / "out")
+    kept = tmp_path / "out" / "students" / "student000.json"
+    kept.write_text(kept.read_text()[:50])
+    (result,) = classroom.grade_class(tmp_path / "in", tmp_path / "out")
+    assert result["reports"][0]["points"] == 4.0
+    assert json.loads(kept.read_text())["student"] == "student000"
