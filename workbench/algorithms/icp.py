@@ -215,7 +215,7 @@ def matcher(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3
     return match
 
 
-def _tree(p: np.ndarray) -> scipy.spatial.KDTree:
+def _tree(p: np.ndarray) -> "scipy.spatial.KDTree":
     return scipy.spatial.KDTree(p, leafsize=32, balanced_tree=False, compact_nodes=False)
 
 

@@ -10,7 +10,7 @@ Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
 
 
-def cotangent_laplacian(p: Points, faces: Faces) -> scipy.sparse.csr_array:
+def cotangent_laplacian(p: Points, faces: Faces) -> "scipy.sparse.csr_array":
     """Return the symmetric, positive semidefinite L with (L u)_i = sum_j w_ij (u_i - u_j), w = (cot a + cot b) / 2.
 
     a and b are the two angles opposite edge ij; on the border there is one. Applied to a function on the vertices, L

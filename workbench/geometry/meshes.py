@@ -132,7 +132,7 @@ def on_boundary(faces: Faces, count: int) -> Bool[np.ndarray, " {count}"]:
     return np.bincount(faces.ravel(), (following - preceding).ravel(), count) != 0
 
 
-def adjacency(faces: Faces, count: int) -> scipy.sparse.csr_array:
+def adjacency(faces: Faces, count: int) -> "scipy.sparse.csr_array":
     """Return the `count` x `count` matrix with a 1 where an edge joins two vertices."""
     a, b = edges(faces).T
     ones = np.ones(2 * len(a))
