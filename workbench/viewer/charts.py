@@ -115,13 +115,11 @@ class Beside:
         )
         data = (x, *columns)
         chart = self._charts.get(key)
-        if chart is not None and len(chart.data) == len(data):
-            chart.title, chart.data, chart.scales = title, data, scales
+        if chart is not None:
             if list(chart.series) != series:
                 chart.series = tuple(series)
+            chart.title, chart.data, chart.scales = title, data, scales
             return
-        if chart is not None:
-            chart.remove()
         self._charts[key] = self.gui.add_uplot(
             data,
             tuple(series),

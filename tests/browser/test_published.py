@@ -1,0 +1,131 @@
+"""A published site from disk, in a real browser without any network."""
+
+from dataclasses import replace
+
+import pytest
+
+from tests import fake
+from workbench.lesson import catalog
+from workbench.publish.site import publish
+from workbench.timeline import Timeline
+
+pytestmark = pytest.mark.browser
+
+WAIT = 60_000
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory):
+    out = tmp_path_factory.mktemp("site")
+    lessons = [replace(lesson, presets=lesson.presets[:1]) for lesson in (fake.lesson, catalog()["icp"])]
+    publish(out, lessons)
+    return out
+
+
+@pytest.fixture
+def page(chromium):
+    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    trouble: list[str] = []
+    page.on("console", lambda m: trouble.append(m.text) if m.type == "error" else None)
+    page.on("pageerror", lambda error: trouble.append(str(error)))
+    page.on("requestfailed", lambda request: trouble.append(f"failed: {request.url[:200]}"))
+    page.on("request", lambda r: None if r.url.startswith(("file:", "data:", "blob:")) else trouble.append(r.url[:200]))
+    yield page
+    page.close()
+    assert trouble == []
+
+
+def seconds(page) -> str:
+    return page.frame_locator("#scene iframe").locator("input").first.input_value(timeout=WAIT)
+
+
+def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out):
+    lesson = catalog()["icp"]
+    timeline = Timeline(lesson, lesson.params()).complete()
+    page.goto((out / "icp" / "index.html").as_uri())
+    page.frame_locator("#scene iframe").locator("canvas").first.wait_for(timeout=WAIT)
+
+    def shows(k: int) -> None:
+        page.locator("#caption", has_text=timeline[k].caption.text).wait_for(timeout=WAIT)
+        page.wait_for_function(
+            "k => document.querySelector('#scene iframe').contentDocument.querySelector('input')?.value == k + 0.5",
+            arg=k,
+        )
+        rmse = timeline.series()["rmse"].values[k] if "rmse" in timeline.series() else None
+        if rmse is not None:
+            assert f"{rmse:.3g}" in page.locator("#series figcaption").first.inner_text()
+
+    page.get_by_role("button", name="First").click()
+    shows(0)
+    page.keyboard.press("n")
+    shows(1)
+    page.keyboard.press("ArrowRight")
+    shows(2)
+    page.keyboard.press("p")
+    shows(1)
+    page.keyboard.press("End")
+    shows(len(timeline) - 1)
+    page.get_by_role("button", name="Back").click()
+    shows(len(timeline) - 2)
+    page.keyboard.press("Home")
+    page.locator("#speed").select_option("8")
+    page.get_by_role("button", name="Play").click()
+    page.get_by_role("button", name="Pause").wait_for(timeout=WAIT)
+    page.locator("#caption", has_text=timeline[3].caption.text).wait_for(timeout=WAIT)
+    page.get_by_role("button", name="Pause").click()
+
+
+def test_a_question_is_answered_and_its_run_shown(page, out):
+    page.goto((out / "fake" / "index.html").as_uri())
+    form = page.locator("form.question").nth(1)
+    form.get_by_label("the first").check()
+    form.get_by_role("button", name="Answer").click()
+    form.locator("output", has_text="You said the first; the run says the second. The second is.").wait_for(
+        timeout=WAIT
+    )
+    number = page.locator("form.question").first
+    number.get_by_role("button", name="Answer").click()
+    number.locator("output", has_text="type an answer first").wait_for(timeout=WAIT)
+    number.locator("input[type=number]").fill("0")
+    number.get_by_role("button", name="Answer").click()
+    number.locator("output", has_text="Right").wait_for(timeout=WAIT)
+
+
+def test_replays_load_when_they_are_opened_and_not_before(page, out):
+    loaded: list[str] = []
+    page.on("request", lambda request: loaded.append(request.url.rsplit("/", 1)[-1]))
+    page.goto((out / "fake" / "index.html").as_uri())
+    page.locator("#caption", has_text="points turned").wait_for(timeout=WAIT)
+    assert "default.js" in loaded
+    assert "half.js" not in loaded
+    page.get_by_role("button", name="Half a turn").click()
+    page.wait_for_function("document.querySelector('[data-run=half]').ariaPressed == 'true'")
+    assert "half.js" in loaded
+    assert loaded.count("viser.js") == 1
+
+
+def test_one_run_alone_plays_too(page, out):
+    page.goto((out / "fake" / "runs" / "half.html").as_uri())
+    page.locator("#caption", has_text="points turned").wait_for(timeout=WAIT)
+    page.frame_locator("#scene iframe").locator("canvas").first.wait_for(timeout=WAIT)
+
+
+@pytest.mark.parametrize("file", ["index.html", "icp/index.html", "fake/index.html"])
+def test_no_serious_barrier_for_anybody(page, out, file):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    page.goto((out / file).as_uri())
+    if file != "index.html":
+        page.wait_for_function("document.querySelector('#caption').textContent.length > 10")
+    found = axe.Axe().run(page, options={"iframes": False}).response["violations"]
+    assert [(v["id"], v["nodes"][0]["html"][:120]) for v in found if v["impact"] in ("serious", "critical")] == []
+
+
+def test_a_phone_sees_the_scene_and_the_caption_without_scrolling_sideways(chromium, out):
+    phone = chromium.new_page(viewport={"width": 390, "height": 844})
+    phone.goto((out / "icp" / "index.html").as_uri())
+    phone.wait_for_function("document.querySelector('#caption').textContent.length > 10", timeout=WAIT)
+    assert phone.evaluate("document.documentElement.scrollWidth") <= 390
+    box = phone.locator("#caption").bounding_box()
+    assert box is not None
+    assert box["y"] < 844
+    phone.close()

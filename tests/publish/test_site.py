@@ -1,0 +1,124 @@
+import json
+import re
+from dataclasses import replace
+
+import pytest
+
+from tests import fake
+from workbench.errors import InputError
+from workbench.lesson import catalog
+from workbench.publish import site
+from workbench.publish.replay import beside
+from workbench.scene import Caption
+from workbench.timeline import Timeline
+
+SMALL = replace(fake.lesson, presets=fake.lesson.presets[:1])
+
+
+@pytest.fixture(scope="module")
+def published(tmp_path_factory):
+    out = tmp_path_factory.mktemp("site")
+    files = site.publish(out, [SMALL], base_url="https://example.org/course/")
+    return out, dict(files)
+
+
+def data_of(out, run: str) -> dict:
+    text = (out / "fake" / "runs" / f"{run}.js").read_text()
+    return json.loads("[" + text.removeprefix("replay(").rstrip().removesuffix(");") + "]")[1]
+
+
+def test_every_run_has_its_replay_its_recording_and_a_page_of_its_own(published):
+    out, files = published
+    for run in ("default", "half"):
+        for end in (".js", ".rrd", ".html"):
+            assert files[f"fake/runs/{run}{end}"] > 500
+    assert files["fake/index.html"] < 300_000
+    assert '<link rel="canonical" href="https://example.org/course/fake/">' in (out / "fake" / "index.html").read_text()
+
+
+def test_the_numbers_are_those_of_the_run(published):
+    out, _ = published
+    timeline = Timeline(SMALL, SMALL.params()).complete()
+    data = data_of(out, "default")
+    assert [step["caption"] for step in data["steps"]] == [step.caption.text for step in timeline.known()]
+    for one in data["series"]:
+        values = timeline.series()[one["path"]].values
+        assert one["values"] == [None if v != v else pytest.approx(v, rel=1e-5) for v in values]
+    assert data["scene"]
+    assert data["reopen"] == "workbench show fake"
+
+
+def test_what_repeats_is_kept_once():
+    data = beside(Timeline(SMALL, SMALL.params()).complete())
+    photos = [thing for thing in data["things"] if isinstance(thing, dict) and thing.get("title") == "Photo"]
+    assert len(photos) == 1
+
+
+def test_nothing_is_rendered_twice_and_what_changed_is(published, monkeypatch):
+    out, _ = published
+    rendered: list[str] = []
+    original = site.run_script
+    monkeypatch.setattr(
+        site, "run_script", lambda lesson, run, *rest: rendered.append(run.name) or original(lesson, run, *rest)
+    )
+    site.publish(out, [SMALL])
+    assert rendered == []
+    other = replace(SMALL, presets=(replace(SMALL.presets[0], params=fake.Params(angle=170.0)),))
+    site.publish(out, [other])
+    assert rendered == ["half"]
+
+
+def test_text_of_a_lesson_stays_text(tmp_path):
+    def shout(state):
+        return fake.draw(state) | {"caption": Caption("<script>alert(1)</script> & </script>")}
+
+    loud = replace(SMALL, draw=shout, title="<b>Bold</b>", summary='"quoted" <i>', presets=(), questions=())
+    site.publish(tmp_path, [loud])
+    script = (tmp_path / "fake" / "runs" / "default.js").read_text()
+    assert "<" not in script
+    for page in (tmp_path / "index.html", tmp_path / "fake" / "index.html"):
+        text = page.read_text()
+        assert "<b>Bold" not in text
+        assert "<i>" not in text
+        assert "&lt;b&gt;Bold" in text
+
+
+def test_a_run_that_fails_or_a_place_that_cannot_be_written_is_one_line(tmp_path):
+    broken = replace(SMALL, params=replace_default(trouble="crash"), presets=(), questions=())
+    with pytest.raises(InputError, match="RuntimeError"):
+        site.publish(tmp_path, [broken])
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(InputError, match="file"):
+        site.publish(tmp_path / "file", [SMALL])
+    with pytest.raises(InputError, match="base-url"):
+        site.publish(tmp_path, [replace(SMALL, presets=(), questions=())], base_url="javascript:x")
+
+
+def replace_default(**values):
+    from dataclasses import dataclass
+
+    @dataclass(frozen=True)
+    class Params(fake.Params):
+        pass
+
+    Params.__init__.__defaults__ = tuple(  # the same knobs with other defaults
+        values.get(name, default)
+        for name, default in zip(fake.Params.__dataclass_fields__, Params.__init__.__defaults__ or (), strict=True)
+    )
+    return Params
+
+
+def test_a_dead_link_or_a_heavy_page_fails(tmp_path):
+    (tmp_path / "a.html").write_text('<a href="b.html">x</a>')
+    with pytest.raises(InputError, match=r"a\.html: the link b\.html leads nowhere"):
+        site.checked(tmp_path)
+    (tmp_path / "b.html").write_text("x" * 400_000)
+    with pytest.raises(InputError, match=r"b\.html has 0\.40 MB"):
+        site.checked(tmp_path)
+
+
+def test_every_page_of_every_lesson_is_small_and_its_runs_have_names_of_their_own():
+    for lesson in catalog().values():
+        names = [run.name for run in site.runs_of(lesson)]
+        assert len(set(names)) == len(names)
+        assert all(re.fullmatch(r"[a-z0-9_-]+", name) for name in names), names
