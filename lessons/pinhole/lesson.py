@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from lessons.pinhole.draw import draw
+from lessons.pinhole.exercise import EXERCISES
 from lessons.pinhole.models import Model, model_of
 from lessons.pinhole.params import Params
 from lessons.pinhole.presets import PRESETS, QUESTIONS
@@ -98,5 +99,6 @@ lesson = Lesson(
     view=View(eye=(7.6, -12.5, 6.6), target=(0.3, 0.6, 0.4), grid=2.0, grid_height=-0.02),
     presets=PRESETS,
     questions=QUESTIONS,
+    exercises=EXERCISES,
     first_step=2,
 )

@@ -115,7 +115,7 @@ def rotation_from_axis_angle(axis: Float[np.ndarray, "3"], angle: float) -> Floa
     return rotations.rotation_from_axis_angle(axis, float(angle))
 
 
-TURN_HINT = "R = I + sin(angle) K + (1 - cos(angle)) K K, where K v = a x v and a is the axis with length 1."
+TURN_HINT = "What lies along the axis stays, what lies across it turns; the length of the axis must not matter."
 
 
 def some_turns(seed: int, n: int = 6) -> Iterator[tuple[np.ndarray, float]]:
@@ -167,8 +167,8 @@ def special_angles(candidate: Function) -> Verdict:
     """No turn, half a turn and more than a full turn are rotations, and an angle of 1e-6 is not lost."""
     axis = np.array([0.3, -0.4, 1.2])
     verdicts = [
-        rotation_verdict(candidate(axis, angle), rotations.rotation_from_axis_angle(axis, angle), TURN_HINT)
-        for angle in (0.0, np.pi, -np.pi, 7.5)
+        rotation_verdict(candidate(axis, v), rotations.rotation_from_axis_angle(axis, v), f"Angle {v:.3g}. {TURN_HINT}")
+        for v in (0.0, np.pi, -np.pi, 7.5)
     ]
     tiny = degrees_between(candidate(axis, 1e-6), np.eye(3)) / np.degrees(1e-6)
     kept = band("Relative error of an angle of 1e-6", abs(tiny - 1.0), "", good=1e-3, fair=1e-1, hint=TURN_HINT)

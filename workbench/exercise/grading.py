@@ -152,7 +152,7 @@ def values_alike(a: Any, b: Any) -> bool:
         first, second = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
     except (TypeError, ValueError):
         return a is None and b is None
-    scale = max(1e-12, float(np.nanmax(np.abs(second), initial=0.0)))
+    scale = max(1e-12, float(np.abs(second[np.isfinite(second)]).max(initial=0.0)))
     return first.shape == second.shape and bool(
         np.allclose(first, second, rtol=1e-6, atol=1e-7 * scale, equal_nan=True)
     )

@@ -24,7 +24,9 @@ def rotation_verdict(R: np.ndarray, R_right: np.ndarray, hint: str, *, good: flo
     """Judge a rotation by the angle to the right one, in degrees; what is no rotation earns nothing."""
     off, det = float(np.abs(R.T @ R - np.eye(3)).max()), float(np.linalg.det(R))
     if off > SKEWED or det < 0:
-        return fail(f"This is no rotation: R^T R is {off:.2g} from the identity, the determinant {det:.3g}. {hint}")
+        return fail(
+            f"This is no rotation: R^T R differs from the identity by {off:.2g}, its determinant is {det:.3g}. {hint}"
+        )
     return band("Rotation error", degrees_between(R, R_right), "degrees", good=good, fair=fair, hint=hint)
 
 
