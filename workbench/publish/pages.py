@@ -53,7 +53,8 @@ def lesson_page(lesson: Lesson, runs: Mapping[str, tuple[str, str]], timelines: 
         timelines: Where the runs that answer the questions are kept.
         extra: More for the head, such as a canonical address.
     """
-    before, after = _around_predict(page_html(lesson.page.read_text(encoding="utf-8")))
+    text = page_html(lesson.page.read_text(encoding="utf-8"))
+    before, after = _around_predict(text.replace('<div class="math block">', '<div class="math block" tabindex="0">'))
     questions = "".join(_question(lesson, question, timelines) for question in lesson.questions)
     buttons = "".join(
         f'<li><button type="button" data-run="{escape(name)}" aria-pressed="false">{escape(title)}'

@@ -92,6 +92,7 @@ def _publish(
     try:
         for done, (lesson, run) in enumerate(work, 1):
             key, digest = f"{lesson.name}/{run.name}", digest_of(lesson, run)
+            presets = {preset.name for preset in lesson.presets}
             files = [out / lesson.name / "runs" / f"{run.name}{end}" for end in (".js", ".rrd", ".html")]
             if before.get(key) != digest or not all(file.exists() for file in files) or not (out / "viser.js").exists():
                 renderer = renderer or Renderer()
@@ -102,7 +103,7 @@ def _publish(
                 head, tail = page.split('window.__VISER_EMBED_DATA__=""')
                 viser_page = (head + 'window.__VISER_EMBED_DATA__="', '"' + tail)
                 write(files[0], run_script(lesson, run, timeline, data))
-                write(files[1], record_bytes(timeline, preset=None if run.name == "default" else run.name))
+                write(files[1], record_bytes(timeline, preset=run.name if run.name in presets else None))
                 write(files[2], embed_page(lesson, run.name, run.title))
             kept[key] = digest
             if progress is not None:
