@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from lessons.curvature.draw import draw
+from lessons.curvature.exercise import EXERCISES
 from lessons.curvature.params import Params
 from lessons.curvature.presets import PRESETS, QUESTIONS
 from lessons.curvature.state import State
@@ -91,8 +92,9 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=500,
-    view=View(eye=EYE, target=(0.0, 0.0, 0.0), grid=0.5, grid_height=-1.0),
+    view=View(eye=EYE, target=(0.0, 0.0, -0.45), grid=0.5, grid_height=-1.0, axes=False),
     presets=PRESETS,
     questions=QUESTIONS,
+    exercises=EXERCISES,
     first_step=3,
 )
