@@ -14,6 +14,7 @@ import numpy as np
 
 from lessons.icp.basin import Try, align_of, gate_of, tries_of
 from lessons.icp.draw import State, draw
+from lessons.icp.exercise import EXERCISES
 from lessons.icp.params import Params
 from lessons.icp.presets import PRESETS, QUESTIONS
 from lessons.icp.scans import scans_of
@@ -74,4 +75,5 @@ lesson = Lesson(
     view=View(eye=(1.5, -1.9, 1.0), target=(0.0, 0.0, 0.1), grid=0.5, grid_height=-0.35),
     presets=PRESETS,
     questions=QUESTIONS,
+    exercises=EXERCISES,
 )

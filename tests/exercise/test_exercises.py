@@ -4,6 +4,7 @@ import ast
 import inspect
 import sys
 from collections.abc import Callable
+from itertools import product
 
 import numpy as np
 import pytest
@@ -79,16 +80,17 @@ def test_a_mistake_is_not_full_marks_and_is_named(exercise: Exercise, mistake: M
     assert all(len(message) >= 20 for message in lost), lost
 
 
-@pytest.mark.parametrize(("exercise", "mistake"), MISTAKES, ids=named)
-def test_who_sees_only_public_checks_is_not_told_that_all_is_done(exercise: Exercise, mistake: Mistake):
-    report = grade_function(mistake.function, exercise, hidden=False)
+def test_who_sees_only_public_checks_is_not_told_that_all_is_done(exercise):
+    report = grade_function(exercise.reference, exercise, hidden=False)
+    assert report.is_full, found(report)
     assert f"hidden {len(report.not_run)} not run here" in terminal(report)
 
 
 def test_the_examples_are_true(exercise):
-    known = {"np": np, "array": np.array, "nan": np.nan, exercise.name: exercise.reference}
-    for call, result in exercise.examples:
+    known = {"np": np, "array": np.array, "nan": np.nan}
+    for (call, result), function in product(exercise.examples, (exercise.reference, *exercise.alternatives)):
         assert call.startswith(f"{exercise.name}(")
+        known[exercise.name] = function
         np.testing.assert_allclose(eval(call, known), eval(result, known), atol=5e-4, rtol=5e-4, err_msg=call)
 
 
@@ -161,3 +163,77 @@ def test_a_function_that_changes_its_input_is_told_so(exercise):
     report = grade_function(spoiling, exercise)
     assert 0 < report.points < report.possible, found(report)
     assert "changed" in " ".join(outcome.verdict.message for outcome in report.outcomes)
+
+
+# alignment is judged in degrees and metres ----------------------------------------------------------------------------
+
+
+def ends_swapped(p_target, p_source):
+    """Half a turn off about the cloud's shortest axis: for a rod it fits nearly as well, by nearest neighbours."""
+    T = exercises()["align_rigid"].reference(p_target, p_source)
+    R_target = np.linalg.svd(p_target - p_target.mean(0))[2].T
+    R_half = R_target @ np.diag([-1.0, -1.0, 1.0]) @ R_target.T
+    R_170 = R_half @ small_turn(10.0)
+    out = np.eye(4)
+    out[:3, :3] = R_170 @ T[:3, :3]
+    out[:3, 3] = p_target.mean(0) - out[:3, :3] @ p_source.mean(0)
+    return out
+
+
+def small_turn(degrees: float) -> np.ndarray:
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def centroids_only(p_target, p_source):
+    T = np.eye(4)
+    T[:3, 3] = p_target.mean(0) - p_source.mean(0)
+    return T
+
+
+@pytest.mark.parametrize("cheat", [ends_swapped, centroids_only])
+def test_a_small_residual_earns_nothing_for_a_wrong_pose(cheat):
+    exercise = exercises()["align_rigid"]
+    report = grade_function(cheat, exercise, hidden=False)
+    assert report.points == 0, found(report)
+    assert "degrees" in report.outcomes[0].verdict.message
+
+
+def half_a_degree_off(p_target, p_source):
+    T = exercises()["align_rigid"].reference(p_target, p_source)
+    c = p_target.mean(0)
+    Q = small_turn(0.5)
+    return np.vstack([np.column_stack([Q @ T[:3, :3], c + Q @ (T[:3, 3] - c)]), [0.0, 0.0, 0.0, 1.0]])
+
+
+def test_half_a_degree_off_is_half_right():
+    report = grade_function(half_a_degree_off, exercises()["align_rigid"])
+    assert report.outcomes[0].verdict.share == 0.5, found(report)
+    assert 0.2 * report.possible <= report.points <= 0.6 * report.possible, found(report)
+
+
+def test_a_mistake_is_recognised_where_the_contract_leaves_the_answer_open():
+    """Transposed, but with another SVD: on a line of points the two are turned differently about it."""
+    exercise = exercises()["align_rigid"]
+    right = exercise.alternatives[1]
+
+    def transposed(p_target, p_source):
+        T = right(p_target, p_source)
+        T[:3, :3] = T[:3, :3].T
+        T[:3, 3] = p_target.mean(0) - T[:3, :3] @ p_source.mean(0)
+        return T
+
+    report = grade_function(transposed, exercise)
+    assert report.mistake is not None, found(report)
+    assert report.mistake.name == "rotation transposed"
+
+
+def test_a_mistake_is_recognised_beside_a_forgotten_error():
+    def clockwise(axis, angle):
+        a = np.asarray(axis) / np.linalg.norm(axis)
+        K = -np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
+        return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
+
+    report = grade_function(clockwise, exercises()["rotation_from_axis_angle"])
+    assert report.mistake is not None, found(report)
+    assert report.mistake.name == "clockwise"

@@ -1,5 +1,6 @@
 """Judges a function by an exercise's checks, each on its own, and names the mistake it makes."""
 
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -107,19 +108,18 @@ def _judged(check: Check, candidate: Candidate) -> Verdict:
 def recognised(calls: Iterable[Call], exercise: Exercise) -> Mistake | None:
     """Return the mistake whose answers equal those of the calls and differ from the right ones; None if there is none.
 
-    Where the contract asks for an error, another answer than the mistake's does not speak against it: who makes a
-    mistake may also have left such input aside.
+    Where the contract asks for an error, or leaves the answer open so that right solutions differ, another answer than
+    the mistake's does not speak against it.
     """
-    calls = list(calls)
+    asked = [(call, _answer(exercise.reference, call.args)) for call in calls]
     best, most = None, 0
     for mistake in exercise.mistakes:
         telling = 0
-        for call in calls:
-            theirs = (call.value, call.error)
-            wrong, right = _answer(mistake.function, call.args), _answer(exercise.reference, call.args)
-            if _alike(theirs, wrong):
+        for call, right in asked:
+            wrong = _answer(mistake.function, call.args)
+            if _alike((call.value, call.error), wrong):
                 telling += not _alike(wrong, right)
-            elif not right[1]:
+            elif not right[1] and all(_alike(_answer(other, call.args), right) for other in exercise.alternatives):
                 break
         else:
             if telling > most:
@@ -129,7 +129,7 @@ def recognised(calls: Iterable[Call], exercise: Exercise) -> Mistake | None:
 
 def _answer(function: Function, args: tuple[Any, ...]) -> tuple[Any, str]:
     try:
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):
             return function(*(np.array(arg, copy=True) if isinstance(arg, np.ndarray) else arg for arg in args)), ""
     except Exception as error:
         return None, type(error).__name__
