@@ -276,6 +276,10 @@ class TestOwnScans:
         found = states(replace(two_files, truth=tmp_path / "pose.txt"))
         assert found[0].rotation_error == pytest.approx(35)
         assert at_home(end(found))
+        first = found[-1].tries[0]  # started at the truth, so its end as seen from the truth is no motion at all
+        np.testing.assert_allclose(first.T_target_truth[:3, :3], np.eye(3), atol=0.02)
+        off = apply(first.T_target_truth, found[0].scans.centre) - found[0].scans.centre
+        assert np.linalg.norm(off) < 10  # of about 1000
 
     def test_the_initial_guess_is_set_by_hand(self):
         guess = (0.0, 0.0, 0.0, 0.0, 0.0, np.radians(35))
