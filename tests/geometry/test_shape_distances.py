@@ -10,13 +10,13 @@ from workbench.geometry.shape_distances import (
     DEFINITIONS,
     Definition,
     chamfer,
-    chamfer_and_gradient,
+    chamfer_gradient,
     f_score,
     hausdorff,
     index_mse,
     nearest_both_ways,
     one_sided,
-    one_sided_and_gradient,
+    one_sided_gradient,
 )
 
 few = settings(max_examples=25, deadline=None)
@@ -126,11 +126,10 @@ def test_index_pairs_measure_the_order():
 
 @pytest.mark.parametrize("distance", [chamfer, one_sided])
 def test_gradients_agree_with_finite_differences(distance):
-    gradient = {chamfer: chamfer_and_gradient, one_sided: one_sided_and_gradient}[distance]
+    gradient = {chamfer: chamfer_gradient, one_sided: one_sided_gradient}[distance]
     for seed, (n, m) in enumerate([(1, 1), (7, 12), (12, 7), (20, 20)]):
         p_a, p_b = clouds(seed, n, m)
-        value, slope = gradient(p_a, p_b)
-        assert value == pytest.approx(distance(p_a, p_b), rel=1e-12)
+        slope = gradient(p_a, p_b)
         v = np.random.default_rng(seed).normal(size=p_a.shape)
         h = 1e-6
         along = (distance(p_a + h * v, p_b) - distance(p_a - h * v, p_b)) / (2 * h)

@@ -11,11 +11,12 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int
 
-from workbench.algorithms.sinkhorn import check_cost, kernel, tight_potentials
+from workbench.algorithms.sinkhorn import check_cost, kernel, sinkhorn, tight_potentials
 from workbench.geometry.shape_distances import check_clouds
 
 Cloud = Float[np.ndarray, "n 3"]
 
+FEW_COPIES = 250
 MOST_UNEQUAL = 250_000  # entries of the cost where the counts differ: a linear programme, a few seconds
 
 _BLURS = ((0.05, 20), (0.01, 40), (0.003, 60), (0.001, 20))  # share of the median cost, sweeps
@@ -61,16 +62,40 @@ def earth_movers(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -
     return best_matching(p_a, p_b).cost
 
 
-def earth_movers_and_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> tuple[float, Cloud]:
-    """Return `earth_movers` and its gradient with respect to p_a: unit vectors away from the partners, times mass.
+def earth_movers_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
+    """Return the gradient of `earth_movers` with respect to p_a: unit vectors away from the partners, times mass.
 
     A pair that coincides has no direction and counts as zero, which is one of its subgradients.
     """
     best = best_matching(p_a, p_b)
     v = p_a[best.i_a] - p_b[best.i_b]
     v *= np.divide(best.mass, best.distances, out=np.zeros_like(best.mass), where=best.distances > 0)[:, None]
-    gradient = np.stack([np.bincount(best.i_a, v[:, axis], minlength=len(p_a)) for axis in range(3)], axis=1)
-    return best.cost, gradient
+    return np.stack([np.bincount(best.i_a, v[:, axis], minlength=len(p_a)) for axis in range(3)], axis=1)
+
+
+def blurred_earth_movers(
+    p_a: Float[np.ndarray, "n 3"],
+    p_b: Float[np.ndarray, "m 3"],
+    regularisation: float,
+    *,
+    max_sweeps: int = 10_000,
+    tolerance: float = 1e-9,
+) -> float:
+    """Return the mean distance travelled under Sinkhorn's blurred plan, metres: never below `earth_movers`.
+
+    Args:
+        p_a: Points, metres.
+        p_b: Points in the same frame; the counts may differ.
+        regularisation: How much the plan is blurred, metres.
+        max_sweeps: See `sinkhorn`.
+        tolerance: See `sinkhorn`; a plan whose sums are not yet right may cost too little by as much mass as is missing.
+
+    Raises:
+        ValueError: If a cloud is empty or holds coordinates that are not finite, or the regularisation is not positive.
+    """
+    check_clouds(p_a, p_b)
+    distances = scipy.spatial.distance.cdist(p_a, p_b)
+    return sinkhorn(distances, regularisation, max_sweeps=max_sweeps, tolerance=tolerance).cost(distances)
 
 
 def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> Matching:
@@ -117,10 +142,13 @@ def best_plan(
 ) -> tuple[Int[np.ndarray, "k"], Int[np.ndarray, "k"], Float[np.ndarray, "k"]]:
     """Return rows, columns and masses of the cheapest plan from n equal masses to m equal masses, each summing to 1.
 
+    Where a few copies of rows and columns make the counts equal, their assignment is the answer; otherwise a linear
+    programme is.
+
     Raises:
         ValueError: If the cost has more than MOST_UNEQUAL entries.
 
-    Reference: Peyre and Cuturi 2019, equation 2.11, as a linear programme.
+    Reference: Peyre and Cuturi 2019, equation 2.11 (the programme) and section 2.3.
     """
     n, m = cost.shape
     if cost.size > MOST_UNEQUAL:
@@ -128,6 +156,21 @@ def best_plan(
             f"exact transport between {n} and {m} points is too large: take equal counts, at most {MOST_UNEQUAL:,} pairs, "
             "or blurred transport"
         )
+    copies = int(np.lcm(n, m))
+    if copies <= max(FEW_COPIES, 5 * np.sqrt(cost.size)):  # below, the assignment is the faster of the two
+        i, j = best_assignment(cost.repeat(copies // n, axis=0).repeat(copies // m, axis=1))
+        times = np.zeros((n, m))
+        np.add.at(times, (i // (copies // n), j // (copies // m)), 1)
+        plan = times / copies
+    else:
+        plan = best_plan_by_programme(cost)
+    i_a, i_b = np.nonzero(plan > 1e-9 / max(n, m))
+    return i_a, i_b, plan[i_a, i_b]
+
+
+def best_plan_by_programme(cost: Float[np.ndarray, "n m"]) -> Float[np.ndarray, "n m"]:
+    """Return the cheapest plan as the solution of a linear programme: row and column sums are equality constraints."""
+    n, m = cost.shape
     rows = scipy.sparse.kron(scipy.sparse.eye_array(n), np.ones((1, m)))
     columns = scipy.sparse.kron(np.ones((1, n)), scipy.sparse.eye_array(m))
     row_and_column_sums: Any = scipy.sparse.vstack([rows, columns])
@@ -135,9 +178,7 @@ def best_plan(
     solved = scipy.optimize.linprog(cost.ravel(), A_eq=row_and_column_sums, b_eq=masses, method="highs-ds")
     if solved.x is None:
         raise ValueError(f"the transport between {n} and {m} points was not solved: {solved.message}")
-    plan = solved.x.reshape(n, m)
-    i_a, i_b = np.nonzero(plan > 1e-9 / max(n, m))
-    return i_a, i_b, plan[i_a, i_b]
+    return solved.x.reshape(n, m)
 
 
 def blurred_potentials(cost: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n"]:

@@ -63,6 +63,14 @@ def bunched(shape: Shape, count: int, share: float, width: float = 0.04) -> Clou
     return shape_at(shape, np.concatenate([even, width * np.arange(crowd) / max(crowd - 1, 1)]), count)
 
 
+def crowded(p: Cloud, share: float, part: float = 0.04) -> Cloud:
+    """Return as many points of any cloud, a share of them crowded on the `part` of it nearest to its highest point."""
+    crowd = min(round(share * len(p)), len(p) - 1)
+    even = np.linspace(0, len(p) - 1, len(p) - crowd).round().astype(int)
+    near = _nearest_to(p, p[np.argmax(p[:, 2])], round(part * len(p)))
+    return p[np.concatenate([even, np.resize(near, crowd)])]
+
+
 def grown(p: Cloud, share: float) -> Cloud:
     """Return the cloud larger by a share of its size, about its middle."""
     middle = p.mean(axis=0)

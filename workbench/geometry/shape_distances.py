@@ -119,24 +119,24 @@ def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> flo
     return nearest_both_ways(p_a, p_b).chamfer()
 
 
-def chamfer_and_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> tuple[float, Cloud]:
-    """Return `chamfer` and its gradient with respect to p_a, in metres.
+def chamfer_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
+    """Return the gradient of `chamfer` with respect to p_a, metres.
 
     Where a point has several nearest neighbours the distance has a kink, and the gradient is that of the one taken.
     """
     near = nearest_both_ways(p_a, p_b)
-    gradient = 2 / len(p_a) * (p_a - p_b[near.a_to_b])
+    slope = 2 / len(p_a) * (p_a - p_b[near.a_to_b])
     v = 2 / len(p_b) * (p_a[near.b_to_a] - p_b)
     for axis in range(3):
-        gradient[:, axis] += np.bincount(near.b_to_a, v[:, axis], minlength=len(p_a))
-    return near.chamfer(), gradient
+        slope[:, axis] += np.bincount(near.b_to_a, v[:, axis], minlength=len(p_a))
+    return slope
 
 
-def one_sided_and_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> tuple[float, Cloud]:
-    """Return `one_sided` from a to b and its gradient with respect to p_a, in metres."""
+def one_sided_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
+    """Return the gradient of `one_sided` from a to b with respect to p_a, metres."""
     check_clouds(p_a, p_b)
-    a_to_b, d = _query(_tree(p_b), p_a)
-    return DEFINITIONS["mean of squares"](d), 2 / len(p_a) * (p_a - p_b[a_to_b])
+    a_to_b, _ = _query(_tree(p_b), p_a)
+    return 2 / len(p_a) * (p_a - p_b[a_to_b])
 
 
 def hausdorff(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:

@@ -1,0 +1,1 @@
+"""When two shapes are close, by many numbers."""

@@ -1,0 +1,121 @@
+"""The two clouds of a run, built-in or the person's own, and known changes of the target to compare with."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from lessons.chamfer_emd.params import Params, Start
+from workbench.data.files import read_cloud
+from workbench.data.point_sets import (
+    blob,
+    bunched,
+    crowded,
+    dented,
+    doubled,
+    grown,
+    part_missing,
+    shuffled,
+    spread,
+    with_outlier,
+)
+from workbench.errors import InputError
+
+YARDSTICKS: tuple[tuple[str, Start, float], ...] = (
+    ("5 % larger", "larger", 0.05),
+    ("80 % bunched", "bunched", 0.8),
+    ("half missing", "part missing", 0.5),
+    ("one point 3 m off", "one outlier", 3.0),
+    ("rows shuffled", "shuffled rows", 1.0),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Clouds:
+    """Source and target of a run in one frame, metres of the picture.
+
+    Attributes:
+        p_source: Where both flows start.
+        p_target: Where they should go.
+        name: What the source is, in words.
+        scale: Metres of the picture per unit of an own cloud; 1 for built-in ones.
+    """
+
+    p_source: np.ndarray
+    p_target: np.ndarray
+    name: str
+    scale: float
+
+
+def clouds_of(params: Params) -> Clouds:
+    """Return the clouds that the params describe.
+
+    Raises:
+        InputError: If an own file cannot be used, or a source is given without its target.
+    """
+    rng = np.random.default_rng(params.seed)
+    if params.target is None:
+        if params.source is not None:
+            raise InputError("an own source needs an own target to flow to: give --target too")
+        p_target = spread(params.shape, params.points)
+        return Clouds(changed(p_target, params.start, params.amount, params, rng), p_target, _name(params), 1.0)
+    whole = read_cloud(params.target)
+    low, high = np.percentile(whole, [2, 98], axis=0)  # a few far points must not shrink the picture
+    middle, scale = (low + high) / 2, 2.0 / max(float((high - low).max()), 1e-9)
+    p_target = scale * (_thinned(whole, params.points, rng) - middle)
+    if params.source is None:
+        return Clouds(changed(p_target, params.start, params.amount, params, rng), p_target, _name(params), scale)
+    p_source = scale * (_thinned(read_cloud(params.source), params.source_points or params.points, rng) - middle)
+    return Clouds(p_source, p_target, Path(params.source).name, scale)
+
+
+def changed(p_target: np.ndarray, start: Start, amount: float, params: Params, rng: np.random.Generator) -> np.ndarray:
+    """Return a source: a blob, or the target, with as many points as are asked for, after one change."""
+    built_in, count = params.target is None, params.source_points or len(p_target)
+    share = min(amount, 1.0)
+    if start == "blob":
+        return blob(count, amount, bool(np.ptp(p_target[:, 1]) == 0), rng)
+    if start == "doubled points":
+        return doubled(p_target, share)
+    if start == "bunched" and built_in:
+        return bunched(params.shape, count, share)
+    if count == len(p_target):
+        p = p_target
+    else:
+        p = spread(params.shape, count) if built_in else p_target[np.resize(rng.permutation(len(p_target)), count)]
+    if start == "larger":
+        return grown(p, amount)
+    if start == "bunched":
+        return crowded(p, share)
+    if start == "dented":
+        return dented(p, amount)
+    if start == "part missing":
+        return part_missing(p, share)
+    if start == "one outlier":
+        return with_outlier(p, amount)
+    return shuffled(p, share, rng)
+
+
+def yardsticks(clouds: Clouds, params: Params) -> tuple[tuple[str, np.ndarray], ...]:
+    """Return the target after each of the known changes, with as many points, for numbers to compare with."""
+    rng = np.random.default_rng(params.seed)
+    alike = Params(shape=params.shape, points=params.points, target=params.target)
+    return tuple((name, changed(clouds.p_target, start, amount, alike, rng)) for name, start, amount in YARDSTICKS)
+
+
+def _thinned(p: np.ndarray, count: int, rng: np.random.Generator) -> np.ndarray:
+    return p if len(p) <= count else p[np.sort(rng.choice(len(p), count, replace=False))]
+
+
+def _name(params: Params) -> str:
+    percent, metres = f"{100 * min(params.amount, 1.0):.0f} %", f"{params.amount:g} m"
+    return {
+        "blob": f"a blob of radius {metres}",
+        "larger": f"the target {100 * params.amount:.0f} % larger",
+        "bunched": f"the target with {percent} of its points bunched at one place",
+        "dented": f"the target with an eighth of it pushed out by {metres}",
+        "part missing": f"the target without {percent} of it",
+        "one outlier": f"the target with one point {metres} off",
+        "shuffled rows": f"the target with {percent} of its rows shuffled",
+        "doubled points": f"the target with {percent} of its points doubled",
+    }[params.start]

@@ -1,0 +1,93 @@
+"""What one step looks like: both flows side by side, their matchings, curves and tables."""
+
+import numpy as np
+
+from lessons.chamfer_emd.states import Side, State
+from lessons.chamfer_emd.words import caption, left_label, numbers_table, right_label, yardstick_table
+from workbench.geometry.motions import motion
+from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments
+
+T_LEFT = motion(np.eye(3), np.array([-1.25, 0.0, 0.0]))
+T_RIGHT = motion(np.eye(3), np.array([1.25, 0.0, 0.0]))
+P_TITLE = np.array([0.0, 0.0, -1.2])
+MOST_SERVED = 10  # the last bar of the histogram holds all counts from here on
+
+
+def draw(state: State) -> Scene:
+    """Return the picture of one step."""
+    left, right = state.left, state.right
+    scene: dict[str, Primitive] = {
+        "caption": caption(state),
+        "left/title": Label(left_label(state), P_TITLE, "source", T_LEFT),
+        "right/title": Label(right_label(state), P_TITLE, "source", T_RIGHT),
+        **_clouds(state),
+        **_left_edges(state),
+        "right/pairs": Segments(
+            np.stack([right.flow.p_moving[right.matching.i_a], state.clouds.p_target[right.matching.i_b]], axis=1),
+            "correspondence", 1.5, T_RIGHT, name="best one-to-one matching",
+        ),
+        **_busiest(left, state),
+        **_curves(state),
+        "numbers": numbers_table(state),
+        "yardsticks": yardstick_table(state),
+    }  # fmt: skip
+    return scene
+
+
+def _clouds(state: State) -> dict[str, Primitive]:
+    p_target, left = state.clouds.p_target, state.left
+    radius = float(np.clip(0.25 / np.sqrt(len(p_target)), 0.012, 0.03))
+    idle = Classes(
+        (left.served == 0).astype(np.uint8), ("source", "wrong"), ("source", "source, nearest to no target point")
+    )
+    return {
+        "left/target": Points(p_target, "target", radius, T_LEFT, name="target"),
+        "left/source": Points(left.flow.p_moving, idle, 0.9 * radius, T_LEFT, name="source"),
+        "right/target": Points(p_target, "target", radius, T_RIGHT, name="target"),
+        "right/source": Points(state.right.flow.p_moving, "source", 0.9 * radius, T_RIGHT, name="source"),
+    }
+
+
+def _left_edges(state: State) -> dict[str, Primitive]:
+    p, p_target, near, lowers = state.left.flow.p_moving, state.clouds.p_target, state.left.near, state.params.lowers
+    edges: dict[str, Primitive] = {}
+    if lowers != "target to source":
+        ends = np.stack([p, p_target[near.a_to_b]], axis=1)
+        edges["left/to target"] = Segments(ends, "correspondence", 1.5, T_LEFT, name="source to nearest target")
+    if lowers != "source to target":
+        ends = np.stack([p_target, p[near.b_to_a]], axis=1)
+        edges["left/to source"] = Segments(ends, "other", 1.5, T_LEFT, 0.8, name="target to nearest source")
+    return edges
+
+
+def _busiest(left: Side, state: State) -> dict[str, Primitive]:
+    """Return a mark at the point of the cloud that is the nearest of the most target points, where they are many."""
+    i = int(np.argmax(left.served))
+    if left.served[i] < 3 or state.params.lowers == "source to target":
+        return {}
+    p = left.flow.p_moving[i]
+    word = f"nearest of {left.served[i]} target points"
+    return {
+        "left/busiest": Points(p[None], "highlight", 0.035, T_LEFT, name="nearest of the most target points"),
+        "left/busiest word": Label(word, p + np.array([0.0, -0.02, 0.08]), "highlight", T_LEFT),
+    }
+
+
+def _curves(state: State) -> dict[str, Primitive]:
+    left, right = state.left, state.right
+    curves: dict[str, Primitive] = {}
+    for name, title, side in (("left", "Left flow", left), ("right", "Right flow", right)):
+        n = side.numbers
+        value = n.chamfer if name == "right" or state.params.lowers == "both sides" else side.flow.value
+        curves[f"{name}/chamfer"] = Scalar(value, "Chamfer in m²", title, "", "source")
+        curves[f"{name}/earth movers"] = Scalar(n.earth_movers, "earth mover's in m", title, "", "other")
+        curves[f"{name}/astray"] = Scalar(n.astray, "truth: mass astray", title, "", "truth")
+    return curves | {"left/served": _served(left, "left", "source"), "right/served": _served(right, "right", "other")}
+
+
+def _served(side: Side, name: str, color: Role) -> Curve:
+    """Return how many points of the cloud are the nearest of 0, 1, 2, ... target points: all at 1 where it is one to one."""
+    counts = np.bincount(np.minimum(side.served, MOST_SERVED), minlength=MOST_SERVED + 1)
+    chart, x_label = "Nearest of how many target points", f"target points, {MOST_SERVED} or more at the end"
+    kind = "bars" if name == "left" else "dots"
+    return Curve(np.arange(MOST_SERVED + 1.0), counts.astype(float), name, chart, x_label, "points", color, kind)

@@ -1,0 +1,73 @@
+"""Chamfer and earth mover's: one cloud flows down two distances, side by side.
+
+What it teaches: nearest neighbours are not one to one, so a small Chamfer distance says little about density; the earth
+mover's distance matches one to one, so it does. "Chamfer" names several numbers, and every number of the table has a
+blind spot.
+
+`params.py` has the inputs, `clouds.py` the clouds, `states.py` what is measured,
+`slopes.py` which way a distance falls, `draw.py` and `words.py` the picture,
+`presets.py` the experiments and questions.
+"""
+
+from collections.abc import Iterator
+from itertools import zip_longest
+from pathlib import Path
+
+from lessons.chamfer_emd import slopes
+from lessons.chamfer_emd.clouds import clouds_of
+from lessons.chamfer_emd.draw import draw
+from lessons.chamfer_emd.params import Params
+from lessons.chamfer_emd.presets import PRESETS, QUESTIONS
+from lessons.chamfer_emd.states import Measures, State, measured, numbers_of_yardsticks
+from workbench.algorithms import transport
+from workbench.algorithms.flow import Distance, Flow, flow
+from workbench.geometry import shape_distances
+from workbench.lesson import Lesson, View
+
+
+def run(
+    params: Params,
+    *,
+    chamfer: Distance = shape_distances.chamfer,
+    earth_movers: Distance = transport.earth_movers,
+    one_sided: Distance = shape_distances.one_sided,
+) -> Iterator[State]:
+    """Yield both flows step by step, each down the distance in its slot."""
+    clouds, measures = clouds_of(params), Measures(chamfer, earth_movers, one_sided)
+    p_source, p_target = clouds.p_source, clouds.p_target
+    limits = {"longest_step": params.longest_step, "max_steps": params.steps}
+    lefts = flow(p_source, p_target, *slopes.left(params.lowers, measures), **limits)
+    rights = flow(p_source, p_target, *slopes.right(measures), **limits)
+    known = numbers_of_yardsticks(clouds, params, measures)
+    left = right = before = None
+    for step, (now_left, now_right) in enumerate(side_by_side(lefts, rights)):
+        left = measured(now_left, left, p_target, params, measures)
+        right = measured(now_right, right, p_target, params, measures)
+        last = now_left.stop is not None and now_right.stop is not None
+        yield State(step, params, clouds, left, right, before, known, last)
+        before = left.numbers, right.numbers
+
+
+def side_by_side(lefts: Iterator[Flow], rights: Iterator[Flow]) -> Iterator[tuple[Flow, Flow]]:
+    """Yield both flows at the same step; the one that ended first waits where it is."""
+    left = right = None
+    for now_left, now_right in zip_longest(lefts, rights):
+        left, right = now_left or left, now_right or right
+        if left and right:
+            yield left, right
+
+
+lesson = Lesson(
+    name="chamfer_emd",
+    title="Chamfer and earth mover's",
+    summary="When are two shapes close? One cloud flows down two distances, and only one of them spreads it.",
+    page=Path(__file__).with_name("page.md"),
+    params=Params,
+    run=run,
+    draw=draw,
+    order=600,
+    view=View(eye=(0.0, -7.4, 0.2), target=(0.0, 0.0, -0.7), grid=0.5, grid_height=-1.3, axes=False),
+    presets=PRESETS,
+    questions=QUESTIONS,
+    first_step=8,
+)

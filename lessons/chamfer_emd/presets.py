@@ -1,0 +1,191 @@
+"""Experiments, each the picture of one misconception, and what to predict before looking."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lessons.chamfer_emd.params import Params
+from lessons.chamfer_emd.states import Side, State
+from lessons.chamfer_emd.words import metres, share, squared
+from workbench.lesson import Preset, Question
+
+CLUMP = Params()
+FLIP = Params(start="bunched", amount=0.8, points=140)
+LARGER = Params(start="larger", amount=0.05, points=140)
+DENTED = Params(start="dented", amount=0.147, points=140)
+MISSING = Params(start="part missing", amount=0.5, lowers="source to target")
+OUTLIER = Params(start="one outlier", amount=1.0)
+SHUFFLED = Params(start="shuffled rows", amount=1.0)
+DOUBLED = Params(start="doubled points", amount=0.5)
+IDLE = Params(lowers="target to source")
+BLURRED = Params(blur=0.5)
+UNEQUAL = Params(source_points=40)
+SPHERE = Params(shape="sphere", points=140)
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "clump", "Chamfer clumps, EMD spreads", "Both flows leave from one blob. Chamfer settles at 0.0096 m² with 72 of"
+        " 80 points on the nearer half of the ring; earth mover's goes on to an even ring.",
+        CLUMP, -1,
+    ),
+    Preset(
+        "flip", "The ranking flips", "80 % of the points in one bunch: Chamfer 0.0039 m², nearer than the 5 % larger ring"
+        " (0.0050). EMD says 0.98 m against 0.05: a few points keep every gap short.",
+        FLIP, 0,
+    ),
+    Preset(
+        "larger", "5 % larger", "Every point is 5 cm off: 2 × 0.05² = 0.0050 m² by Chamfer, 0.05 m by EMD. Squares make"
+        " small distances look tiny.",
+        LARGER, 0,
+    ),
+    Preset(
+        "dented", "Equal Chamfer, another shape", "A dent of 15 cm in an eighth of the ring has the Chamfer distance of the"
+        " ring 5 % larger, 0.0050 m²; EMD 0.018 against 0.05 m, Hausdorff 0.15 against 0.05 m.",
+        DENTED, 0,
+    ),
+    Preset(
+        "missing", "A part is missing", "One-sided Chamfer from source to target is 0: every source point lies on the"
+        " target. It cannot see what the source lacks; the way back can (0.39 m²).",
+        MISSING, 0,
+    ),
+    Preset(
+        "outlier", "One far outlier", "One point of 80 is 1 m off. Against the ring 5 % larger, Hausdorff is 20 times"
+        " as much (1 m), Chamfer 2.5 times, EMD a quarter (0.0125 m); the F-score stays at 99 %.",
+        OUTLIER, 0,
+    ),
+    Preset(
+        "shuffled", "Rows in another order", "The same points: all distances are 0 except the mean square of index pairs,"
+        " 2.3 m². It measures the order of a file.",
+        SHUFFLED, 0,
+    ),
+    Preset(
+        "doubled", "Chamfer 0, clouds different", "The left half of the points counts twice. Chamfer and Hausdorff are 0,"
+        " EMD is 0.21 m: a distance that is 0 between different clouds is no metric.",
+        DOUBLED, 0,
+    ),
+    Preset(
+        "idle", "Nobody's nearest never moves", "The left flow lowers only target to source: 71 of 80 points (vermillion)"
+        " end as nearest to no target point, so nothing pulls them, while 9 points serve all 80.",
+        IDLE, -1,
+    ),
+    Preset(
+        "blurred", "Fast EMD is not exact", "Sinkhorn with a blur of 0.5 m says 0.99 m where EMD is 0.81 m, and at the end"
+        " of the right flow 0.54 m where EMD is 0.004 m: its zero is not zero.",
+        BLURRED, 0,
+    ),
+    Preset(
+        "unequal", "40 points against 80", "Exact EMD splits masses: each source point serves two target points and ends"
+        " between them, 0.04 m from both. One-to-one pairs would leave 40 points out.",
+        UNEQUAL, -1,
+    ),
+    Preset(
+        "sphere", "The same on a sphere", "On a surface too: Chamfer leaves most of the mass on the nearer side (72 % astray"
+        " at the end), EMD covers the sphere evenly.",
+        SPHERE, -1,
+    ),
+)  # fmt: skip
+
+
+def nearer_side(side: Side) -> float:
+    """Return the share of a cloud that is left of the middle, where the blob starts."""
+    return float(np.mean(side.flow.p_moving[:, 0] < 0))
+
+
+def flips(state: State) -> bool:
+    """Tell whether Chamfer and earth mover's rank the cloud and the target 5 % larger differently."""
+    now, larger = state.left.numbers, state.yardsticks["5 % larger"]
+    return (now.chamfer < larger.chamfer) != (now.earth_movers < larger.earth_movers)
+
+
+def _spread_answer(states: Sequence[State]) -> float:
+    left = nearer_side(states[-1].left)
+    return 0.0 if left < 0.6 else 1.0 if left < 0.99 else 2.0
+
+
+def _spread_why(states: Sequence[State]) -> str:
+    left, right = states[-1].left, states[-1].right
+    return (
+        f"{share(nearer_side(left))} of its points stay on the nearer half ({share(nearer_side(right))} for earth mover's)."
+        " A few points near the far side serve all target points there, and the others feel no pull across."
+    )
+
+
+def _flip_answer(states: Sequence[State]) -> float:
+    now, larger = states[0].left.numbers, states[0].yardsticks["5 % larger"]
+    return 2.0 * (now.chamfer > larger.chamfer) + 1.0 * (now.earth_movers > larger.earth_movers)
+
+
+def _flip_why(states: Sequence[State]) -> str:
+    now, larger = states[0].left.numbers, states[0].yardsticks["5 % larger"]
+    return (
+        f"Bunched: Chamfer {squared(now.chamfer)}, EMD {metres(now.earth_movers)}; 5 % larger: {squared(larger.chamfer)} and"
+        f" {metres(larger.earth_movers)}. One point in five is enough to have a neighbour nearby everywhere, and Chamfer"
+        " asks for no more."
+    )
+
+
+def _outlier_answer(states: Sequence[State]) -> float:
+    """Return which number grew most against what it says of the target 5 % larger."""
+    now, larger = states[0].left.numbers, states[0].yardsticks["5 % larger"]
+    return float(
+        np.argmax([getattr(now, name) / getattr(larger, name) for name in ("chamfer", "earth_movers", "hausdorff")])
+    )
+
+
+def _outlier_why(states: Sequence[State]) -> str:
+    now, larger = states[0].left.numbers, states[0].yardsticks["5 % larger"]
+    return (
+        f"Hausdorff: {metres(now.hausdorff)}, {now.hausdorff / larger.hausdorff:.0f} times that of the ring 5 % larger;"
+        f" Chamfer {now.chamfer / larger.chamfer:.1f} times; EMD {now.earth_movers / larger.earth_movers:.2f} times. A"
+        " largest distance is one point's; a mean of squares still leans on it; a mean of distances hardly."
+    )
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        "predict-spread",
+        "A blob inside the ring, left of its middle, flows down the two-sided Chamfer distance until it settles. How will"
+        " its points lie on the ring?",
+        answer=_spread_answer,
+        why=_spread_why,
+        params=CLUMP,
+        choices=("Spread evenly", "Most of them on the nearer half", "All of them on the nearer half"),
+    ),
+    Question(
+        "predict-flip",
+        "Cloud B has 80 % of the ring's points bunched at one place, cloud L is the ring 5 % larger. Which is closer to the"
+        " ring?",
+        answer=_flip_answer,
+        why=_flip_why,
+        params=FLIP,
+        choices=(
+            "B by both distances",
+            "B by Chamfer, L by earth mover's",
+            "L by Chamfer, B by earth mover's",
+            "L by both distances",
+        ),
+        step=0,
+    ),
+    Question(
+        "predict-missing",
+        "The source is the target without its right half. What is the one-sided Chamfer distance from source to target?",
+        answer=lambda states: states[0].left.numbers.to_target,
+        why=lambda states: (
+            f"{squared(states[0].left.numbers.to_target)}: every source point lies on a target point. The other side, from"
+            f" target to source, is {squared(states[0].left.numbers.to_source)}."
+        ),
+        params=MISSING,
+        unit="m²",
+        tolerance=0.001,
+        step=0,
+    ),
+    Question(
+        "predict-outlier",
+        "One point of 80 lies 1 m off. Which number grows most, compared with what it says of the ring 5 % larger?",
+        answer=_outlier_answer,
+        why=_outlier_why,
+        params=OUTLIER,
+        choices=("Chamfer (mean of squares)", "Earth mover's", "Hausdorff"),
+        step=0,
+    ),
+)
