@@ -29,14 +29,14 @@ def beside(state: State) -> dict[str, Primitive]:
 def _errors(state: State) -> dict[str, Primitive]:
     roles: dict[str, Role] = {"K": "source", "H": "other", "K by fit": "highlight", "H by fit": "truth"}
     return {
-        f"error {name}": Scalar(error, name, "Error to the truth", "%", roles[name])
+        f"error {name}": Scalar(round(error, 6), name, "Error to the truth", "%", roles[name])
         for name, error in state.errors.items()
     }
 
 
 def _against(state: State, letter: str, name: str, estimate: np.ndarray, which: int) -> dict[str, Primitive]:
     """Return the estimates of some vertices in the order of their truth; without a truth a histogram."""
-    unit = "1/m²" if letter == "K" else "1/m"
+    unit = "m⁻²" if letter == "K" else "m⁻¹"
     rows = np.flatnonzero(state.subject.inside & np.isfinite(estimate))
     if not len(rows):
         return {}
@@ -108,17 +108,17 @@ def vertex_table(state: State) -> Table:
     rows.append(("sum of angles (°)", f"{np.degrees(now.angles.sum()):.2f}", ""))
     add("angle defect", np.degrees(now.defects), "°")
     add("mixed area A", now.areas, "m²")
-    add("K = defect / A", now.K, "1/m²", "gaussian")
+    add("K = defect / A", now.K, "m⁻²", "gaussian")
     if len(now.normals_2H):
         length = np.linalg.norm(now.normals_2H, axis=1)
-        rows.append(("length of 2 H n (1/m)", _number(float(length[v])), _number(2 * abs(state.true("mean")))))
-    add("H", now.H, "1/m", "mean")
-    add("k1", now.k1, "1/m", "k1")
-    add("k2", now.k2, "1/m", "k2")
+        rows.append(("length of 2 H n (m⁻¹)", _number(float(length[v])), _number(2 * abs(state.true("mean")))))
+    add("H", now.H, "m⁻¹", "mean")
+    add("k1", now.k1, "m⁻¹", "k1")
+    add("k2", now.k2, "m⁻¹", "k2")
     if now.quadrics is not None:
         K, H = now.quadrics.curvatures()
-        add("K by fit", K, "1/m²", "gaussian")
-        add("H by fit", H, "1/m", "mean")
+        add("K by fit", K, "m⁻²", "gaussian")
+        add("H by fit", H, "m⁻¹", "mean")
         rows.append(("surface variation of the rings", f"{surface_variation(state):.4f}", ""))
     return Table(f"At vertex {v:,}", ("", "here", "truth"), tuple(rows))
 

@@ -10,8 +10,8 @@ from workbench.scene import Color, Field, Mesh, Points, Primitive, Role, Scene, 
 
 # Fixed, so that the same colour means the same curvature in every run.
 K_SCALE, H_SCALE, DEFECT_SCALE, ERROR_SCALE = 5.0, 2.5, 0.2, 1.0
-ARROW = 0.06  # metres of arrow per 1/m
-MOST_EDGES, MOST_ARROWS, MOST_CROSSES = 20_000, 3000, 1500
+ARROW = 0.06  # metres of arrow per m⁻¹
+MOST_EDGES, MOST_ARROWS, MOST_CROSSES = 6000, 3000, 1500
 
 
 def draw(state: State) -> Scene:
@@ -20,7 +20,12 @@ def draw(state: State) -> Scene:
     edge = ring.edge_length(now)
     scene: dict[str, Primitive] = {
         "surface": Mesh(subject.p, subject.faces, _color(state), name=subject.name),
-        "vertex": Points(now.p[[now.vertex]], "highlight", 0.1 * edge, name=f"vertex {now.vertex:,}"),
+        "vertex": Points(
+            now.p[[now.vertex]] + 0.1 * edge * now.normals[now.vertex],
+            "highlight",
+            0.15 * edge,
+            name=f"vertex {now.vertex:,}",
+        ),
         "caption": caption(state),
     }
     if len(subject.edges) <= MOST_EDGES:
@@ -43,16 +48,16 @@ def draw(state: State) -> Scene:
 def _color(state: State) -> Color:
     now, stage, truth = state.now, state.stage, state.subject.truth
     if stage == "gaussian":
-        return _signed(now.K, K_SCALE, "Gaussian curvature K", "1/m²")
+        return _signed(now.K, K_SCALE, "Gaussian curvature K", "m⁻²")
     if stage in ("mean", "principal"):
-        return _signed(now.H, H_SCALE, "mean curvature H", "1/m")
+        return _signed(now.H, H_SCALE, "mean curvature H", "m⁻¹")
     if stage in ("defect", "total"):
         return _signed(now.defects, DEFECT_SCALE, "angle defect", "rad")
     if stage == "quadric" and now.quadrics is not None:
-        return _signed(now.quadrics.curvatures()[0], K_SCALE, "K by quadric fit", "1/m²")
+        return _signed(now.quadrics.curvatures()[0], K_SCALE, "K by quadric fit", "m⁻²")
     if stage == "finer" and truth is not None:
         error = np.where(state.subject.border, np.nan, now.K - truth.gaussian)
-        return _signed(error, ERROR_SCALE, "error of K from angles", "1/m²")
+        return _signed(error, ERROR_SCALE, "error of K from angles", "m⁻²")
     return "neutral"
 
 
@@ -66,7 +71,7 @@ def _arrows(state: State) -> Segments:
     rows = np.flatnonzero(np.isfinite(v).all(axis=1))
     rows = rows[:: max(1, -(-len(rows) // MOST_ARROWS))]
     p = state.now.p[rows]
-    return Segments(np.stack([p, p + ARROW * v[rows]], axis=1), "source", 1.5, name="2 H n (6 cm for 1/m)")
+    return Segments(np.stack([p, p + ARROW * v[rows]], axis=1), "source", 1.5, name="2 H n (6 cm for m⁻¹)")
 
 
 def _crosses(state: State) -> dict[str, Primitive]:

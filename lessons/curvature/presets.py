@@ -120,7 +120,7 @@ def _mean_of_a_cylinder(states: Sequence[State]) -> float:
 def _why_cylinder(states: Sequence[State]) -> str:
     K, H = typical(at_stage(states, "gaussian").now.K), typical(at_stage(states, "mean").now.H)
     return (
-        f"K = {abs(K):.3f} 1/m² and H = {H:.3f} 1/m: a sheet of paper rolls into a tube without stretching, so no angle"
+        f"K = {abs(K):.3f} m⁻² and H = {H:.3f} m⁻¹: a sheet of paper rolls into a tube without stretching, so no angle"
         " changes."
     )
 
@@ -174,7 +174,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         _mean_of_a_cylinder,
         _why_cylinder,
         CYLINDER,
-        choices=("0: it can be laid flat", "1 to 4 1/m²: it is bent"),
+        choices=("0: it can be laid flat", "1 to 4 m⁻²: it is bent"),
         step=GAUSSIAN,
     ),
     Question(

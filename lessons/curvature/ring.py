@@ -105,14 +105,12 @@ def pulls(now: Measured, scale: float) -> dict[str, Primitive]:
     if np.isfinite(total).all():
         parts = scale * _pulls(now)
         chain = np.cumsum(np.vstack([np.zeros(3), parts]), axis=0) + start
-        scene["pulls"] = Segments(
-            _path(chain), "correspondence", 2.5, name="cotangent × edge, neighbour after neighbour"
-        )
+        scene["pulls"] = Segments(_path(chain), "other", 3, name="cotangent × edge, neighbour after neighbour")
         scene["mean normal"] = Segments(
             np.array([[start, start + scale * total]]), "highlight", 6, name="their sum: 2 H n"
         )
         tip = start + scale * total
-        scene["mean label"] = Label(f"|2 H n| = {np.linalg.norm(total):.3g} 1/m", tip, "highlight")
+        scene["mean label"] = Label(f"|2 H n| = {np.linalg.norm(total):.3g} m⁻¹", tip, "highlight")
     return scene
 
 
@@ -146,7 +144,7 @@ def circles(now: Measured) -> dict[str, Primitive]:
             path = here + 1.25 * (CIRCLE / np.pi - 1)[:, None] * t
         radius = f"radius {1 / abs(k):.3g} m" if abs(k) > 1e-3 else "straight"
         scene[f"circle {name}"] = Segments(_path(path), role, 4, name=f"bends as {name}")
-        scene[f"label {name}"] = Label(f"{name} = {k:.3g} 1/m, {radius}", path[30 if name == "k1" else 66], role)
+        scene[f"label {name}"] = Label(f"{name} = {k:.3g} m⁻¹, {radius}", path[30 if name == "k1" else 66], role)
     return scene
 
 
@@ -156,12 +154,17 @@ def patch(state: State) -> dict[str, Primitive]:
     assert quadrics is not None
     near = two_rings(state)
     scene: dict[str, Primitive] = {
-        "fitted": Points(now.p[near], "truth", 0.12 * edge_length(now), name="vertices of the fit")
+        "fitted": Points(
+            now.p[near] + 0.1 * edge_length(now) * now.normals[near],
+            "truth",
+            0.12 * edge_length(now),
+            name="vertices of the fit",
+        )
     }
     c = quadrics.coefficients[now.vertex]
     if np.isfinite(c).all():
         right, up, n = (axis[now.vertex] for axis in (quadrics.right, quadrics.up, quadrics.normals))
-        reach = np.linalg.norm(now.p[near] - now.p[now.vertex], axis=1).max()
+        reach = 0.8 * np.linalg.norm(now.p[near] - now.p[now.vertex], axis=1).max()
         r, t = (g.ravel()[:, None] for g in np.meshgrid(reach * np.arange(9) / 8, CIRCLE[::4], indexing="ij"))
         x, y = r * np.cos(t), r * np.sin(t)
         z = c[0] + c[1] * x + c[2] * y + c[3] * x**2 + c[4] * x * y + c[5] * y**2

@@ -12,7 +12,8 @@ from workbench.data.surfaces import SURFACES, Surface, inside_out, scaled, with_
 from workbench.errors import InputError
 from workbench.geometry.meshes import check_mesh, edges, on_boundary, vertex_normals, welded
 
-EYE = (2.3, -2.5, 1.9)
+EYE = (2.5, -2.9, 2.3)
+UPWARD = np.array([0.46, -0.53, 0.71])
 OWN_SIZE = 2.0  # metres: how long the longest side of an own mesh is made, so that scales and colours fit it
 
 
@@ -70,11 +71,14 @@ def _built_in(*shape) -> Subject:
 
 
 def front_of(p: np.ndarray, normals: np.ndarray, border: np.ndarray) -> int:
-    """Return the vertex that is near the eye and turned to it; one inside the border where there is one."""
-    v = np.array(EYE) * max(1.0, float(np.abs(p).max())) - p
-    distance = np.linalg.norm(v, axis=1)
-    turned = np.einsum("vx,vx->v", v, normals) / distance
-    return int(np.argmax(turned - 0.3 * distance - 1e3 * border))
+    """Return a vertex in front whose normal points up more than the eye, so that it and the circles are seen well.
+
+    It lies inside the border where any vertex does.
+    """
+    size = max(1.0, float(np.abs(p).max()))
+    distance = np.linalg.norm(np.array(EYE) * size - p, axis=1) / size
+    aside = np.abs(p @ np.array([-EYE[1], EYE[0], 0.0])) / np.hypot(*EYE[:2]) / size
+    return int(np.argmax(normals @ UPWARD - 0.2 * distance - 0.4 * aside - 1e3 * border))
 
 
 def surface_of(name: str, vertices: int, jitter: float, noise: float, size: float, turned: bool, seed: int) -> Surface:

@@ -68,8 +68,8 @@ def _gaussian(state: State) -> Caption:
     if state.params.mistake == "defect taken for K":
         text = f"Without the division by the area, K at vertex {v:,} would be {_short(now.K[v])}"
         return Caption(text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}", "wrong")
-    text = f"K = defect / area = {_short(now.defects[v])} rad / {_short(now.areas[v])} m² = {_short(now.K[v])} 1/m²"
-    return Caption(text + _truth(true, "1/m²") + _error(state, "K"))
+    text = f"K = defect / area = {_short(now.defects[v])} rad / {_short(now.areas[v])} m² = {_short(now.K[v])} m⁻²"
+    return Caption(text + _truth(true, "m⁻²") + _error(state, "K"))
 
 
 def _normal(state: State) -> Caption:
@@ -82,7 +82,7 @@ def _normal(state: State) -> Caption:
         return Caption(f"At vertex {now.vertex:,} the neighbours' pulls, weighted by cotangents, cancel: 2 H n = 0.")
     return Caption(
         f"Each neighbour pulls with the cotangents opposite its edge; the pulls at vertex {now.vertex:,} add up to"
-        f" 2 H n, {_short(float(np.linalg.norm(v)))} 1/m long and pointing {side}."
+        f" 2 H n, {_short(float(np.linalg.norm(v)))} m⁻¹ long and pointing {side}."
     )
 
 
@@ -92,10 +92,10 @@ def _mean(state: State) -> Caption:
         return Caption(NOWHERE.format("H") + _error(state, "H"))
     H, true = float(now.H[now.vertex]), state.true("mean")
     if state.params.mistake == "H without the half":
-        text = f"Taken whole, the normal's length gives H = {_short(H)} 1/m"
-        return Caption(text + _truth(true, "1/m") + " The ½ is missing." + _error(state, "H"), "wrong")
-    text = f"H is half the normal's length, positive where it points outward: {_short(H)} 1/m"
-    return Caption(text + _truth(true, "1/m") + _error(state, "H"))
+        text = f"Taken whole, the normal's length gives H = {_short(H)} m⁻¹"
+        return Caption(text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), "wrong")
+    text = f"H is half the normal's length, positive where it points outward: {_short(H)} m⁻¹"
+    return Caption(text + _truth(true, "m⁻¹") + _error(state, "H"))
 
 
 def _principal(state: State) -> Caption:
@@ -103,7 +103,7 @@ def _principal(state: State) -> Caption:
     k1, k2 = float(now.k1[now.vertex]), float(now.k2[now.vertex])
     if not np.isfinite([k1, k2]).all():
         return Caption(NOWHERE.format("K or H"))
-    text = f"H ± √(H² − K) gives k1 = {_short(k1)} and k2 = {_short(k2)} 1/m"
+    text = f"H ± √(H² − K) gives k1 = {_short(k1)} and k2 = {_short(k2)} m⁻¹"
     if np.isfinite(state.true("k1")):
         text += f" (truth {_short(state.true('k1'))}, {_short(state.true('k2'))})"
     kind = "to both sides: a saddle" if k1 * k2 < -1e-6 else "to one side" if k1 * k2 > 1e-6 else "one way only"
@@ -118,7 +118,7 @@ def _quadric(state: State) -> Caption:
     n = int(quadrics.neighbours[v])
     if not np.isfinite(K):
         return Caption(f"Another way, a quadric through two rings, needs six vertices in reach; here are {n}.")
-    text = f"Another way: a quadric fitted to {n} vertices bends by K = {_short(K)} 1/m², H = {_short(H)} 1/m."
+    text = f"Another way: a quadric fitted to {n} vertices bends by K = {_short(K)} m⁻², H = {_short(H)} m⁻¹."
     if state.errors:
         e = state.errors
         text += (
