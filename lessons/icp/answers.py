@@ -246,7 +246,7 @@ MATCH_MISTAKES = (
 def match_all_at_once(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Compares every pair in one array."""
     squares = np.sum((p_source[:, None, :] - p_target[None, :, :]) ** 2, axis=2)
-    return np.argmin(squares, axis=1)
+    return np.asarray(np.argmin(squares, axis=1))
 
 
 def match_one_by_one(p_target: np.ndarray, p_source: np.ndarray) -> list[int]:
@@ -260,7 +260,7 @@ def match_with_a_tree(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
     if len(p_target) == 0:
         raise ValueError("no target")
-    return cKDTree(p_target).query(p_source)[1]
+    return np.asarray(cKDTree(p_target).query(p_source)[1])
 
 
 # point_to_plane_step --------------------------------------------------------------------------------------------------

@@ -407,7 +407,7 @@ EXERCISES = (
         slot="step",
         reference=point_to_plane_step,
         task="Write one linear point-to-plane step: the small motion that brings points closest to the tangent planes at "
-        "their partners. The lesson uses it where its fit is point-to-plane: set that knob to watch yours.",
+        "their partners. The lesson uses it where its fit is point-to-plane: choose the preset plane to watch yours.",
         checks=(shift_only, steps_arrive, planes_are_left_alone, noisy_step, steps_arrive_elsewhere, sliding),
         mistakes=answers.STEP_MISTAKES,
         alternatives=(answers.step_about_the_origin, answers.step_by_pseudo_inverse),

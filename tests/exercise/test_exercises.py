@@ -4,7 +4,8 @@ import ast
 import inspect
 import sys
 from collections.abc import Callable
-from itertools import product
+from dataclasses import replace
+from itertools import islice, product
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from workbench.exercise.grading import grade_file, grade_function
 from workbench.exercise.model import Exercise, Mistake
 from workbench.exercise.reports import terminal
 from workbench.exercise.starter import exercises, starter, write_starter
+from workbench.knobs import fields_of
 from workbench.lesson import catalog
 
 EXERCISES = list(exercises().values())
@@ -27,6 +29,32 @@ def named(value) -> str:
 @pytest.fixture(params=EXERCISES, ids=named)
 def exercise(request) -> Exercise:
     return request.param
+
+
+class CalledError(Exception):
+    pass
+
+
+def called(*args):
+    raise CalledError
+
+
+def variants(lesson):
+    """The default run, then each choice of each knob, then the presets."""
+    yield lesson.params()
+    for field in fields_of(lesson.params):
+        for value in field.choices:
+            yield replace(lesson.params(), **{field.name: value})
+    yield from (preset.params for preset in lesson.presets)
+
+
+def drives(exercise, params) -> bool:
+    try:
+        for _ in islice(catalog()[exercise.lesson].run(params, **{exercise.slot: called}), 12):
+            pass
+    except CalledError:
+        return True
+    return False
 
 
 def found(report) -> str:
@@ -54,6 +82,10 @@ def test_it_is_complete(exercise):
     assert len(exercise.examples) >= 2
     assert 40 <= len(exercise.task) <= 600
     assert inspect.getdoc(exercise.reference)
+
+
+def test_the_student_s_function_drives_the_lesson(exercise):
+    assert any(drives(exercise, params) for params in variants(catalog()[exercise.lesson]))
 
 
 def test_the_reference_gets_full_marks(exercise):
