@@ -3,7 +3,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.picking import picked
+from tests.fake import Params
+from workbench.picking import picked, picked_params
 from workbench.scene import Mesh, Picture, Points, Scalar
 
 rng = np.random.default_rng(3)
@@ -49,3 +50,13 @@ def test_a_click_on_a_picture_is_a_pixel(u, v):
     p_world = T[:3, :3] @ at + T[:3, 3]
     assert picked(picture, EYE, p_world - EYE) == (u, v)
     assert picked(picture, EYE, EYE - p_world) is None
+
+
+def test_a_click_sets_the_field_that_names_what_was_hit():
+    width = 2.0
+    scene = {"beside/depth": Picture(np.zeros((48, 64), np.uint8), width=width)}
+    above = np.array([0.0, 0.0, 3.0])
+    at = np.array([(12 - 31.5) * width / 64, (30 - 23.5) * width / 64, 0.0])
+    assert picked_params(Params(), scene, above, at - above) == {"pixel": (12, 30)}
+    assert picked_params(Params(), scene, above, above) == {}
+    assert picked_params(Params(), {}, above, at - above) == {}

@@ -1,10 +1,28 @@
 """What a click in the scene means: the point, vertex or pixel nearest to the ray behind the cursor."""
 
+from typing import Any
+
 import numpy as np
 
-from workbench.scene import Mesh, Picture, Points, Primitive
+from workbench.knobs import Pick, fields_of
+from workbench.scene import Mesh, Picture, Points, Primitive, Scene
 
 WIDEST = np.radians(2.0)  # a click further than this from every point means none of them
+
+
+def picked_params(params: Any, scene: Scene, p_origin: np.ndarray, v_ray: np.ndarray) -> dict[str, Any]:
+    """Return the params that a click sets: the first field with a Pick whose primitive is hit; nothing where none is.
+
+    A field that holds several indices keeps its latest ones: the new one comes last, the oldest goes.
+    """
+    for field in fields_of(type(params)):
+        pick = field.knob.by
+        target = scene.get(pick.path) if isinstance(pick, Pick) else None
+        hit = None if target is None else picked(target, p_origin, v_ray)
+        if hit is not None:
+            several = field.kind == "ints" and isinstance(hit, int)
+            return {field.name: (*getattr(params, field.name)[1:], hit) if several else hit}
+    return {}
 
 
 def picked(primitive: Primitive, p_origin: np.ndarray, v_ray: np.ndarray) -> int | tuple[int, int] | None:

@@ -20,11 +20,12 @@ from workbench.exercise.beside import first_difference
 from workbench.exercise.watching import Watched
 from workbench.knobs import Pick, fields_of
 from workbench.lesson import Lesson, Question
-from workbench.picking import picked
+from workbench.picking import picked_params
 from workbench.session import SPEEDS, Look, Session
 from workbench.timeline import Timelines
 from workbench.viewer.charts import Beside
 from workbench.viewer.code_tab import CodeTab
+from workbench.viewer.controls import add_commands, listen_for_clicks, on_click
 from workbench.viewer.course import add_course
 from workbench.viewer.exercise_tab import ExerciseTab
 from workbench.viewer.knob_panel import KnobPanel
@@ -229,14 +230,14 @@ class Page:
             "Speed", tuple(map(_speed, SPEEDS)), initial_value=_speed(session.speed), hint="How fast Play goes"
         )
         for group in (first, second):
-            self._on_click(group, lambda group=group: acts.get(str(group.value), lambda: self._toggle_pin(session))())
+            on_click(group, lambda group=group: acts.get(str(group.value), lambda: self._toggle_pin(session))())
 
         tabs = gui.add_tab_group()
         with tabs.add_tab("Presets"):
             for preset in lesson.presets:
                 button = gui.add_button(preset.title, hint=preset.line)
                 gui.add_html(f'<div class="wb-note">{escape(preset.line)}</div>')
-                self._on_click(button, lambda name=preset.name: self._wish(lambda: session.use_preset(name)))
+                on_click(button, lambda name=preset.name: self._wish(lambda: session.use_preset(name)))
         with tabs.add_tab("Parameters"):
             knobs = KnobPanel(self.client, lesson, lambda **values: self._wish(lambda: session.change(**values)))
 
@@ -274,37 +275,17 @@ class Page:
             keys.append(
                 (f"Preset: {preset.title}", key, lambda p=preset: self._wish(lambda: session.use_preset(p.name)))
             )
-        for label, key, act in keys:
-            command = gui.add_command(label, hotkey=key)
-
-            @command.on_trigger
-            async def _(event: Any, act: Callable[[], None] = act) -> None:
-                act()
+        add_commands(gui, keys)
 
     def _add_picks(self, lesson: Lesson, session: Session) -> None:
-        self.client.scene.remove_click_callback()
-        fields = [field for field in fields_of(lesson.params) if isinstance(field.knob.by, Pick)]
-        if not fields:
-            return
-
-        @self.client.scene.on_click()  # type: ignore[arg-type]
-        async def _(event: Any) -> None:
+        def clicked(p_origin: np.ndarray, v_ray: np.ndarray) -> None:
             look = session.look()
-            if look is None:
-                return
-            for field in fields:
-                pick = field.knob.by
-                target = look.scene.get(pick.path) if isinstance(pick, Pick) else None
-                if target is None:
-                    continue
-                hit = picked(target, np.array(event.ray_origin), np.array(event.ray_direction))
-                if hit is None:
-                    continue
-                value: Any = hit
-                if field.kind == "ints" and isinstance(hit, int):
-                    value = (*getattr(session.params, field.name)[1:], hit)
-                self._wish(lambda name=field.name, value=value: session.change(**{name: value}))
-                return
+            values = {} if look is None else picked_params(session.params, look.scene, p_origin, v_ray)
+            if values:
+                self._wish(lambda: session.change(**values))
+
+        can_be_picked = any(isinstance(field.knob.by, Pick) for field in fields_of(lesson.params))
+        listen_for_clicks(self.client.scene, clicked if can_be_picked else None)
 
     # wishes ---------------------------------------------------------------------------------------------------------
 
@@ -425,12 +406,6 @@ class Page:
     def _theme(self) -> None:
         self.client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=self.progress.dark)
         self.sink.repaint(BACKDROPS[self.progress.dark])
-
-    def _on_click(self, handle: Any, act: Callable[[], None]) -> None:
-        @handle.on_click
-        async def _(event: Any) -> None:
-            if event.client is not None:
-                act()
 
     def _do(self, work: Any) -> None:
         task = self._loop.create_task(work)
