@@ -28,13 +28,14 @@ ALLOWED = {
     "workbench.picking": DRAWING,
     "workbench.typeset": BASE,
     "workbench.images": set(),
+    "workbench.progress": set(),
     "workbench.session": LESSON | {"workbench.session"},
     "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
-                                     "workbench.images"},
-    "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.session"},
+                                     "workbench.images", "workbench.progress"},
+    "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.recording", "workbench.viewer", "workbench.typeset", "workbench.session",
-        "workbench.links", "workbench.images",
+        "workbench.links", "workbench.images", "workbench.progress",
     },
     "workbench.viewer": LESSON | {
         "workbench.viewer", "workbench.session", "workbench.links", "workbench.picking", "workbench.typeset",
