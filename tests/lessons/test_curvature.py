@@ -348,6 +348,11 @@ def test_the_flat_ring_keeps_lengths_and_angles_and_shows_the_defect():
         real = np.linalg.norm(now.p[now.ring] - now.p[now.vertex], axis=1)
         np.testing.assert_allclose(spokes[:-1], real, rtol=0.02)
         n = now.normals[now.vertex]
+        flat = fan.p[1:] - fan.p[0]
+        flat -= (flat @ n)[:, None] * n
+        flat /= np.linalg.norm(flat, axis=1, keepdims=True)
+        turns = np.arccos(np.einsum("nx,nx->n", flat[1:], flat[:-1]))
+        np.testing.assert_allclose(turns, now.angles, atol=1e-6)
         ends = gap.ends[[0, -1], [0, 1]] - fan.p[0]
         ends -= (ends @ n)[:, None] * n
         cosine = ends[0] @ ends[1] / np.prod(np.linalg.norm(ends, axis=1))
