@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from lessons.disparity.draw import draw
+from lessons.disparity.exercise import EXERCISES
 from lessons.disparity.pairs import setup_of
 from lessons.disparity.params import Params
 from lessons.disparity.presets import PRESETS, QUESTIONS
@@ -63,5 +64,6 @@ lesson = Lesson(
     view=View(eye=(0.5, -4.4, 2.4), target=(0.15, 0.8, -0.75), grid=0.5, grid_height=-0.62),
     presets=PRESETS,
     questions=QUESTIONS,
-    first_step=10,
+    exercises=EXERCISES,
+    first_step=15,
 )
