@@ -1,5 +1,6 @@
 import json
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -146,6 +147,25 @@ def test_a_function_that_fails_becomes_the_caption_and_the_run_ends():
     assert "too far" in timeline[-1].caption.text
     assert timeline[-1].caption.tone == "wrong"
     assert len(timeline) == 4
+
+
+@pytest.mark.parametrize("where", ["run", "draw"])
+def test_a_lesson_that_cannot_use_what_came_back_says_so_and_ends(where):
+    def run(params, **slots):
+        for state in fake.run(params, **slots):
+            if where == "run" and state.T_world_source[2, 2] == 0:
+                raise IndexError("index 9 is out of bounds")
+            yield state
+
+    def draw(state):
+        return fake.draw(replace(state, error=state.error / state.T_world_source[2, 2].item()))
+
+    lesson = replace(fake.lesson, run=run, draw=draw if where == "draw" else fake.draw)
+    timeline = Timeline(beside(lesson, TURN, lambda angle: np.zeros((4, 4))), fake.Params()).complete()
+    assert timeline.stopped is None
+    assert "cannot go on with what turn returned" in timeline[-1].caption.text
+    assert ("ZeroDivisionError" if where == "draw" else "index 9") in timeline[-1].caption.text
+    assert len(timeline) == 1
 
 
 def test_the_gap_is_what_can_be_seen():

@@ -43,12 +43,13 @@ def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             state_ours = next(ours, state_ours)
             try:
                 state = next(theirs)
+                scene = lesson.draw(state)
             except StopIteration:
                 return
-            except StudentError as error:
-                yield Pair(state_ours, None, str(error), float("nan"), not differed)
+            except Exception as error:
+                yield Pair(state_ours, None, _trouble(error, exercise), float("nan"), not differed)
                 return
-            difference = gap(lesson.draw(state_ours), lesson.draw(state))
+            difference = gap(lesson.draw(state_ours), scene)
             differs = not difference <= TOLERANCE
             yield Pair(state_ours, state, "", difference, differs and not differed)
             differed = differed or differs
@@ -68,6 +69,14 @@ def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
         return scene | {DIFFERENCE: _difference(pair.difference)}
 
     return replace(lesson, run=run, draw=draw, questions=(), exercises=(exercise,))
+
+
+def _trouble(error: Exception, exercise: Exercise) -> str:
+    """Say what went wrong: the student's own error, or that the lesson cannot use what came back."""
+    if isinstance(error, StudentError):
+        return str(error)
+    said = " ".join(str(error).split())[:200]
+    return f"The lesson cannot go on with what {exercise.name} returned ({type(error).__name__}: {said})."
 
 
 def _difference(value: float) -> Scalar:
