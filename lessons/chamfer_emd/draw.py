@@ -7,8 +7,8 @@ from lessons.chamfer_emd.words import caption, left_label, numbers_table, right_
 from workbench.geometry.motions import motion
 from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments
 
-T_LEFT = motion(np.eye(3), np.array([-1.25, 0.0, 0.0]))
-T_RIGHT = motion(np.eye(3), np.array([1.25, 0.0, 0.0]))
+T_WORLD_LEFT = motion(np.eye(3), np.array([-1.25, 0.0, 0.0]))
+T_WORLD_RIGHT = motion(np.eye(3), np.array([1.25, 0.0, 0.0]))
 P_TITLE = np.array([0.0, 0.0, -1.2])
 MOST_SERVED = 10  # the last bar of the histogram holds all counts from here on
 
@@ -18,13 +18,13 @@ def draw(state: State) -> Scene:
     left, right = state.left, state.right
     scene: dict[str, Primitive] = {
         "caption": caption(state),
-        "left/title": Label(left_label(state), P_TITLE, "source", T_LEFT),
-        "right/title": Label(right_label(state), P_TITLE, "source", T_RIGHT),
+        "left/title": Label(left_label(state), P_TITLE, "source", T_WORLD_LEFT),
+        "right/title": Label(right_label(state), P_TITLE, "source", T_WORLD_RIGHT),
         **_clouds(state),
         **_left_edges(state),
         "right/pairs": Segments(
             np.stack([right.flow.p_moving[right.matching.i_a], state.clouds.p_target[right.matching.i_b]], axis=1),
-            "correspondence", 1.5, T_RIGHT, name="best one-to-one matching",
+            "correspondence", 1.5, T_WORLD_RIGHT, name="best one-to-one matching",
         ),
         **_busiest(left, state),
         **_curves(state),
@@ -41,10 +41,10 @@ def _clouds(state: State) -> dict[str, Primitive]:
         (left.served == 0).astype(np.uint8), ("source", "wrong"), ("source", "source, nearest to no target point")
     )
     return {
-        "left/target": Points(p_target, "target", radius, T_LEFT, name="target"),
-        "left/source": Points(left.flow.p_moving, idle, 0.9 * radius, T_LEFT, name="source"),
-        "right/target": Points(p_target, "target", radius, T_RIGHT, name="target"),
-        "right/source": Points(state.right.flow.p_moving, "source", 0.9 * radius, T_RIGHT, name="source"),
+        "left/target": Points(p_target, "target", radius, T_WORLD_LEFT, name="target"),
+        "left/source": Points(left.flow.p_moving, idle, 0.9 * radius, T_WORLD_LEFT, name="source"),
+        "right/target": Points(p_target, "target", radius, T_WORLD_RIGHT, name="target"),
+        "right/source": Points(state.right.flow.p_moving, "source", 0.9 * radius, T_WORLD_RIGHT, name="source"),
     }
 
 
@@ -53,10 +53,10 @@ def _left_edges(state: State) -> dict[str, Primitive]:
     edges: dict[str, Primitive] = {}
     if lowers != "target to source":
         ends = np.stack([p, p_target[near.a_to_b]], axis=1)
-        edges["left/to target"] = Segments(ends, "correspondence", 1.5, T_LEFT, name="source to nearest target")
+        edges["left/to target"] = Segments(ends, "correspondence", 1.5, T_WORLD_LEFT, name="source to nearest target")
     if lowers != "source to target":
         ends = np.stack([p_target, p[near.b_to_a]], axis=1)
-        edges["left/to source"] = Segments(ends, "other", 1.5, T_LEFT, 0.8, name="target to nearest source")
+        edges["left/to source"] = Segments(ends, "other", 1.5, T_WORLD_LEFT, 0.8, name="target to nearest source")
     return edges
 
 
@@ -68,8 +68,8 @@ def _busiest(left: Side, state: State) -> dict[str, Primitive]:
     p = left.flow.p_moving[i]
     word = f"nearest of {left.served[i]} target points"
     return {
-        "left/busiest": Points(p[None], "highlight", 0.035, T_LEFT, name="nearest of the most target points"),
-        "left/busiest word": Label(word, p + np.array([0.0, -0.02, 0.08]), "highlight", T_LEFT),
+        "left/busiest": Points(p[None], "highlight", 0.035, T_WORLD_LEFT, name="nearest of the most target points"),
+        "left/busiest word": Label(word, p + np.array([0.0, -0.02, 0.08]), "highlight", T_WORLD_LEFT),
     }
 
 

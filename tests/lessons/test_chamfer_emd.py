@@ -10,7 +10,7 @@ import pytest
 import scipy
 
 from lessons.chamfer_emd.clouds import YARDSTICKS, clouds_of
-from lessons.chamfer_emd.draw import T_LEFT, T_RIGHT
+from lessons.chamfer_emd.draw import T_WORLD_LEFT, T_WORLD_RIGHT
 from lessons.chamfer_emd.lesson import lesson, run
 from lessons.chamfer_emd.params import Lowers, Params
 from lessons.chamfer_emd.presets import QUESTIONS, flips, nearer_side
@@ -317,7 +317,7 @@ class TestPicture:
         assert {tuple(q) for q in pairs[:, 1]} == {tuple(q) for q in p_target}
         for path, primitive in shown.items():
             if path.startswith(("left/", "right/")) and not isinstance(primitive, (Scalar, Curve)):
-                T = T_LEFT if path.startswith("left/") else T_RIGHT
+                T = T_WORLD_LEFT if path.startswith("left/") else T_WORLD_RIGHT
                 assert np.array_equal(primitive.T_world_object, T), path
 
     def test_the_target_is_sent_once(self):
