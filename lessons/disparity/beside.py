@@ -41,10 +41,10 @@ def _pictures(state: State) -> dict[str, Primitive]:
 
 def _numbers(state: State) -> dict[str, Primitive]:
     return {
-        "wrong": Scalar(100 * state.wrong, "over 1 px off, of pixels both see", "Pixels", "%", "truth"),
+        "wrong": Scalar(100 * state.wrong, "over 1 px off", "Pixels", "%", "truth"),
         "unknown": Scalar(100 * state.unknown, "unknown", "Pixels", "%", "correspondence"),
-        "lowest": Scalar(state.lowest, "mean lowest cost", "Mean lowest cost", "", "source"),
-        "energy": Scalar(state.energy, "energy per pixel", "Energy E(D)", "", "source"),
+        "lowest": Scalar(state.lowest, "mean lowest cost", "Cost per pixel", "", "other"),
+        "energy": Scalar(state.energy, "energy E(D)", "Cost per pixel", "", "source"),
     }
 
 
@@ -106,7 +106,7 @@ def _table(state: State) -> Table:
     camera, (u, v) = setup.pair.camera, setup.pixel
     depth = float(state.depth[v, u])
     rows = [("disparity", _px(state.chosen)), ("depth", _m(depth))]
-    if math.isfinite(depth):
+    if 0 < depth < math.inf:
         error = state.disparity_error or 1.0
         d = np.array([setup.f * camera.baseline / depth])
         near, far = (float(z[0]) for z in depth_interval(d, setup.f, camera.baseline, error))

@@ -126,7 +126,7 @@ def _followed(state: State) -> dict[str, Primitive]:
     depths = _depth(state, np.arange(setup.max_disparity + 1.0))
     shown = np.isfinite(depths) & (depths <= setup.far) & np.isfinite(state.costs)
     end = points_on_ray((u, v), np.array([setup.far]), camera)[0]
-    size = 0.012 * setup.far / 3.0
+    size = 0.012 * min(max(setup.far / 3.0, 1.0), 1.7)
     scene: dict[str, Primitive] = {
         "ray": Segments(
             np.array([[np.zeros(3), end]]), "highlight", 2.0, T_WORLD_LEFT, name=f"ray of left pixel ({u}, {v})"

@@ -5,6 +5,7 @@ import numpy as np
 from workbench.scene import PALETTE
 
 GAP = 2
+LEAST_SPAN = 60.0  # grey levels: noise alone shall not look like a texture
 
 
 def framed(picture: np.ndarray, center: tuple[int, int], window: int) -> np.ndarray:
@@ -21,10 +22,17 @@ def framed(picture: np.ndarray, center: tuple[int, int], window: int) -> np.ndar
 
 
 def patches(left: np.ndarray, right: np.ndarray, uv: tuple[int, int], d: int, window: int) -> np.ndarray:
-    """Return the windows around left (u, v) and right (u - d, v) side by side; what lies outside the pictures is grey."""
+    """Return the windows around left (u, v) and right (u - d, v) side by side, both brightened alike, each framed.
+
+    What lies outside the pictures is grey.
+    """
     u, v = uv
     half = max(window // 2, 3) + 1
-    one, two = (_cut(framed(picture, (x, v), window), x, v, half) for picture, x in ((left, u), (right, u - d)))
+    cuts = [_cut(picture, x, v, half) for picture, x in ((left, u), (right, u - d))]
+    low = float(np.min(cuts))
+    span = max(float(np.max(cuts)) - low, LEAST_SPAN)
+    bright = [np.rint((cut - low) * (255.0 / span)).astype(np.uint8) for cut in cuts]
+    one, two = (framed(cut, (half, half), window) for cut in bright)
     gap = np.full((one.shape[0], GAP, 3), 255, np.uint8)
     return np.concatenate([one, gap, two], axis=1)
 

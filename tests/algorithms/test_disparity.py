@@ -17,7 +17,15 @@ from workbench.algorithms.cost_volume import (
     ssd_cost_volume,
 )
 from workbench.algorithms.disparity import P1, P2, Stage, block_matching, disparity_map, match
-from workbench.algorithms.disparity_map import agree, fill, median3, seen_from_right, sub_pixel, winner_takes_all
+from workbench.algorithms.disparity_map import (
+    agree,
+    fill,
+    median3,
+    right_winner,
+    seen_from_right,
+    sub_pixel,
+    winner_takes_all,
+)
 from workbench.data.files import read_image
 from workbench.data.stereo import grey, motorcycle_pair, synthetic_pair
 from workbench.geometry.stereo import StereoCamera, depth_cloud, depth_from_disparity
@@ -60,6 +68,7 @@ def test_the_right_picture_sees_the_same_comparisons(dtype):
                 assert np.array_equal(turned[d, :, x], cost[d, :, x + d])
             else:
                 assert (turned[d, :, x] >= 200).all()
+    assert np.array_equal(right_winner(cost), winner_takes_all(turned))
 
 
 def test_partners_agree_both_ways():

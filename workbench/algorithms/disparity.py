@@ -17,7 +17,15 @@ import numpy as np
 from jaxtyping import Bool, Float, Real
 
 from workbench.algorithms.cost_volume import CENSUS_BITS, CostVolume, census_cost_volume, sad_cost_volume
-from workbench.algorithms.disparity_map import agree, fill, median3, seen_from_right, sub_pixel, winner_takes_all
+from workbench.algorithms.disparity_map import (
+    agree,
+    fill,
+    median3,
+    right_winner,
+    seen_from_right,
+    sub_pixel,
+    winner_takes_all,
+)
 from workbench.algorithms.semiglobal import semi_global, semi_global_total
 from workbench.geometry.stereo import depth_from_disparity, depth_uncertainty
 from workbench.watch import watched
@@ -153,7 +161,7 @@ def block_matching(
 
 def _finish(cost: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     winner = winner_takes_all(cost)
-    matched = agree(winner, winner_takes_all(seen_from_right(cost)))
+    matched = agree(winner, right_winner(cost))
     return median3(fill(sub_pixel(cost, winner), matched)), matched
 
 

@@ -20,6 +20,10 @@ DIRECTIONS = ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 
 """The eight steps (rows down, columns right) from one pixel of a path to the next."""
 
 
+BAND_CELLS = 2**15
+"""Costs per line of a band: a few arrays of so many bytes stay in a core's cache."""
+
+
 @dataclass(frozen=True, eq=False)
 class PathSum:
     """The path costs of all directions so far.
@@ -58,17 +62,24 @@ def semi_global(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Iterat
 def semi_global_total(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Real[np.ndarray, "d h w"]:
     """Return the sum over all eight directions at once: what `semi_global` ends with, several times sooner.
 
-    The three directions that go down share one pass over the picture, and so do those that go up; right and left run
-    over a transposed copy, in which they are down and up.
+    The three directions that go down share one pass over the picture, and so do those that go up. Right and left run over
+    a turned copy, in which they are down and up: a band of rows at a time, small enough for the cache.
     """
     cost, jumps = prepare(cost, P1, P2)
     total = np.zeros(cost.shape, jumps.type_of_sum(len(DIRECTIONS)))
-    turned = np.ascontiguousarray(cost.transpose(0, 2, 1))
-    sideways = np.zeros(turned.shape, jumps.type_of_sum(2))
     for way in (1, -1):
         sweep(by_row(cost)[::way], by_row(total)[::way], (0, 1, -1), jumps)
-        sweep(by_row(turned)[::way], by_row(sideways)[::way], (0,), jumps)
-    total += sideways.transpose(0, 2, 1)
+    disparities, h, w = cost.shape
+    band = min(h, max(BAND_CELLS // disparities, 16))
+    turned = np.empty((disparities, w, band), cost.dtype)
+    sideways = np.empty(turned.shape, jumps.type_of_sum(2))
+    for top in range(0, h, band):
+        rows, some = slice(top, top + band), slice(0, min(band, h - top))
+        turned[:, :, some] = cost[:, rows].transpose(0, 2, 1)
+        sideways[:] = 0
+        for way in (1, -1):
+            sweep(by_row(turned[:, :, some])[::way], by_row(sideways[:, :, some])[::way], (0,), jumps)
+        total[:, rows] += sideways[:, :, some].transpose(0, 2, 1)
     return total
 
 
@@ -138,23 +149,28 @@ def sweep(
     limit[:, w] = 0  # nothing is carried from beyond the border: a path begins there
     carried = np.zeros((len(slopes), stop + row + 1), dtype)
     carried[:, :row], carried[:, stop:] = jumps.P2, jumps.P2
-    here, path, added = (np.zeros((disparities, row), dtype) for _ in range(3))
+
+    def seen(before: np.ndarray, shift: int) -> np.ndarray:
+        return before[start + shift : stop + shift].reshape(disparities, row)
+
+    views = [
+        (seen(before, -slope), seen(before, -slope - row), seen(before, -slope + row), seen(before, 0))
+        for slope, before in zip(slopes, carried, strict=True)
+    ]
+    here = np.zeros((disparities, row), dtype)
+    paths = [np.zeros((disparities, row), dtype) for _ in slopes]
     for line in range(n):
         here[:, :w] = cost[line]
-        added[:] = 0
-        for slope, before in zip(slopes, carried, strict=True):
-            same, lower, higher = (
-                before[start - slope + shift : stop - slope + shift].reshape(path.shape) for shift in (0, -row, row)
-            )
+        for path, (same, lower, higher, after) in zip(paths, views, strict=True):
             np.minimum(lower, higher, out=path)
             path += P1
             np.minimum(path, same, out=path)
             path += here  # L_r(p, d), eq. 13
-            added += path
-            after = before[start:stop].reshape(path.shape)
             np.subtract(path, np.minimum.reduce(path, axis=0), out=after)
             np.minimum(after, limit, out=after)
-        total[line] += added[:, :w]
+        for path in paths[1:]:
+            paths[0] += path
+        total[line] += paths[0][:, :w]
 
 
 def energy(cost: Real[np.ndarray, "d h w"], disparity: Real[np.ndarray, "h w"], P1: float, P2: float) -> float:
