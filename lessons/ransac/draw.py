@@ -26,7 +26,7 @@ def _rows(state: State) -> dict[str, Primitive]:
     """Draw all rows, coloured as the fit in question sees them: the trial's, or else the best's."""
     subject, now = state.subject, state.now
     fit = now.trial if now.phase in ("inliers", "best", "refit") else now.best if now.phase == "stop" else None
-    radius = float(np.clip(0.45 / np.sqrt(len(subject.p)), 0.005, 0.02))
+    radius = _radius(subject)
     color = "neutral" if fit is None else Classes((~fit.inliers).astype(np.uint8), *IN_OR_OUT)
     names = (subject.noun,) if len(subject.shown) == 1 else ("first image", "second image")
     scene: dict[str, Primitive] = {
@@ -40,14 +40,17 @@ def _rows(state: State) -> dict[str, Primitive]:
     return scene
 
 
+def _radius(subject: Subject) -> float:
+    return float(np.clip((0.22 if subject.sizes else 0.32) / np.sqrt(len(subject.p)), 0.004, 0.016))
+
+
 def _sample(state: State) -> dict[str, Primitive]:
     subject, now = state.subject, state.now
     rows = now.sample if now.phase not in ("refit", "stop") else now.sample[:0]
     if not len(rows):
         return {}
-    radius = 1.8 * float(np.clip(0.45 / np.sqrt(len(subject.p)), 0.008, 0.02))
     p = np.concatenate([shown[rows] for shown in subject.shown])
-    scene: dict[str, Primitive] = {"sample": Points(p, "highlight", radius, name="the sample")}
+    scene: dict[str, Primitive] = {"sample": Points(p, "highlight", 2.2 * _radius(subject), name="the sample")}
     if len(subject.shown) == 2:
         ends = np.stack([shown[rows] for shown in subject.shown], axis=1)
         scene["sample matches"] = Segments(ends, "highlight", 2.0, name="matches of the sample")

@@ -139,7 +139,7 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=400,
-    view=View(eye=(0.9, -3.5, 1.7), target=(0.0, 0.0, 0.45), grid=0.5, grid_height=-0.35, axes=False),
+    view=View(eye=(1.0, -4.6, 2.0), target=(0.0, 0.0, 0.1), grid=0.5, grid_height=-0.35, axes=False),
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=2,

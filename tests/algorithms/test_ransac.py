@@ -53,9 +53,13 @@ def test_the_numbers_of_samples_for_a_plane(ratio, needed):
 @given(ratio=st.floats(0.05, 0.99), size=st.integers(2, 7), confidence=st.floats(0.5, 0.9999))
 def test_so_many_samples_suffice_and_one_less_does_not(ratio, size, confidence):
     needed = iterations_needed(ratio, size, confidence)
-    assert 1 - (1 - ratio**size) ** needed >= confidence - 1e-9
+
+    def clean_one(samples):
+        return -np.expm1(samples * np.log1p(-(ratio**size)))
+
+    assert clean_one(needed) >= confidence - 1e-9
     if needed > 1:
-        assert 1 - (1 - ratio**size) ** (needed - 1) < confidence + 1e-9
+        assert clean_one(needed - 1) < confidence + 1e-9
 
 
 def test_the_ends_of_the_formula():

@@ -119,6 +119,17 @@ def test_eight_points_are_exact_without_noise(seed):
     same_up_to_sign(fit_fundamental(uv_first, uv_second), F, 1e-6)
 
 
+def test_a_match_of_weight_zero_does_not_count():
+    F, uv_first, uv_second = views(6, 40)
+    uv_second[:3] += 50.0
+    weights = np.r_[np.zeros(3), np.ones(37)]
+    for found in (
+        fit_fundamental(uv_first, uv_second, weights),
+        refine_fundamental(F, uv_first, uv_second, weights),
+    ):
+        same_up_to_sign(found, F, 1e-6)
+
+
 def test_eight_points_agree_with_skimage():
     """Its normalisation differs a little, and so does the answer, but by far less than the noise."""
     from skimage.transform import FundamentalMatrixTransform

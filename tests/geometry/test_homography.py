@@ -46,6 +46,16 @@ def test_the_linear_transform_is_exact_without_noise(seed):
     np.testing.assert_allclose(found * np.sign(found[2, 2] * H[2, 2]), H, atol=1e-8)
 
 
+def test_weight_zero_is_absence_and_weight_two_is_twice():
+    _, uv_a, uv_b = scene(7, 12, sigma=2.0)
+    weights = np.array([0.0] * 2 + [1.0] * 5 + [2.0] * 5)
+    rows = np.r_[2:12, 7:12]
+    for fit in (fit_homography, lambda a, b, w=None: refine_homography(fit_homography(a, b, w), a, b, w, steps=40)):
+        ours, repeated = fit(uv_a, uv_b, weights), fit(uv_a[rows], uv_b[rows])
+        tolerance = 0.05 if fit is fit_homography else 1e-3  # the normalisation sees all pixels
+        np.testing.assert_allclose(transform_pixels(ours, uv_a), transform_pixels(repeated, uv_a), atol=tolerance)
+
+
 def test_it_agrees_with_skimage():
     """Its normalisation differs a little, and so does the answer, but by far less than the noise."""
     from skimage.transform import ProjectiveTransform

@@ -1,6 +1,7 @@
 """Which points to try next: by chance alone, or the most trusted first."""
 
 from collections.abc import Iterator
+from itertools import count
 from math import ceil
 
 import numpy as np
@@ -36,9 +37,7 @@ def prosac_samples(
     _check(n, size)
     pool, until = size, 1
     draws = grown_after * float(np.prod([(size - i) / (n - i) for i in range(size)]))
-    t = 0
-    while True:
-        t += 1
+    for t in count(1):
         if t > until and pool < n:
             grown = draws * (pool + 1) / (pool + 1 - size)  # eq. 3
             pool, until, draws = pool + 1, until + ceil(grown - draws), grown
@@ -48,22 +47,22 @@ def prosac_samples(
             yield order[np.append(draw_samples(pool - 1, size - 1, 1, rng)[0], pool - 1)]
 
 
-def draw_samples(n: int, size: int, count: int, rng: np.random.Generator) -> Int[np.ndarray, "count size"]:
-    """Return `count` samples of `size` different rows out of n, each in random order.
+def draw_samples(n: int, size: int, samples: int, rng: np.random.Generator) -> Int[np.ndarray, "samples size"]:
+    """Return so many samples of `size` different rows out of n, each in random order.
 
     Raises:
         ValueError: If there are fewer rows than a sample needs.
     """
     _check(n, size)
     if n <= 4 * size:
-        return np.argsort(rng.random((count, n)), axis=1)[:, :size]
-    samples = rng.integers(n, size=(count, size))
+        return np.argsort(rng.random((samples, n)), axis=1)[:, :size]
+    rows = rng.integers(n, size=(samples, size))
     while True:
-        ordered = np.sort(samples, axis=1)
+        ordered = np.sort(rows, axis=1)
         repeated = (ordered[:, 1:] == ordered[:, :-1]).any(axis=1)
         if not repeated.any():
-            return samples
-        samples[repeated] = rng.integers(n, size=(np.count_nonzero(repeated), size))
+            return rows
+        rows[repeated] = rng.integers(n, size=(np.count_nonzero(repeated), size))
 
 
 def _check(n: int, size: int) -> None:
