@@ -48,12 +48,33 @@ def test_showing_one_scene_after_others_leaves_exactly_it(tmp_path_factory, orde
 def test_everything_in_a_scene_is_shown(tmp_path):
     scene = SCENES[2]
     shown = shown_at(recorded([scene], tmp_path / "a.rrd"), 0)
-    for path in ("source", "target", "box", "pulled", "wire", "frame", "camera", "eye", "word", "plane", "pairs", "late"):
+    for path in (
+        "source",
+        "target",
+        "box",
+        "pulled",
+        "wire",
+        "frame",
+        "camera",
+        "eye",
+        "word",
+        "plane",
+        "pairs",
+        "late",
+    ):
         assert f"/world/{path}" in shown
     assert "/world/camera/image" in shown
     assert "/world/eye/image" not in shown
-    assert {"/pictures/beside\\/depth/image", "/pictures/beside\\/depth/bar", "/pictures/beside\\/photo/image"} <= set(shown)
-    assert {"/charts/Basin/curves", "/charts/Basin/frame", "/charts/Histogram/curves", "/tables", "/legend/bar0"} <= set(shown)
+    assert {"/pictures/beside\\/depth/image", "/pictures/beside\\/depth/bar", "/pictures/beside\\/photo/image"} <= set(
+        shown
+    )
+    assert {
+        "/charts/Basin/curves",
+        "/charts/Basin/frame",
+        "/charts/Histogram/curves",
+        "/tables",
+        "/legend/bar0",
+    } <= set(shown)
 
 
 def test_a_moved_cloud_is_sent_once_and_then_only_its_pose(tmp_path):
@@ -67,7 +88,11 @@ def test_a_moved_cloud_is_sent_once_and_then_only_its_pose(tmp_path):
 
 def test_points_that_move_by_themselves_are_sent_again(tmp_path):
     scenes = [fake.draw(state) for state in fake.run(fake.Params(points=20, wobble=True))]
-    sent = [components for _, _, entity, components in rows(recorded(scenes, tmp_path / "a.rrd")) if entity == "/world/source"]
+    sent = [
+        components
+        for _, _, entity, components in rows(recorded(scenes, tmp_path / "a.rrd"))
+        if entity == "/world/source"
+    ]
     assert all("Points3D:positions" in components for components in sent)
 
 
@@ -90,7 +115,9 @@ def test_changed_classes_send_ids_and_no_places(tmp_path):
 
 def test_a_motion_that_is_not_rigid_is_kept(tmp_path):
     T = np.array([[1, 0.5, 0, 1], [0, 2, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1.0]])
-    shown = shown_at(recorded([{"m": Mesh(fake.CORNERS, fake.FACES, T_world_object=T)}], tmp_path / "a.rrd"), 0)["/world/m"]
+    shown = shown_at(recorded([{"m": Mesh(fake.CORNERS, fake.FACES, T_world_object=T)}], tmp_path / "a.rrd"), 0)[
+        "/world/m"
+    ]
     R = np.array(shown["Transform3D:mat3x3"][0]).reshape(3, 3).T  # columns first
     np.testing.assert_allclose(R, T[:3, :3])
     np.testing.assert_allclose(shown["Transform3D:translation"][0], T[:3, 3])

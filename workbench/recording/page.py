@@ -103,8 +103,10 @@ def _argument(text: str, i: int) -> tuple[str, int]:
 def _script(word: str, below: bool) -> str:
     if word in ("°", "′", "*") and not below:
         return word
+    if not word:
+        return ""
     signs = _LOWERED if below else _RAISED
-    if word and all(sign in signs for sign in word):
+    if all(sign in signs for sign in word):
         return "".join(signs[sign] for sign in word)
     plain = re.fullmatch(r"[\w′()]+", word) is not None
     return ("_" if below else "^") + (word if plain else f"({word})")

@@ -2,6 +2,7 @@
 
 import json
 import re
+import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
@@ -14,8 +15,10 @@ from rerun.chunk import RrdReader
 from workbench import __version__, knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
+from workbench.recording.viewer_files import binary, quiet_environment
 from workbench.scene import Scalar
 
+FOREIGN = "is no Rerun recording, or is damaged"
 FORMAT = 1
 """What this version writes and reads; it grows when an older version could not read a new recording."""
 
@@ -77,6 +80,7 @@ def open_recording(path: str | Path) -> Recording:
         InputError: One line, if the file is missing, empty, damaged, cut short, or no recording of a run.
     """
     path = Path(path)
+    _check_file(path)
     chunks = read_chunks(path)
     try:
         return _recording(path, chunks)
@@ -118,28 +122,39 @@ def reopening(path: Path) -> tuple[Lesson, Any, list[str]]:
 def read_chunks(path: Path) -> list[Any]:
     """Return the chunks of the one recording in a file, layouts left out.
 
+    A damaged file can end this process from inside rerun: `open_recording` has it checked in another one first.
+
     Raises:
-        InputError: If the file is missing, empty, damaged or foreign.
+        InputError: If the file cannot be read.
     """
-    if not path.is_file():
-        raise InputError(f"{path}: no such file")
-    if path.stat().st_size == 0:
-        raise InputError(f"{path}: is empty")
     try:
         reader = RrdReader(path)
         stores = reader.recordings()
         chunks = [chunk for store in stores for chunk in reader.stream(store=store)]
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror or error}") from error
-    except Exception as error:
-        raise InputError(f"{path}: is no Rerun recording, or is damaged") from error
-    except BaseException as error:  # rerun's panics are no Exceptions
-        if type(error).__name__ != "PanicException":
-            raise
-        raise InputError(f"{path}: is damaged") from error
+    except (RuntimeError, ValueError) as error:
+        raise InputError(f"{path}: {FOREIGN}") from error
     if len(stores) != 1:
         raise InputError(f"{path}: holds {len(stores)} recordings, one is expected")
     return chunks
+
+
+def _check_file(path: Path) -> None:
+    """Raise InputError if the file is missing, empty, foreign, or so damaged that rerun cannot decode it."""
+    if not path.is_file():
+        raise InputError(f"{path}: no such file")
+    if path.stat().st_size == 0:
+        raise InputError(f"{path}: is empty")
+    check = subprocess.run(
+        [str(binary()), "rrd", "verify", str(path.absolute())],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        env=quiet_environment(),
+        check=False,
+    )
+    if check.returncode:
+        raise InputError(f"{path}: {FOREIGN}")
 
 
 def digest(params: str, captions: Sequence[str], scalars: Mapping[str, np.ndarray]) -> str:

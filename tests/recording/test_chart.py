@@ -1,0 +1,104 @@
+"""Charts drawn by hand: ticks are round, everything stays inside the frame."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from workbench.recording.chart import (
+    BOTTOM,
+    LEFT,
+    LEGEND_WIDTH,
+    RIGHT,
+    TOP,
+    chart_curves,
+    chart_frame,
+    color_bar,
+    frame_key,
+    legend_height,
+    legend_names,
+    number,
+    ticks,
+)
+from workbench.scene import PALETTE, Curve, Field, color_map
+
+finite = st.floats(-1e6, 1e6)
+
+
+def curve(x, y, **looks) -> Curve:
+    return Curve(np.array(x, float), np.array(y, float), "a", "chart", "x", **looks)
+
+
+@given(finite, st.floats(1e-6, 1e6), st.integers(2, 8))
+def test_ticks_are_few_round_and_inside(low, span, most):
+    high = low + span
+    if not high - low > 1e-9 * abs(low):
+        return
+    found = ticks(low, high, most)
+    assert 1 <= len(found) <= most
+    assert (found >= low - 1e-6 * span).all()
+    assert (found <= high + 1e-6 * span).all()
+    if len(found) > 1:
+        step = found[1] - found[0]
+        first = float(f"{step:.6e}"[0])
+        assert first in (1, 2, 5, 9)  # 9: a one that rounding took down
+
+
+def test_a_zero_tick_has_no_sign():
+    assert [number(tick) for tick in ticks(-1.0, 1.0, 3)] == ["−1", "0", "1"]
+
+
+@given(
+    st.lists(st.tuples(finite, finite | st.just(float("nan"))), min_size=1, max_size=20),
+    st.sampled_from(["line", "dots", "bars"]),
+)
+def test_everything_stays_inside_the_frame(points, kind):
+    x, y = np.array(points).T
+    lines, dots = chart_curves([curve(np.sort(x), y, kind=kind, marks=(float(x[0]),))])
+    places = [np.array(strip) for strip in lines.strips.as_arrow_array().to_pylist()]
+    places.append(np.array(dots.positions.as_arrow_array().to_pylist()).reshape(-1, 2))
+    whole = np.concatenate(places)
+    assert (whole >= (LEFT - 0.01, TOP - 0.01)).all()
+    assert (whole <= (RIGHT + 0.01, BOTTOM + 0.01)).all()
+
+
+def test_a_gap_splits_a_line_and_a_lonely_value_is_a_dot():
+    lines, dots = chart_curves([curve(range(6), [1, 2, np.nan, 3, np.nan, 4])])
+    assert len(lines.strips.as_arrow_array()) == 1
+    assert len(dots.positions.as_arrow_array()) == 2
+
+
+def test_bars_stand_on_zero():
+    lines, _ = chart_curves([curve([0, 1], [2, 4], kind="bars")])
+    feet = [max(y for _, y in strip) for strip in lines.strips.as_arrow_array().to_pylist()]
+    tops = [min(y for _, y in strip) for strip in lines.strips.as_arrow_array().to_pylist()]
+    assert feet == pytest.approx([BOTTOM, BOTTOM])
+    assert BOTTOM - tops[1] == pytest.approx(2 * (BOTTOM - tops[0]), rel=1e-6)
+
+
+def test_the_frame_is_said_again_only_when_it_changes():
+    one, same_range = curve([0, 1, 2], [0, 1, 2]), curve([0, 1, 2], [0, 2, 1])
+    assert frame_key([one]) == frame_key([same_range])
+    assert frame_key([one]) != frame_key([curve([0, 1, 2], [0, 1, 3])])
+    _, words = chart_frame([one])
+    assert {"0", "1", "2", "x", "a"} <= set(words.labels.as_arrow_array().to_pylist())
+
+
+def test_a_colour_bar_has_its_ends_its_unit_and_its_colours():
+    field = Field(np.zeros(1), -2.0, 2.0, "Offset", "m", "diverging")
+    bar, ends = color_bar(field, 0.0, 0.0, 100.0)
+    assert ends.labels.as_arrow_array().to_pylist() == ["−2", "Offset (m)", "2"]
+    colors = bar.colors.as_arrow_array().to_pylist()
+    first, last = color_map("diverging", np.array([0.0, 1.0]))
+    assert [colors[0] >> 24, colors[0] >> 16 & 255, colors[0] >> 8 & 255] == list(first)
+    assert [colors[-1] >> 24, colors[-1] >> 16 & 255, colors[-1] >> 8 & 255] == list(last)
+
+
+def test_a_long_legend_takes_more_rows():
+    entries = [(f"a rather long name {i}", PALETTE["target"]) for i in range(9)]
+    (names,) = legend_names(entries)
+    places = np.array(names.positions.as_arrow_array().to_pylist())
+    assert places[:, 0].max() < LEGEND_WIDTH
+    assert legend_height(entries, 0) > legend_height(entries[:2], 0)
+    assert legend_height(entries, 1) > legend_height(entries, 0)
+    assert legend_height([], 0) == 0

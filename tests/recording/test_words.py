@@ -1,0 +1,82 @@
+"""Words and formulas that Rerun's fonts can draw."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from workbench.lesson import catalog
+from workbench.recording.glyphs import safe
+from workbench.recording.page import plain_formula, plain_page
+
+
+@given(st.text(max_size=60))
+def test_safe_words_stay_as_they_are(text):
+    assert safe(safe(text)) == safe(text)
+
+
+@given(st.text(st.characters(min_codepoint=0x20, max_codepoint=0x7E), max_size=60))
+def test_plain_text_stays_as_it_is(text):
+    assert safe(text) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "drawn"),
+    [
+        ("θ² ‖x‖ → −½", "θ² ‖x‖ → −½"),
+        ("Rᵀ", "R^T"),
+        ("x ∈ ℝ³", "x  in  R³"),
+        ("⟨a, b⟩", "<a, b>"),
+        ("𝐱 and ﬁ", "x and fi"),
+        ("中🙂", "??"),
+        ("e\u0301 x\u0302", "é x"),
+    ],
+)
+def test_signs_that_fonts_lack_are_replaced(text, drawn):
+    assert safe(text) == drawn
+
+
+@pytest.mark.parametrize(
+    ("tex", "plain"),
+    [
+        (r"p_t = R\,p_s + t", "pₜ = R pₛ + t"),
+        (r"\frac{a+b}{2}", "(a+b)/2"),
+        (r"\frac1n\sum_i x_i^2", "1/n ∑ᵢ xᵢ²"),
+        (r"\sqrt{x^2 + y^2}", "√(x² + y²)"),
+        (r"V^\top", "V^T"),
+        (r"\mathrm{median}(d) \le 3", "median(d) ≤ 3"),
+        (r"T_{\text{world}}^{-1}", "T_world⁻¹"),
+        (r"x_{i+1}", "xᵢ₊₁"),
+        (r"x_{k,i}", "x_(k,i)"),
+        (r"\{1, 2\}", "{1, 2}"),
+        (r"\begin{bmatrix} 1 & 0 \\ 0 & 1 \end{bmatrix}", "[ 1 0 ; 0 1 ]"),
+        (r"\lVert q \rVert", "‖ q ‖"),
+        (r"90^\circ", "90°"),
+        (r"\bar q", "mean q"),
+        (r"\unknown{x}", "unknownx"),
+        (r"\frac", "/"),
+        (r"x^", "x"),
+        ("}", "}"),
+    ],
+)
+def test_formulas_in_plain_signs(tex, plain):
+    assert plain_formula(tex) == plain
+
+
+@given(st.text(st.sampled_from(list(r"\{}^_$ab12&frac ")), max_size=30))
+def test_no_formula_breaks_the_page(tex):
+    assert "\x00" not in plain_formula(tex)
+
+
+def test_code_is_left_alone_and_formulas_become_words():
+    page = plain_page("Take $\\alpha_1$ and `$x$`.\n\n$$ a = b $$\n\n```\n$y$\n```\n")
+    assert page == "Take α₁ and `$x$`.\n\n\n    a = b\n\n\n```\n$y$\n```\n"
+
+
+@pytest.mark.parametrize("lesson", catalog().values(), ids=lambda lesson: lesson.name)
+def test_every_page_is_free_of_tex(lesson):
+    page = plain_page(lesson.page.read_text(encoding="utf-8"))
+    assert safe(page) == page
+    assert "$" not in page.replace("`$", "")
+    for command in ("frac", "\\sum", "mathrm", "\\left", "begin{", "operatorname", "qquad", "lVert", "boldsymbol"):
+        assert command not in page, command
+    assert "?" * 2 not in page
