@@ -86,7 +86,14 @@ def curvature_verdict(
         return fail(f"{what}{lost} of {inside.sum()} vertices inside the border have no finite value. {hint}")
     off = np.linalg.norm(got[inside] - right[inside], axis=1).max()
     size = size or float(np.linalg.norm(right[inside], axis=1).max())
-    verdict = band(f"{what}largest error", 100 * float(off) / size, "%", good=good, fair=fair, hint=hint)
+    verdict = band(
+        f"{what}largest error" if what else "Largest error",
+        100 * float(off) / size,
+        "%",
+        good=good,
+        fair=fair,
+        hint=hint,
+    )
     stray = int((~np.isnan(got[~inside])).any(axis=1).sum())
     if stray and verdict.share > 0:
         said = (

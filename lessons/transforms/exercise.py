@@ -294,8 +294,8 @@ EXERCISES = (
         lesson="transforms",
         slot="rotation_from_axis_angle",
         reference=rotation_from_axis_angle,
-        task="Write Rodrigues' formula: the rotation by an angle about an axis. Set the lesson's knob half to 'move between two "
-        "poses' and it turns the body from one pose to the other about one axis, at constant speed.",
+        task="Write Rodrigues' formula: the rotation by an angle about an axis. Set the lesson's knob half to 'move between "
+        "two poses' and it turns the body from one pose to the other about one axis, at constant speed.",
         checks=(quarter_turn, any_axis, axis_is_left_alone, turned_axis, special_angles, zero_axis),
         mistakes=answers.AXIS_ANGLE_MISTAKES,
         alternatives=(answers.turn_by_quaternion, answers.turn_column_by_column),

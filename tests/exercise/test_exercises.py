@@ -13,6 +13,7 @@ import pytest
 from workbench.exercise.grading import grade_file, grade_function
 from workbench.exercise.model import Exercise, Mistake
 from workbench.exercise.reports import terminal
+from workbench.exercise.sandbox import StudentError
 from workbench.exercise.starter import exercises, starter, write_starter
 from workbench.knobs import fields_of
 from workbench.lesson import catalog
@@ -269,3 +270,31 @@ def test_a_mistake_is_recognised_beside_a_forgotten_error():
     report = grade_function(clockwise, exercises()["rotation_from_axis_angle"])
     assert report.mistake is not None, found(report)
     assert report.mistake.name == "clockwise"
+
+
+def test_one_of_two_mistakes_is_named():
+    def transposed_and_mirrored(p_target, p_source):
+        c_target, c_source = p_target.mean(0), p_source.mean(0)
+        U, _, Vt = np.linalg.svd((p_source - c_source).T @ (p_target - c_target))
+        T = np.eye(4)
+        T[:3, :3], T[:3, 3] = U @ Vt, c_target - U @ Vt @ c_source
+        return T
+
+    report = grade_function(transposed_and_mirrored, exercises()["align_rigid"])
+    assert report.mistake is not None, found(report)
+    assert report.mistake.name == "rotation transposed"
+
+
+def test_a_right_function_is_told_of_no_mistake_where_a_check_fails_by_chance():
+    exercise = exercises()["invert_rigid"]
+    calls = []
+
+    def once_late(T):
+        calls.append(T)
+        if len(calls) == 1:
+            raise StudentError("too slow", "timeout")
+        return exercise.reference(T)
+
+    report = grade_function(once_late, exercise)
+    assert not report.is_full
+    assert report.mistake is None

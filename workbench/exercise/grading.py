@@ -82,14 +82,17 @@ def grade_function(function: Function, exercise: Exercise, *, hidden: bool = Tru
         hidden: Whether hidden checks are run too.
         file: How the report names it.
     """
-    outcomes, calls = [], []
+    outcomes, calls, failing = [], [], []
     for check in exercise.checks:
         if check.public or hidden:
             candidate = Candidate(function, exercise.reference)
             outcomes.append(Outcome(check, _judged(check, candidate)))
             calls += candidate.calls
-    failed = any(outcome.verdict.share < 1.0 for outcome in outcomes)
-    mistake = recognised(calls, exercise) if failed else None
+            if outcomes[-1].verdict.share < 1.0:
+                failing.append(candidate.calls)
+    mistake = None
+    for asked in (calls, *failing) if failing else ():  # who makes two mistakes makes only one of them somewhere
+        mistake = mistake or recognised(asked, exercise)
     not_run = tuple(check for check in exercise.checks if not (check.public or hidden))
     printed = function.printed() if isinstance(function, Student) else ""
     return Report(exercise, file, tuple(outcomes), not_run, mistake, printed)
