@@ -70,7 +70,7 @@ def test_nothing_is_rendered_twice_and_what_changed_is(published, monkeypatch):
 
 def test_text_of_a_lesson_stays_text(tmp_path):
     def shout(state):
-        return fake.draw(state) | {"caption": Caption("<script>alert(1)</script> & </script>")}
+        return {**fake.draw(state), "caption": Caption("<script>alert(1)</script> & </script>")}
 
     loud = replace(SMALL, draw=shout, title="<b>Bold</b>", summary='"quoted" <i>', presets=(), questions=())
     site.publish(tmp_path, [loud])

@@ -64,8 +64,9 @@ class Quadrics:
 def fit_quadrics(p: Points, faces: Faces, rings: int = 2) -> Quadrics:
     """Fit a quadric by weighted least squares to every vertex and all vertices at most `rings` edges away.
 
-    A neighbour at distance r counts exp(-(r / r_rms)^2), r_rms being the root mean square of all of them. The error falls in proportion to the mesh' edges, on any mesh whose vertices lie on the surface. More rings forgive
-    more noise and blur more. Works on the border too, though there all neighbours lie on one side.
+    A neighbour at distance r counts exp(-(r / r_rms)^2), r_rms being the root mean square of all of them. The error falls in
+    proportion to the mesh' edges, on any mesh whose vertices lie on the surface. More rings forgive more noise and blur
+    more. Works on the border too, though there all neighbours lie on one side.
 
     Args:
         p: Vertices, m.
