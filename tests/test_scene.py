@@ -86,11 +86,19 @@ def test_maps_reach_their_ends_and_the_middle_is_light():
 
 def test_a_ghost_is_what_stands_in_space_and_fainter():
     scene = Timeline(lesson, lesson.params()).complete()[0].scene
-    faint = ghost(scene)
+    faint = ghost(scene, {})
     assert faint
     assert all(path.startswith("ghost/") and in_space(primitive) for path, primitive in faint.items())
     assert faint["ghost/source"].opacity < 0.5  # type: ignore[union-attr]
     assert faint["ghost/source"].p is scene["source"].p  # type: ignore[union-attr]
+
+
+def test_a_ghost_leaves_out_what_did_not_move():
+    first, last = (Timeline(lesson, lesson.params()).complete()[k].scene for k in (0, -1))
+    paler = {path: replace(p, opacity=0.5) if isinstance(p, Points) else p for path, p in last.items()}
+    assert ghost(last, paler) == {}
+    assert "ghost/source" in ghost(first, last)
+    assert "ghost/target" not in ghost(first, last)
 
 
 @pytest.mark.parametrize(

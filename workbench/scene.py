@@ -317,13 +317,25 @@ def caption_of(scene: Scene) -> Caption:
     return caption
 
 
-def ghost(scene: Scene, opacity: float = 0.25) -> dict[str, Primitive]:
-    """Return the spatial part of a scene faded, under `ghost/`, to stand behind another scene."""
+def ghost(scene: Scene, beside: Scene, opacity: float = 0.25) -> dict[str, Primitive]:
+    """Return what another scene has elsewhere in space, faded, under `ghost/`, to stand behind the scene `beside`.
+
+    What is at the same place in both is left out: a ghost over it would only pale it.
+    """
     return {
         f"ghost/{path}": replace(primitive, opacity=primitive.opacity * opacity)
         for path, primitive in scene.items()
-        if in_space(primitive) and not isinstance(primitive, Label | Scalar | Curve | Table | Caption)
+        if in_space(primitive)
+        and not isinstance(primitive, Label | Scalar | Curve | Table | Caption)
+        and not _same_place(primitive, beside.get(path))
     }
+
+
+def _same_place(a: Primitive, b: Primitive | None) -> bool:
+    looks = ("color", "opacity", "name", "title")
+    return type(a) is type(b) and all(
+        same(getattr(a, field.name), getattr(b, field.name)) for field in fields(a) if field.name not in looks
+    )
 
 
 def same(a: object, b: object) -> bool:

@@ -234,7 +234,7 @@ class Session:
         pinned_series: Mapping[str, Series] = {}
         if self._pinned is not None:
             other, at = self._pinned
-            scene |= ghost(other[min(at, len(other) - 1)].scene)
+            scene |= ghost(other[min(at, len(other) - 1)].scene, scene)
             pinned_series = other.series()
         caption = self._trouble(k) or step.caption
         return Look(

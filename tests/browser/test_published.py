@@ -37,7 +37,7 @@ def address(out):
 
 
 class QuietHandler(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *args):
+    def log_message(self, format, *args):  # noqa: A002
         pass
 
 

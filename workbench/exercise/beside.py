@@ -60,7 +60,7 @@ def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             return dict(ours) | {"caption": Caption(pair.trouble, "wrong"), DIFFERENCE: _difference(float("nan"))}
         scene = dict(lesson.draw(pair.theirs))
         if not pair.difference <= TOLERANCE:
-            scene |= ghost(ours)
+            scene |= ghost(ours, scene)
         if pair.first:
             said = caption_of(scene).text
             scene["caption"] = Caption(

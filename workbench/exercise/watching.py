@@ -5,12 +5,13 @@ from pathlib import Path
 
 from workbench.errors import InputError
 from workbench.exercise.beside import beside
-from workbench.exercise.grading import grade_function
+from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise
-from workbench.exercise.reports import terminal
 from workbench.exercise.sandbox import Student
 from workbench.exercise.starter import exercises_in
 from workbench.lesson import Lesson
+
+RUNNING = "The checks are running …"
 
 
 class Watched:
@@ -19,6 +20,10 @@ class Watched:
     Args:
         lesson: The lesson whose run it drives.
         path: The file; it defines the function of one of the lesson's exercises.
+
+    Attributes:
+        lesson: The lesson as the file drives it now.
+        said: What the public checks found of the file last, or one line that says why they found nothing.
 
     Raises:
         InputError: If the file cannot be used, or holds no function of this lesson.
@@ -34,27 +39,32 @@ class Watched:
         self._stamp = self._stamp_now()
         self._student = self._new()
         self.lesson = beside(lesson, self.exercise, self._student)
+        self.said: Report | str = RUNNING
 
     def changed(self) -> bool:
         """Load the file again if it was saved since; tell whether it was."""
         stamp = self._stamp_now()
         if stamp is None or stamp == self._stamp:
             return False
-        self._stamp = stamp
+        self._stamp, self.said = stamp, RUNNING
         old = self._student
         self._student = self._new()
         self.lesson = beside(self.original, self.exercise, self._student)
         old.close()
         return True
 
-    def report(self) -> str:
-        """Run the public checks on the file as it is now and return the report, or the line that says why not."""
+    def check(self) -> None:
+        """Run the public checks on the file as it is now; `said` is what they found then."""
+        stamp = self._stamp
+        said: Report | str
         try:
             with self._new() as student:
                 student.start()
-                return terminal(grade_function(student, self.exercise, hidden=False, file=self.path.name))
+                said = grade_function(student, self.exercise, hidden=False, file=self.path.name)
         except InputError as error:
-            return str(error)
+            said = str(error)
+        if stamp == self._stamp:  # or else the file was saved meanwhile, and is checked again
+            self.said = said
 
     def close(self) -> None:
         """End the child process."""

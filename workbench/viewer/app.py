@@ -12,7 +12,7 @@ import viser
 
 from workbench import links
 from workbench.errors import InputError
-from workbench.exercise.watching import Watched
+from workbench.exercise.watching import RUNNING, Watched
 from workbench.lesson import Lesson, catalog
 from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
@@ -68,9 +68,9 @@ class App:
         self.server.request_share_url = lambda *args, **kwargs: None  # type: ignore[method-assign]
         self.host, self.port = host, port
         self.pages: dict[int, Page] = {}
-        self._watched = watched
+        self._watched, self._watching = watched, None
         if watched is not None:
-            asyncio.run_coroutine_threadsafe(self._watch(watched), self.server.get_event_loop())
+            self._watching = asyncio.run_coroutine_threadsafe(self._watch(watched), self.server.get_event_loop())
         self.server.on_client_connect(self._connect)
         self.server.on_client_disconnect(self._disconnect)
 
@@ -82,6 +82,8 @@ class App:
 
     def stop(self) -> None:
         """Stop listening and end all pages."""
+        if self._watching is not None:
+            self._watching.cancel()
         with contextlib.redirect_stdout(io.StringIO()):
             self.server.stop()
         if self._watched is not None:
@@ -96,10 +98,8 @@ class App:
 
     async def _watch(self, watched: Watched) -> None:
         """Give every page the new run whenever the student's file was saved, and the checks' report when it is there."""
+        checking = asyncio.create_task(self._check(watched))
         while True:
-            report = await asyncio.to_thread(watched.report)
-            for page in list(self.pages.values()):
-                page.show_report(report)
             while not await asyncio.to_thread(self._saved, watched):
                 await asyncio.sleep(0.3)
             before, after = self.lessons[watched.lesson.name], watched.lesson
@@ -108,6 +108,16 @@ class App:
                 self._start = links.Place(after, self._start.params, self._start.step)
             for page in list(self.pages.values()):
                 page.replace_lesson(before, after)
+            checking = asyncio.create_task(self._check(watched, checking))
+
+    async def _check(self, watched: Watched, earlier: asyncio.Task | None = None) -> None:
+        """Check the file once the checks of an earlier state of it are through, which may have to wait for time-outs."""
+        if earlier is not None:
+            await earlier
+        if watched.said == RUNNING:
+            await asyncio.to_thread(watched.check)
+        for page in list(self.pages.values()):
+            page.show_report()
 
     @staticmethod
     def _saved(watched: Watched) -> bool:

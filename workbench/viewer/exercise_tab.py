@@ -5,7 +5,9 @@ from typing import Any
 
 import viser
 
+from workbench.exercise.grading import Report
 from workbench.exercise.model import Exercise
+from workbench.exercise.reports import MARKS, counted
 from workbench.exercise.starter import starter
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson
@@ -23,6 +25,7 @@ class ExerciseTab:
     """
 
     def __init__(self, gui: viser.GuiApi, lesson: Lesson, watched: Watched | None, to_difference: Callable[[], None]):
+        self._watched = watched
         self._result: Any = None
         if watched is not None:
             gui.add_html(
@@ -38,16 +41,32 @@ class ExerciseTab:
                     to_difference()
 
             self._result = gui.add_html("")
+            self.show_report()
         exercises = lesson.exercises if watched is None else (watched.exercise,)
         for exercise in exercises:
             gui.add_html(_task(exercise, alone=watched is not None))
 
-    def show(self, report: str) -> None:
-        """Show what the checks say."""
-        if self._result is not None:
-            self._result.content = (
-                f'<div class="wb wb-pad" role="status"><pre class="wb-report">{escape(report)}</pre></div>'
-            )
+    def show_report(self) -> None:
+        """Show what the checks say of the file now."""
+        if self._watched is not None and self._result is not None:
+            self._result.content = _found(self._watched.said)
+
+
+def _found(said: Report | str) -> str:
+    """Return what the checks found as HTML: the same words as in the terminal."""
+    if isinstance(said, str):
+        return f'<div class="wb wb-pad wb-report" role="status"><p>{escape(said)}</p></div>'
+    checks = "".join(
+        f'<li class="{outcome.verdict.word}"><b>{MARKS[outcome.verdict.word]}</b> {escape(outcome.check.promise)} '
+        f"<i>{outcome.points:g}/{outcome.check.points:g}</i><p>{escape(outcome.verdict.message)}</p></li>"
+        for outcome in said.outcomes
+    )
+    mistake = "" if said.mistake is None else f'<p class="mistake">{escape(said.mistake.sentence)}</p>'
+    printed = f"<p>Your code printed:</p><pre>{escape(said.printed[-400:])}</pre>" if said.printed.strip() else ""
+    return (
+        f'<div class="wb wb-pad wb-report" role="status"><p class="count">{escape(counted(said))}</p>'
+        f"{mistake}<ul>{checks}</ul>{printed}</div>"
+    )
 
 
 def _task(exercise: Exercise, *, alone: bool) -> str:
@@ -65,7 +84,7 @@ def _task(exercise: Exercise, *, alone: bool) -> str:
     more = f"<li>{hidden} more that are run where a class is graded</li>" if hidden else ""
     opened = " open" if alone else ""
     return (
-        f'<div class="wb wb-pad"><h2>{name}</h2><p>{escape(exercise.task)}</p>{begin}'
+        f'<div class="wb wb-pad"><h2>{"The task" if alone else name}</h2><p>{escape(exercise.task)}</p>{begin}'
         f"<details{opened}><summary>The contract</summary><pre>{escape(starter(exercise))}</pre></details>"
         f"<details><summary>What is checked</summary><ul>{promises}{more}</ul></details></div>"
     )

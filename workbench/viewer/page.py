@@ -60,7 +60,7 @@ class Page:
         watched: Watched | None = None,
     ):
         self.client, self.lessons, self.timelines, self._start = client, lessons, timelines, start
-        self._watched, self._report, self._exercise = watched, "The checks are running …", None
+        self._watched, self._exercise = watched, None
         self.session: Session | None = None
         self.progress = Progress()
         self.sink = ViserSink(client.scene)
@@ -150,11 +150,10 @@ class Page:
         self._add_picks(lesson, session)
         self._wake.set()
 
-    def show_report(self, report: str) -> None:
+    def show_report(self) -> None:
         """Show what the checks say of the watched file."""
-        self._report = report
         if self._exercise is not None:
-            self._exercise.show(report)
+            self._exercise.show_report()
             self.client.flush()
 
     def replace_lesson(self, before: Lesson, after: Lesson) -> None:
@@ -162,7 +161,7 @@ class Page:
         session = self.session
         if session is not None and session.lesson is before:
             session.open(after, session.params, session.step)
-            self.show_report("The checks are running …")
+            self.show_report()
             self._wake.set()
 
     @staticmethod
@@ -197,7 +196,6 @@ class Page:
                 self._exercise = ExerciseTab(
                     gui, lesson, mine, lambda: self._wish(lambda: self._to_difference(session))
                 )
-                self._exercise.show(self._report)
         with panel.add_tab("Course"):
             add_course(gui, self.lessons.values(), self.progress, self._enter, current=lesson)
         if not self._narrow:
@@ -208,12 +206,13 @@ class Page:
     def _add_time(self, session: Session, container: Any) -> None:
         with container:
             self._script = self.client.gui.add_html("")
-            transport = Transport(
-                self.client.gui,
-                lambda verb: self._act(session, verb),
-                lambda k: self._wish(lambda: session.seek(k)),
-            )
-        self._sides.append(transport.show)
+        transport = Transport(
+            self.client.gui,
+            container,
+            lambda verb: self._act(session, verb),
+            lambda k: self._wish(lambda: session.seek(k)),
+        )
+        self._sides.append(lambda look: transport.show(look, first_difference(look.timeline.known())))
 
     def _add_controls(self, lesson: Lesson, session: Session) -> KnobPanel:
         gui = self.client.gui

@@ -1,6 +1,7 @@
 """The timeline: caption, legend, first / back / play / next / last, and the step slider."""
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from typing import Any
 
 import viser
@@ -12,10 +13,11 @@ BUTTONS = ("First", "Back", "Play", "Next", "Last")
 
 
 class Transport:
-    """The controls of time, in the container that is open.
+    """The controls of time.
 
     Args:
         gui: The client's interface.
+        container: Where they stand.
         act: Called with `first`, `back`, `play`, `next` or `last`.
         seek: Called with the step a person dragged to.
     """
@@ -23,14 +25,17 @@ class Transport:
     def __init__(
         self,
         gui: viser.GuiApi,
+        container: AbstractContextManager,
         act: Callable[[str], None],
         seek: Callable[[Any], None],
     ):
-        self.gui = gui
-        self._caption = gui.add_html("")
-        self._legend = gui.add_html("")
-        self._buttons = gui.add_button_group("Step", BUTTONS)
-        self._slider = gui.add_slider("Go to", 0, 1, 1, 0, hint="Drag to any step; N and P go one on and one back")
+        self._gui, self._container, self._seek = gui, container, seek
+        with container:
+            self._caption = gui.add_html("")
+            self._legend = gui.add_html("")
+            self._buttons = gui.add_button_group("Step", BUTTONS)
+        self._mark: int | None = None
+        self._slider = self._new_slider(1, 0)
         self._said = ""
 
         @self._buttons.on_click
@@ -38,17 +43,30 @@ class Transport:
             if event.client is not None:
                 act(str(event.target.value).lower())
 
-        @self._slider.on_update
+    def _new_slider(self, last: int, k: int) -> viser.GuiSliderHandle[int]:
+        marks = None if self._mark is None else ((self._mark, "first difference"),)
+        with self._container:
+            slider = self._gui.add_slider(
+                "Go to", 0, last, 1, k, marks=marks, hint="Drag to any step; N and P go one on and one back"
+            )
+
+        @slider.on_update
         async def _(event: Any) -> None:
             if event.client is not None:
-                seek(event.target.value)
+                self._seek(event.target.value)
 
-    def show(self, look: Look) -> None:
-        """Show where the run stands and what happened there."""
+        return slider
+
+    def show(self, look: Look, mark: int | None = None) -> None:
+        """Show where the run stands and what happened there; `mark` is a step worth a word at the slider."""
         last = max(look.known - 1, 1)
+        k = min(look.k, last)
+        if mark != self._mark:  # a slider's marks stay as they were made
+            self._mark = mark
+            self._slider.remove()
+            self._slider = self._new_slider(last, k)
         if self._slider.max != last:
             self._slider.max = last
-        k = min(look.k, last)
         if self._slider.value != k:
             self._slider.value = k
         steps = f"Step {look.k} of {look.known - 1}" + ("" if look.finished else " …")
