@@ -125,14 +125,20 @@ def compare(a: Recording, b: Recording, /, serving: Serving, native: Native = Fa
 
 @command
 def exercise(
-    name: Annotated[str, Option("An exercise, or a lesson for all of its exercises.", "NAME")],
+    name: Annotated[
+        str | None, Option("An exercise, or a lesson for all of its exercises; without it they are listed.", "NAME")
+    ] = None,
     /,
     out: Annotated[Path, Option("Folder to write into.", "DIR", short="-o")] = Path(),
     force: Annotated[bool, Option("Replace a file that is there: your work in it is lost.")] = False,
 ) -> None:
-    """Write the starter file of an exercise."""
-    from workbench.exercise.starter import find_exercise, write_starter
+    """Write the starter file of an exercise, or list all exercises."""
+    from workbench.exercise.starter import exercises, find_exercise, write_starter
 
+    if name is None:
+        for item in exercises().values():
+            sys.stdout.write(f"{item.lesson:<12} {item.name:<25} {item.task.split('. ')[0].rstrip('.')}.\n")
+        return
     lesson = catalog().get(name)
     chosen = lesson.exercises if lesson is not None and lesson.exercises else (find_exercise(name),)
     for item in chosen:
@@ -238,7 +244,7 @@ def _carry_out(words: list[str]) -> int | None:
 
 def _overview() -> str:
     lines = [f"  {name:<9} {(function.__doc__ or '').splitlines()[0]}" for name, function in COMMANDS.items()]
-    head = "Watch, touch and record the algorithms of 3D vision. Without a command: " + (serve.__doc__ or "").lower()
+    head = "Watch, touch, record and grade the algorithms of 3D vision. Without a command: " + (serve.__doc__ or "").lower()
     return "\n".join([head, "", "commands:", *lines, "", "`workbench COMMAND --help` says more of each."])
 
 
