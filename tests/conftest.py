@@ -1,10 +1,14 @@
-"""Enforces array shapes in every test, and finds the real data where it is present."""
+"""Enforces array shapes in every test, finds the real data where it is present, and one browser for all."""
 
+import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from beartype import BeartypeConf
 from jaxtyping import install_import_hook
+
+from tests.browser.chrome import HOW_TO, find_chromium, started
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -26,3 +30,14 @@ def shared_data() -> Path:
     if not folder.is_dir():
         pytest.skip("real data (../shared/data) is not beside the project")
     return folder
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator:
+    """A running Chromium, the only one: Playwright starts once a session. A build server fails without it."""
+    if find_chromium() is None:
+        if os.environ.get("CI"):
+            pytest.fail(HOW_TO)
+        pytest.skip(HOW_TO)
+    with started() as browser:
+        yield browser

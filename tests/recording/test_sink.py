@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from tests import fake
 from tests.fake import test_nothing_is_left_out as test_nothing_is_left_out
 from tests.recording.latest_at import rows, shown_at
-from workbench.recording.sink import RerunSink
+from workbench.recording.sink import Place, RerunSink
 from workbench.recording.spatial import FADED
 from workbench.recording.streams import stream_bytes
-from workbench.scene import PALETTE, Camera, Classes, Mesh, Points, Scene, Segments
+from workbench.scene import PALETTE, Camera, Classes, Field, Mesh, Points, Scene, Segments
 
 
 def recorded(scenes: list[Scene], path: Path) -> Path:
@@ -113,6 +113,15 @@ def test_changed_classes_send_ids_and_no_places(tmp_path):
     assert all(rgb(color) == PALETTE["wrong"] for _, color in wrong)
 
 
+def test_a_surface_that_gets_colours_forgets_its_own(tmp_path):
+    """Rerun multiplies the colour of a surface with those of its vertices."""
+    height = Field(fake.CORNERS[:, 2], -0.2, 0.2, "height", "m", "diverging")
+    plain, coloured = Mesh(fake.CORNERS, fake.FACES, "neutral"), Mesh(fake.CORNERS, fake.FACES, height)
+    path = recorded([{"m": plain}, {"m": coloured}, {"m": plain}], tmp_path / "a.rrd")
+    kinds = [{"Mesh3D:albedo_factor", "Mesh3D:vertex_colors"} & set(shown_at(path, k)["/world/m"]) for k in range(3)]
+    assert kinds == [{"Mesh3D:albedo_factor"}, {"Mesh3D:vertex_colors"}, {"Mesh3D:albedo_factor"}]
+
+
 def test_a_motion_that_is_not_rigid_is_kept(tmp_path):
     T = np.array([[1, 0.5, 0, 1], [0, 2, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1.0]])
     shown = shown_at(recorded([{"m": Mesh(fake.CORNERS, fake.FACES, T_world_object=T)}], tmp_path / "a.rrd"), 0)[
@@ -169,17 +178,22 @@ def test_a_camera_that_loses_its_image_shows_none(tmp_path):
     assert "/world/c/image" not in shown_at(path, 1)
 
 
-def test_what_comes_later_is_announced_until_then(tmp_path):
+def test_what_is_not_there_at_every_step_is_announced(tmp_path):
     def fill(stream) -> None:
-        sink = RerunSink(stream, {"/charts/Basin": (1, (10.0, 10.0))})
+        sink = RerunSink(stream, {"/charts/Basin": Place(1, (10.0, 10.0)), "/tables": Place(1)})
         sink.show(0, {})
         sink.show(1, SCENES[0])
+        sink.show(2, {})
 
     path = tmp_path / "a.rrd"
     path.write_bytes(stream_bytes("workbench-test", fill))
     assert shown_at(path, 0)["/charts/Basin"]["Points2D:labels"] == ["from step 1 on"]
+    assert shown_at(path, 0)["/tables"]["TextDocument:text"] == ["from step 1 on"]
     assert "/charts/Basin" not in shown_at(path, 1)
     assert "/charts/Basin/curves" in shown_at(path, 1)
+    assert "from step" not in shown_at(path, 1)["/tables"]["TextDocument:text"][0]
+    assert shown_at(path, 2)["/charts/Basin"]["Points2D:labels"] == ["not in this step"]
+    assert shown_at(path, 2)["/tables"]["TextDocument:text"] == ["not in this step"]
 
 
 def rgb(color: int) -> tuple[int, int, int]:

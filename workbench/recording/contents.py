@@ -10,7 +10,7 @@ import numpy as np
 
 from workbench.lesson import View
 from workbench.recording.chart import HEIGHT, WIDTH, legend_height
-from workbench.recording.sink import chart_entity, entity_of, legend_of
+from workbench.recording.sink import Place, chart_entity, entity_of, legend_of
 from workbench.scene import Curve, Field, Picture, Scalar, Scene, Table, in_space
 
 
@@ -32,14 +32,14 @@ class Contents:
         scalars: By the title of their plot, then by path; how each is drawn.
         charts: Charts of Curves, by title.
         pictures: By path.
-        tables: Whether there are tables.
+        tables: At which step the first table appears, None where there is none.
         legend_height: The greatest height of the legend on its canvas.
     """
 
     scalars: dict[str, dict[str, Scalar]] = field(default_factory=dict)
     charts: dict[str, Canvas] = field(default_factory=dict)
     pictures: dict[str, Canvas] = field(default_factory=dict)
-    tables: bool = False
+    tables: int | None = None
     legend_height: float = 0.0
 
 
@@ -55,8 +55,8 @@ def contents_of(scenes: Sequence[Scene]) -> Contents:
             elif isinstance(primitive, Picture) and not in_space(primitive):
                 known = found.pictures.setdefault(path, _picture_canvas(path, primitive, k))
                 found.pictures[path] = replace(known, title=_common(known.title, primitive.title or path, path))
-            elif isinstance(primitive, Table):
-                found.tables = True
+            elif isinstance(primitive, Table) and found.tables is None:
+                found.tables = k
         entries, fields = legend_of(scene)
         found.legend_height = max(found.legend_height, legend_height(entries, len(fields)))
     return found
@@ -68,12 +68,12 @@ def canvases(contents: Contents) -> dict[str, Canvas]:
     return charts | {entity_of("pictures", path): canvas for path, canvas in contents.pictures.items()}
 
 
-def later(contents: Contents) -> dict[str, tuple[int, tuple[float, float]]]:
-    """Return the canvases that are empty at first: at which step something appears, and where their middle is."""
-    return {
-        entity: (canvas.first, (canvas.width / 2, canvas.height / 2))
+def places(contents: Contents) -> dict[str, Place]:
+    """Return where charts, pictures and tables are shown, by entity: enough to say so while there are none."""
+    tables = {} if contents.tables is None else {"/tables": Place(contents.tables)}
+    return tables | {
+        entity: Place(canvas.first, (canvas.width / 2, canvas.height / 2))
         for entity, canvas in canvases(contents).items()
-        if canvas.first > 0
     }
 
 
@@ -92,7 +92,7 @@ def to_json(contents: Contents, view: View) -> str:
 def from_json(text: str, curves: Mapping[str, Scalar]) -> tuple[Contents, View]:
     """Return contents and view from `to_json`'s text and the scalars by path."""
     plain = json.loads(text)
-    found = Contents(tables=bool(plain["tables"]), legend_height=float(plain["legend_height"]))
+    found = Contents(tables=plain["tables"], legend_height=float(plain["legend_height"]))
     found.charts = {title: Canvas(**canvas) for title, canvas in plain["charts"].items()}
     found.pictures = {path: Canvas(**canvas) for path, canvas in plain["pictures"].items()}
     for path, scalar in curves.items():
@@ -109,7 +109,7 @@ def both(a: Contents, b: Contents) -> Contents:
         scalars={chart: a.scalars.get(chart, {}) | b.scalars.get(chart, {}) for chart in {**a.scalars, **b.scalars}},
         charts=b.charts | a.charts,
         pictures=b.pictures | a.pictures,
-        tables=a.tables or b.tables,
+        tables=a.tables if a.tables is not None else b.tables,
         legend_height=max(a.legend_height, b.legend_height),
     )
 

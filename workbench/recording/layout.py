@@ -17,7 +17,7 @@ from workbench.scene import Scalar
 RERUN_FOV = 55.0  # degrees, of the viewer's eye, from top to bottom
 TINY = 1e-9
 """A plot does not zoom in on differences below this: they are rounding, whatever the unit."""
-MOST_ROWS = 5.0
+MOST_ROWS = 5.2
 """Shares of height in the column beside the scene; what is more goes behind a tab."""
 
 Values = Mapping[str, np.ndarray]
@@ -121,7 +121,7 @@ def _beside(contents: Contents, runs: Mapping[str, Values]) -> list[tuple[Any, f
         *_rows(pictures, 1.4, 2),
         *_rows(plots, 1.0, 1 if len(plots) < 3 else 2),
         *_rows(charts, 1.3, 2),
-        *_rows(tables if contents.tables else [], 1.0, 2),
+        *_rows(tables if contents.tables is not None else [], 1.3, 2),
     ]
 
 
@@ -165,7 +165,8 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
     x, y = (x[np.isfinite(y)], y[np.isfinite(y)]) if np.isfinite(y).any() else (np.zeros(1), np.zeros(1))
     low, high = float(y.min()), float(y.max())
     room = 0.06 * (high - low) if high - low > TINY else 0.5 * max(abs(high), 1e-3)
-    end, infinite = rrb.TimeRangeBoundary.absolute(seq=max(steps - 1, 1)), rrb.TimeRangeBoundary.infinite()
+    beyond = 1 + steps // 40  # so that the cursor can be seen at the last step too
+    end, infinite = rrb.TimeRangeBoundary.absolute(seq=steps - 1 + beyond), rrb.TimeRangeBoundary.infinite()
     return rrb.TimeSeriesView(
         origin="/",
         contents=[root + plotted(path, scalar) for root in runs for path, scalar in scalars.items()],

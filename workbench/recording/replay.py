@@ -200,8 +200,8 @@ const note = document.getElementById("note"), words = document.getElementById("w
 const recordings = {json.dumps(list(recordings))}.map((name) => new URL(name, location.href).href);
 (async () => {{
   await wasm_bindgen({{ module_or_path: fetch("{program}") }});
-  const handle = new wasm_bindgen.WebHandle({{ ...{json.dumps(options)}, url: recordings }});
-  await handle.start(document.getElementById("canvas"));
+  window.viewer = new wasm_bindgen.WebHandle({{ ...{json.dumps(options)}, url: recordings }});
+  await viewer.start(document.getElementById("canvas"));
   note.remove();
 }})().catch((error) => {{
   words.textContent = "The viewer could not start in this browser (it needs WebGL 2 or WebGPU): " + error;

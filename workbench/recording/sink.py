@@ -1,6 +1,7 @@
 """Makes a Rerun stream equal to scenes, one step after another, and says only what has changed since the step before."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
@@ -27,6 +28,14 @@ from workbench.scene import (
 )
 
 
+@dataclass(frozen=True)
+class Place:
+    """Where something is shown that is not there at every step: its first step, and the canvas's middle if it has one."""
+
+    first: int
+    middle: tuple[float, float] | None = None
+
+
 class RerunSink:
     """Writes scenes into a recording stream.
 
@@ -35,13 +44,12 @@ class RerunSink:
 
     Args:
         stream: Rerun's recording stream.
-        later: Entities of charts and pictures that appear in the middle of the run: at which step, and the middle of
-            their canvas. Until then it says so there.
+        places: Where charts, pictures and tables are shown, by entity. While there are none, it says so there.
     """
 
-    def __init__(self, stream: Any, later: Mapping[str, tuple[int, tuple[float, float]]] = MappingProxyType({})):
+    def __init__(self, stream: Any, places: Mapping[str, Place] = MappingProxyType({})):
         self._stream = stream
-        self._later = later
+        self._places = places
         self._said: dict[str, dict[str, Aspect]] = {}
         self._numbers = ClassNumbers()
 
@@ -70,12 +78,11 @@ class RerunSink:
         for path, primitive in scene.items():
             if in_space(primitive):
                 yield entity_of("world", path), aspects(primitive, self._numbers)
-            elif isinstance(primitive, Picture):
-                yield entity_of("pictures", path), _picture(primitive)
-        yield from _beside(scene)
-        for entity, (first, middle) in self._later.items():
-            if k < first:
-                yield entity, (Aspect("later", (), lambda first=first, middle=middle: _announcement(first, middle)),)
+        beside = dict(_beside(scene))
+        yield from beside.items()
+        for entity, place in self._places.items():
+            if entity not in beside:
+                yield entity, (_absence(k, place),)
 
 
 def entity_of(*parts: str) -> str:
@@ -90,8 +97,10 @@ def chart_entity(title: str) -> str:
 
 def _beside(scene: Scene) -> Iterator[tuple[str, Iterable[Aspect]]]:
     charts: dict[str, list[Curve]] = {}
-    for primitive in scene.values():
-        if isinstance(primitive, Curve):
+    for path, primitive in scene.items():
+        if isinstance(primitive, Picture) and not in_space(primitive):
+            yield entity_of("pictures", path), _picture(primitive)
+        elif isinstance(primitive, Curve):
             charts.setdefault(primitive.chart, []).append(primitive)
     for title, curves in charts.items():
         yield chart_entity(title), _chart(tuple(curves))
@@ -135,9 +144,16 @@ def markdown(text: str) -> str:
     return text
 
 
-def _announcement(first: int, middle: tuple[float, float]) -> list[Any]:
-    word = f"from step {first} on"
-    return [rr.Points2D([middle], labels=[word], colors=GREY, radii=0.01, show_labels=True)]
+def _absence(k: int, place: Place) -> Aspect:
+    """Return the words where something is shown at other steps than k."""
+    word = f"from step {place.first} on" if k < place.first else "not in this step"
+
+    def say() -> list[Any]:
+        if place.middle is None:
+            return [document(word)]
+        return [rr.Points2D([place.middle], labels=[word], colors=GREY, radii=0.01, show_labels=True)]
+
+    return Aspect("absence", (word,), say)
 
 
 def document(markdown: str) -> Any:

@@ -124,7 +124,8 @@ def _mesh(primitive: Mesh, numbers: ClassNumbers) -> Iterator[Aspect]:
             lambda: [rr.LineStrips3D.from_fields(colors=_faded(_rows(role), mesh.opacity))],
         )
     else:
-        yield Aspect("surface", (mesh.p, mesh.faces, mesh.flat, mesh.color, mesh.opacity), lambda: [_surface(mesh)])
+        kind = "surface" if isinstance(mesh.color, str) else "coloured surface"  # Rerun would multiply both's colours
+        yield Aspect(kind, (mesh.p, mesh.faces, mesh.flat, mesh.color, mesh.opacity), lambda: [_surface(mesh)])
     yield _pose(mesh.T_world_object)
 
 
@@ -161,8 +162,14 @@ def _camera(camera: Camera, numbers: ClassNumbers) -> Iterator[Aspect]:
     if image is not None:
         yield Aspect("image", (image,), lambda: [encoded(image)], "/image")
     if camera.name:  # what lies below a pinhole is in its image, so the name stands beside it
-        beside = Label(camera.name, np.zeros(3), camera.color, camera.T_world_object)
+        beside = Label(camera.name, _lower_edge(camera), camera.color, camera.T_world_object)
         yield from (replace(aspect, name=f"name {aspect.name}", suffix=".name") for aspect in aspects(beside, numbers))
+
+
+def _lower_edge(camera: Camera) -> np.ndarray:
+    """Return the middle of the frustum's lower edge, in the camera's frame: its axes have their name at its centre."""
+    uv_h = np.array([(camera.width - 1) / 2, camera.height - 0.5, 1.0])
+    return camera.depth * np.linalg.solve(camera.K, uv_h)
 
 
 @aspects.register

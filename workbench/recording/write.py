@@ -3,8 +3,6 @@
 import json
 import os
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TextIO
@@ -16,8 +14,9 @@ import rerun as rr
 from workbench import __version__, knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
+from workbench.progress import Progress, bar
 from workbench.recording.columns import send_captions, send_series
-from workbench.recording.contents import contents_of, later, to_json
+from workbench.recording.contents import contents_of, places, to_json
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import one_run
 from workbench.recording.page import plain_page
@@ -25,9 +24,6 @@ from workbench.recording.read import FORMAT, digest
 from workbench.recording.sink import RerunSink, document
 from workbench.recording.streams import application_id, send_blueprint, stream_bytes
 from workbench.timeline import Timeline
-
-Progress = Callable[[str, int, int | None], None]
-"""progress(what is done, how much is done, of how much or None)."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +72,7 @@ def record_file(
         InputError: If the run fails, or the file is there or cannot be written; then nothing has changed.
     """
     _check_place(path, force)
-    with _bar(progress) as tell:
+    with bar(progress, "Recording") as tell:
         timeline = _run(lesson, params, tell)
         data = record_bytes(timeline, preset=preset, progress=tell)
     _write(path, data)
@@ -115,7 +111,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         send_captions(stream, [step.caption for step in steps])
         for order, (path, one) in enumerate(series.items()):
             send_series(stream, path, one, order)
-        sink = RerunSink(stream, later(contents))
+        sink = RerunSink(stream, places(contents))
         for k, step in enumerate(steps):
             sink.show(k, step.scene)
             if progress is not None:
@@ -195,22 +191,3 @@ def _write(path: Path, data: bytes) -> None:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error
     finally:
         half.unlink(missing_ok=True)
-
-
-@contextmanager
-def _bar(stream: TextIO | None) -> Iterator[Progress]:
-    """Draw how far a recording is on one line of a terminal, and wipe it at the end."""
-    if stream is None or not stream.isatty():
-        yield lambda what, done, of: None
-        return
-
-    def tell(what: str, done: int, of: int | None) -> None:
-        share = f"[{'#' * (30 * done // of):.<30}] {done}/{of}" if of else f"{done} steps"
-        stream.write(f"\r\x1b[K{share} {what}")
-        stream.flush()
-
-    try:
-        yield tell
-    finally:
-        stream.write("\r\x1b[K")
-        stream.flush()
