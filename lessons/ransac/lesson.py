@@ -9,7 +9,7 @@ experiments and questions.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
 from pathlib import Path
@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from lessons.ransac.draw import draw
+from lessons.ransac.exercise import EXERCISES
 from lessons.ransac.params import Params
 from lessons.ransac.presets import PRESETS, QUESTIONS
 from lessons.ransac.state import Rival, State, error_of
@@ -40,14 +41,17 @@ def run(
     count_inliers: Callable[[np.ndarray, np.ndarray, float], float] = count_inliers,
     iterations_needed: Callable[[float, int, float], float] = iterations_needed,
 ) -> Iterator[State]:
-    """Yield the steps of RANSAC. With the plane, its minimal fit and the count are the functions given here."""
+    """Yield the steps of RANSAC. With the plane, its minimal fit and the count are the functions given here.
+
+    The count gives the share of inliers for which the number of samples is asked, and is the score if that is "count".
+    """
     subject = subject_of(params)
     rng = np.random.default_rng(params.seed)
     distance = params.inlier_pixels if subject.model.unit == "px" else params.inlier_distance
     model, judge = subject.model, Judge(subject.p, subject.model, distance, score_of(params, subject))
     if model is PLANE:
         model = replace(PLANE, solve=from_points(checked(plane_from_points)))
-        judge = counting(judge, count_inliers) if params.score == "count" else judge
+        judge = counting(judge, count_inliers, decides=params.score == "count")
     chosen = chosen_sample(params, subject)
     rivals, before = rivals_of(subject, distance), None
     for now in ransac(
@@ -93,11 +97,28 @@ def checked(plane_from_points: Callable[[np.ndarray], np.ndarray]) -> Callable[[
     return plane
 
 
+@dataclass(frozen=True, eq=False)
+class Counted(Fit):
+    """A fit whose inliers somebody counted: `votes` is what they say."""
+
+    votes: int
+
+    @property
+    def count(self) -> int:
+        """How many points are inliers, as it was counted."""
+        return self.votes
+
+
 def counting(
-    judge: Judge, count_inliers: Callable[[np.ndarray, np.ndarray, float], float]
+    judge: Judge, count_inliers: Callable[[np.ndarray, np.ndarray, float], float], *, decides: bool
 ) -> Callable[[np.ndarray], Fit]:
-    """Return a judge whose score is somebody's count."""
-    return lambda plane: replace(judge(plane), score=float(count_inliers(plane, judge.p, judge.inlier_distance)))
+    """Return a judge whose inliers somebody counts; where that decides, the count is the score."""
+
+    def counted(plane: np.ndarray) -> Fit:
+        fit, votes = judge(plane), int(count_inliers(plane, judge.p, judge.inlier_distance))
+        return Counted(plane, fit.distances, fit.inliers, float(votes) if decides else fit.score, votes)
+
+    return counted
 
 
 def samples_of(params: Params, subject: Subject, rng: np.random.Generator) -> Iterator[np.ndarray]:
@@ -142,5 +163,6 @@ lesson = Lesson(
     view=View(eye=(1.0, -4.6, 2.0), target=(0.0, 0.0, 0.1), grid=0.5, grid_height=-0.35, axes=False),
     presets=PRESETS,
     questions=QUESTIONS,
+    exercises=EXERCISES,
     first_step=2,
 )

@@ -39,7 +39,10 @@ def _outline(subject: Subject, numbers: bytes, shape: tuple[int, ...], rows: tup
 
 
 def plane_polygon(subject: Subject, plane: np.ndarray) -> np.ndarray:
-    """Return the corners (n, 3), in order, of the part of a plane inside the window; none where it passes by."""
+    """Return the corners (n, 3), in order, of the part of a plane inside the window; none where it passes by.
+
+    A plane turned over, or rounded differently, has the same corners in the same order.
+    """
     low, high = subject.low, subject.high
     corners = np.array([[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)])
     edges = np.array([(i, j) for i in range(8) for j in range(i + 1, 8) if bin(i ^ j).count("1") == 1])
@@ -50,9 +53,10 @@ def plane_polygon(subject: Subject, plane: np.ndarray) -> np.ndarray:
         return np.zeros((0, 3))
     share = (start[cut] / (start[cut] - end[cut]))[:, None]
     points = (1.0 - share) * corners[edges[cut, 0]] + share * corners[edges[cut, 1]]
+    normal = plane[:3] * np.sign(plane[np.argmax(np.abs(plane[:3]))])
+    u = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
     v = points - points.mean(axis=0)
-    along = np.linalg.svd(v)[2]
-    return points[np.argsort(np.arctan2(v @ along[1], v @ along[0]))]
+    return points[np.argsort(np.arctan2(v @ np.cross(normal, u), v @ u))]
 
 
 def fan(corners: np.ndarray) -> np.ndarray:

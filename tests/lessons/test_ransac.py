@@ -11,13 +11,14 @@ from lessons.ransac import presets
 from lessons.ransac.lesson import chosen_sample, lesson, run
 from lessons.ransac.params import Params
 from lessons.ransac.presets import clean_share, end, first, share_reached
-from lessons.ransac.shapes import outline
+from lessons.ransac.shapes import outline, plane_polygon
 from lessons.ransac.subject import subject_of
 from lessons.ransac.words import is_right
 from workbench.algorithms.models import MODELS, PLANE
 from workbench.algorithms.ransac import Stop, iterations_needed
 from workbench.algorithms.scores import count_inliers
 from workbench.errors import InputError
+from workbench.exercise.beside import beside
 from workbench.geometry.lines_planes import plane_from_points
 from workbench.scene import Caption, Classes, Points, Segments
 from workbench.timeline import Timeline
@@ -270,6 +271,68 @@ def test_wrong_functions_have_the_effect_they_deserve():
     assert [s for s in turned_round if s.now.phase == "best"][-1].best_error > 0.2
     hasty = end(run(Params(seed=3), iterations_needed=lambda w, m, p: 1))
     assert hasty.now.iteration <= 2
+
+
+def test_a_count_decides_what_is_best_and_how_many_samples_follow():
+    def tenfold(plane, p, inlier_distance):
+        return 10 * count_inliers(plane, p, inlier_distance)
+
+    for score in ("count", "MSAC"):
+        ours = first(run(Params(score=score)), "best")
+        theirs = first(run(Params(score=score), count_inliers=tenfold), "best")
+        assert best(theirs).count == 10 * best(ours).count
+        assert best(theirs).score == best(ours).score * (10 if score == "count" else 1)
+        assert f"{best(theirs).count:,} inliers" in part(lesson.draw(theirs), "caption", Caption).text
+        share = best(theirs).count / len(theirs.subject.p)
+        assert theirs.now.needed == iterations_needed(share, 3, 0.99) < ours.now.needed
+
+
+@pytest.mark.parametrize("model", list(MODELS))
+def test_every_model_asks_how_many_samples(model):
+    asked = []
+
+    def two(inlier_ratio, sample_size, confidence):
+        asked.append((sample_size, confidence))
+        return 2
+
+    last = end(run(Params(model=model, outliers=0.0, steps="improvements"), iterations_needed=two))
+    assert last.now.iteration <= 3
+    assert set(asked) == {(MODELS[model].sample_size, 0.99)}
+
+
+def test_the_wire_shows_what_a_plane_does_with_points_on_a_line():
+    exercise = next(exercise for exercise in lesson.exercises if exercise.name == "plane_from_points")
+    assert "'Three points on one line'" in exercise.task
+    assert "Three points on one line" in [preset.title for preset in lesson.presets if preset.params == presets.WIRE]
+    careless = next(mistake.function for mistake in exercise.mistakes if mistake.name == "line not seen")
+    for plane, phase in ((exercise.reference, "degenerate"), (careless, "model")):
+        states = run(presets.WIRE, plane_from_points=plane)
+        assert [next(states).now.phase for _ in range(2)] == ["sample", phase]
+
+
+RIGHT = [(exercise, function) for exercise in lesson.exercises for function in exercise.alternatives]
+
+
+@pytest.mark.parametrize(("exercise", "function"), RIGHT, ids=lambda value: getattr(value, "__name__", value.__class__))
+def test_another_right_function_draws_the_same_pictures(exercise, function):
+    """Whatever side its normals are on, and however it rounds."""
+    for params in (Params(), presets.WIRE):
+        pairs = list(beside(lesson, exercise, function).run(params))
+        assert end([pair.theirs for pair in pairs])
+        assert [pair.trouble for pair in pairs if pair.trouble] == []
+        assert [k for k, pair in enumerate(pairs) if pair.first] == []
+
+
+def test_a_polygon_does_not_depend_on_the_side_of_the_normal():
+    subject, rng = subject_of(Params()), np.random.default_rng(5)
+    for _ in range(20):
+        plane = PLANE.solve(rng.uniform(-0.8, 0.8, (1, 3, 3)))[0]
+        corners = plane_polygon(subject, plane)
+        np.testing.assert_allclose(plane_polygon(subject, -plane), corners, atol=1e-12)
+        np.testing.assert_allclose(plane_polygon(subject, plane * (1.0 + 1e-15)), corners, atol=1e-12)
+        steps = np.roll(corners, -1, axis=0) - corners
+        turns = np.cross(steps, np.roll(steps, -1, axis=0)) @ plane[:3]
+        assert (turns > 0).all() or (turns < 0).all(), "convex, in order"
 
 
 def test_a_function_that_returns_no_plane_is_told_so():
