@@ -29,13 +29,15 @@ def shown_at(path: Path, step: int, below: tuple[str, ...] = ("/world", "/pictur
         if at > step or not entity.startswith(below):
             continue
         if "Clear:is_recursive" in components:
-            gone = [name for name in shown if name == entity or name.startswith(f"{entity}/")]
-            for name in gone:
-                del shown[name]
+            assert components["Clear:is_recursive"] == [False]
+            assert "EncodedImage:blob" not in shown.pop(entity, {}), "Rerun's viewer overlooks this"
             continue
         if "AnnotationContext:context" in components:
             infos = components["AnnotationContext:context"][0]
             table = {info["class_id"]: info["class_description"]["info"] for info in infos}
+            continue
+        if components.get("EncodedImage:blob") == []:
+            shown.pop(entity, None)
             continue
         shown.setdefault(entity, {}).update(components)
     for components in shown.values():

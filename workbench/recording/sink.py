@@ -9,7 +9,7 @@ import rerun as rr
 
 from workbench.recording.chart import GREY, chart_curves, chart_frame, color_bar, frame_key, legend_bar, legend_names
 from workbench.recording.glyphs import safe
-from workbench.recording.images import encoded
+from workbench.recording.images import IMAGE, encoded, gone
 from workbench.recording.spatial import Aspect, ClassNumbers, aspects
 from workbench.scene import (
     PALETTE,
@@ -60,7 +60,7 @@ class RerunSink:
         for entity, said in self._said.items():
             if not said.keys() <= wanted.get(entity, {}).keys():  # it, or a part of it, is gone
                 for suffix in {aspect.suffix for aspect in said.values()}:
-                    self._stream.log(entity + suffix, rr.Clear(recursive=True))
+                    self._stream.log(entity + suffix, gone(suffix))
         for entity, aspects_now in wanted.items():
             before = self._said.get(entity, {})
             before = before if before.keys() <= aspects_now.keys() else {}
@@ -167,7 +167,7 @@ def _chart(curves: tuple[Curve, ...]) -> Iterator[Aspect]:
 
 
 def _picture(picture: Picture) -> Iterator[Aspect]:
-    yield Aspect("image", (picture.image,), lambda: [encoded(picture.rgb())], "/image")
+    yield Aspect("image", (picture.image,), lambda: [encoded(picture.rgb())], IMAGE)
     field = picture.image
     if isinstance(field, Field):
         h, w = field.values.shape

@@ -13,7 +13,7 @@ import numpy as np
 import rerun as rr
 
 from workbench.recording.glyphs import safe
-from workbench.recording.images import encoded
+from workbench.recording.images import IMAGE, encoded
 from workbench.scene import (
     PALETTE,
     Axes,
@@ -41,8 +41,7 @@ class Aspect:
         name: Its name among the aspects of the primitive.
         key: Values that decide whether it has to be said again, compared by `workbench.scene.same`.
         say: Makes the archetypes.
-        suffix: Behind the path of the primitive's entity: nothing for itself, `/image` for an entity below it, `.name`
-            for one beside it.
+        suffix: Behind the path of the primitive's entity: nothing for itself, `/image` for an entity below it.
     """
 
     name: str
@@ -160,16 +159,7 @@ def _camera(camera: Camera, numbers: ClassNumbers) -> Iterator[Aspect]:
     yield _pose(camera.T_world_object)
     image = camera.image
     if image is not None:
-        yield Aspect("image", (image,), lambda: [encoded(image)], "/image")
-    if camera.name:  # what lies below a pinhole is in its image, so the name stands beside it
-        beside = Label(camera.name, _lower_edge(camera), camera.color, camera.T_world_object)
-        yield from (replace(aspect, name=f"name {aspect.name}", suffix=".name") for aspect in aspects(beside, numbers))
-
-
-def _lower_edge(camera: Camera) -> np.ndarray:
-    """Return the middle of the frustum's lower edge, in the camera's frame: its axes have their name at its centre."""
-    uv_h = np.array([(camera.width - 1) / 2, camera.height - 0.5, 1.0])
-    return camera.depth * np.linalg.solve(camera.K, uv_h)
+        yield Aspect("image", (image,), lambda: [encoded(image)], IMAGE)
 
 
 @aspects.register
