@@ -1,3 +1,11 @@
+import base64
+import html
+import io
+import re
+
+from fontTools.ttLib import TTFont
+
+from workbench.lesson import catalog
 from workbench.typeset import inline_html, math_font_css, math_html, page_html
 
 
@@ -10,10 +18,10 @@ def test_maths_becomes_mathml_and_sections_are_named():
 
 
 def test_html_in_a_text_is_shown_as_text():
-    for html in (page_html("a <script>alert(1)</script>"), inline_html("<img src=x onerror=alert(1)>")):
-        assert "<script" not in html
-        assert "<img" not in html
-        assert "&lt;" in html
+    for shown in (page_html("a <script>alert(1)</script>"), inline_html("<img src=x onerror=alert(1)>")):
+        assert "<script" not in shown
+        assert "<img" not in shown
+        assert "&lt;" in shown
     assert "javascript:" not in page_html("[a](javascript:alert(1))").replace("[a](javascript:", "")
 
 
@@ -31,8 +39,18 @@ def test_the_font_is_small_and_kept(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     math_font_css.cache_clear()
     css = math_font_css()
-    assert 100_000 < len(css) < 600_000
-    kept = list(tmp_path.rglob("*.woff"))
+    assert 100_000 < len(css) < 200_000
+    kept = list(tmp_path.rglob("*.woff2"))
     assert len(kept) == 1
     math_font_css.cache_clear()
     assert math_font_css() == css
+
+
+def test_the_font_has_every_letter_of_every_formula():
+    file = re.search(r"base64,([^)]*)\)", math_font_css())
+    assert file is not None
+    known = TTFont(io.BytesIO(base64.b64decode(file.group(1)))).getBestCmap()
+    for lesson in catalog().values():
+        for formula in re.findall(r"<math.*?</math>", page_html(lesson.page.read_text(encoding="utf-8")), re.DOTALL):
+            letters = set(html.unescape(re.sub(r"<[^>]*>", "", formula)))
+            assert {c for c in letters if not c.isspace() and ord(c) not in known} == set(), lesson.name

@@ -64,16 +64,16 @@ def math_html(tex: str, block: bool = False) -> str:
 
 @functools.cache
 def math_font_css() -> str:
-    """Return a style sheet with a subset of STIX Two Math as data, about 200 kB, or nothing where the font is missing."""
+    """Return a style sheet with a subset of STIX Two Math as data, below 200 kB, or nothing where the font is missing."""
     data = _font()
     if data is None:
         return ""
-    source = f"url(data:font/woff;base64,{base64.b64encode(data).decode()}) format('woff')"
+    source = f"url(data:font/woff2;base64,{base64.b64encode(data).decode()}) format('woff2')"
     return f"@font-face{{font-family:'Workbench Math';src:{source}}} math{{font-family:'Workbench Math',math}}"
 
 
 def _font() -> bytes | None:
-    kept = cache_folder() / "stix-two-math-subset-1.woff"
+    kept = cache_folder() / "stix-two-math-subset-2.woff2"
     try:
         return kept.read_bytes()
     except OSError:
@@ -100,14 +100,18 @@ def _subset() -> bytes:
     path = next(Path(package.origin).parent.rglob("STIXTwoMath*.ttf")) if package and package.origin else None
     if path is None:
         raise FileNotFoundError("no font with a MATH table")
-    options = subset.Options(layout_features=["*"], hinting=False, notdef_outline=True, drop_tables=["DSIG"])
-    chosen = [*range(0x20, 0x180), *range(0x370, 0x400), *range(0x2000, 0x2070), *range(0x2070, 0x20D0)]
-    chosen += [*range(0x20D0, 0x2300), *range(0x2308, 0x2310), *range(0x27E8, 0x27EC), *range(0x1D400, 0x1D7FF)]
+    # letters, Greek, signs, and the styles that formulas have: bold, italic, script, double-struck
+    chosen = [*range(0x20, 0x7F), *range(0xA0, 0x100), *range(0x391, 0x3D7), 0x3F5, *range(0x2010, 0x2040)]
+    chosen += [*range(0x2070, 0x20A0), *range(0x20D0, 0x20DD), *range(0x2100, 0x2150), *range(0x2190, 0x21A0), 0x21A6]
+    chosen += [*range(0x21D0, 0x21D5), *range(0x2200, 0x2300), *range(0x2308, 0x230C), 0x27E8, 0x27E9]
+    chosen += [*range(0x1D400, 0x1D4D0), *range(0x1D538, 0x1D56C), *range(0x1D6A4, 0x1D756)]
+    features = ["ssty", "flac", "dtls"]  # what a browser asks of a math font
+    options = subset.Options(layout_features=features, hinting=False, notdef_outline=True, drop_tables=["DSIG"])
     subsetter = subset.Subsetter(options)
     with TTFont(path) as font:
         subsetter.populate(unicodes=chosen)
         subsetter.subset(font)
-        font.flavor = "woff"
+        font.flavor = "woff2"
         out = io.BytesIO()
         font.save(out)
     return out.getvalue()

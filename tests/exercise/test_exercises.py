@@ -188,6 +188,10 @@ def test_a_function_that_returns_nothing_earns_nothing(exercise):
 
 
 def test_a_function_that_changes_its_input_is_told_so(exercise):
+    taken = [parameter.annotation for parameter in inspect.signature(exercise.reference).parameters.values()]
+    if not any(hasattr(annotation, "dim_str") for annotation in taken):
+        pytest.skip(f"{exercise.name} is given numbers only, which nobody can change")
+
     def spoiling(*args):
         answer = exercise.reference(*args)
         for arg in args:

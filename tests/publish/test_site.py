@@ -7,7 +7,7 @@ import pytest
 from tests import fake
 from workbench.errors import InputError
 from workbench.lesson import catalog
-from workbench.publish import site
+from workbench.publish import runs, site
 from workbench.publish.replay import beside
 from workbench.scene import Caption
 from workbench.timeline import Timeline
@@ -57,9 +57,9 @@ def test_what_repeats_is_kept_once():
 def test_nothing_is_rendered_twice_and_what_changed_is(published, monkeypatch):
     out, _ = published
     rendered: list[str] = []
-    original = site.run_script
+    original = runs.run_script
     monkeypatch.setattr(
-        site, "run_script", lambda lesson, run, *rest: rendered.append(run.name) or original(lesson, run, *rest)
+        runs, "run_script", lambda lesson, run, *rest: rendered.append(run.name) or original(lesson, run, *rest)
     )
     site.publish(out, [SMALL])
     assert rendered == []
@@ -113,12 +113,12 @@ def test_a_dead_link_or_a_heavy_page_fails(tmp_path):
     with pytest.raises(InputError, match=r"a\.html: the link b\.html leads nowhere"):
         site.checked(tmp_path)
     (tmp_path / "b.html").write_text("x" * 400_000)
-    with pytest.raises(InputError, match=r"b\.html has 0\.40 MB"):
+    with pytest.raises(InputError, match=r"b\.html with its styles and scripts has 0\.40 MB"):
         site.checked(tmp_path)
 
 
 def test_every_page_of_every_lesson_is_small_and_its_runs_have_names_of_their_own():
     for lesson in catalog().values():
-        names = [run.name for run in site.runs_of(lesson)]
+        names = [run.name for run in runs.runs_of(lesson)]
         assert len(set(names)) == len(names)
         assert all(re.fullmatch(r"[a-z0-9_-]+", name) for name in names), names

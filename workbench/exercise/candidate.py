@@ -107,7 +107,9 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
         raise StudentError(f"{name} returned {got.dtype} values; the contract asks for true or false", "result")
     plain = got.astype({"b": np.bool_, "i": np.int64, "u": np.int64}.get(wanted.dtype.kind, np.float64))
     if wanted.dtype.kind == "f" and np.isfinite(wanted).all() and not np.isfinite(plain).all():
-        raise StudentError(f"{name} returned {int((~np.isfinite(plain)).sum())} values that are not finite", "result")
+        strange = plain[~np.isfinite(plain)]
+        what = f"{plain}" if plain.ndim == 0 else f"{len(strange)} of {plain.size} values not finite"
+        raise StudentError(f"{name} returned {what}; the contract asks for finite numbers", "result")
     return plain if isinstance(expected, np.ndarray) else plain.item()
 
 

@@ -137,13 +137,13 @@ def _question(lesson: Lesson, question: Question, timelines: Timelines) -> str:
 
 
 def question_run(lesson: Lesson, question: Question) -> str:
-    """Return the name of the run that answers a question: a preset's or the default's where they are the same."""
+    """Return the name of the run that answers a question: of the default, a preset or an earlier question if the same."""
     if question.params == lesson.params():
         return "default"
     for preset in lesson.presets:
         if preset.params == question.params:
             return preset.name
-    return question.name
+    return next(other.name for other in lesson.questions if other.params == question.params)
 
 
 def _around_predict(html: str) -> tuple[str, str]:
