@@ -6,7 +6,7 @@ blind spot.
 
 `params.py` has the inputs, `clouds.py` the clouds, `states.py` what is measured,
 `slopes.py` which way a distance falls, `draw.py` and `words.py` the picture,
-`presets.py` the experiments and questions.
+`presets.py` the experiments and questions, `exercise.py` the exercises.
 """
 
 from collections.abc import Iterator
@@ -16,6 +16,7 @@ from pathlib import Path
 from lessons.chamfer_emd import slopes
 from lessons.chamfer_emd.clouds import clouds_of
 from lessons.chamfer_emd.draw import draw
+from lessons.chamfer_emd.exercise import EXERCISES
 from lessons.chamfer_emd.params import Params
 from lessons.chamfer_emd.presets import PRESETS, QUESTIONS
 from lessons.chamfer_emd.states import Measures, State, measured, numbers_of_yardsticks
@@ -69,5 +70,6 @@ lesson = Lesson(
     view=View(eye=(0.0, -7.4, 0.2), target=(0.0, 0.0, -0.7), grid=0.5, grid_height=-1.3, axes=False),
     presets=PRESETS,
     questions=QUESTIONS,
+    exercises=EXERCISES,
     first_step=8,
 )

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import scipy
 
+from lessons.chamfer_emd.answers import earth_movers_of_copies, points_left_out
 from lessons.chamfer_emd.clouds import YARDSTICKS, clouds_of
 from lessons.chamfer_emd.draw import T_WORLD_LEFT, T_WORLD_RIGHT
 from lessons.chamfer_emd.lesson import lesson, run
@@ -272,6 +273,16 @@ class TestSlots:
             np.testing.assert_allclose(two.left.flow.p_moving, one.left.flow.p_moving, atol=1e-9)
             np.testing.assert_allclose(three.left.flow.p_moving, four.left.flow.p_moving, atol=1e-5)
         assert np.abs(ours[-1].left.flow.p_moving - other[-1].left.flow.p_moving).max() > 0.05
+
+    @pytest.mark.parametrize("name", ["unequal", "doubled"])
+    def test_a_right_answer_flows_as_ours_does_where_counts_differ(self, name):
+        params = replace(lesson.preset(name).params, steps=4)
+        ours, theirs = list(run(params)), list(run(params, earth_movers=earth_movers_of_copies))
+        assert len(ours[0].clouds.p_source) != len(ours[0].clouds.p_target)
+        for one, two in zip(ours, theirs, strict=True):
+            np.testing.assert_allclose(two.right.flow.p_moving, one.right.flow.p_moving, atol=1e-9)
+        left_out = list(run(params, earth_movers=points_left_out))
+        assert left_out[0].right.flow.value < 0.9 * ours[0].right.flow.value
 
 
 OTHER_SIDE: dict[Lowers, Lowers] = {
