@@ -163,6 +163,7 @@ def check(
     reports = [grade_file(file, item, hidden=hidden) for item in exercises_in(file)]
     for report in reports:
         sys.stdout.write(terminal(report) + "\n")
+        sys.stdout.flush()  # what follows takes a while
         recorded = None if report.is_full else record_failing(report.exercise, file)
         if recorded is not None:
             sys.stdout.write(f"  Watch where it goes wrong: workbench replay {recorded}\n")

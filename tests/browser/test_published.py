@@ -99,6 +99,22 @@ def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out):
     page.get_by_role("button", name="Pause", exact=True).click()
 
 
+@pytest.mark.parametrize("width", [1440, 390])
+def test_a_run_further_down_is_brought_into_view_and_keeps_the_keys(page, out, width):
+    page.set_viewport_size({"width": width, "height": 700})
+    page.goto((out / "icp" / "index.html").as_uri())
+    page.frame_locator("#scene iframe").locator("canvas").first.wait_for(timeout=WAIT)
+    page.locator("[data-run]").last.click()
+    page.locator("[data-run][aria-pressed=true]").last.wait_for(timeout=WAIT)
+    page.wait_for_function("document.querySelector('#scene').getBoundingClientRect().top >= -1", timeout=WAIT)
+    page.frame_locator("#scene iframe").locator("canvas").first.wait_for(timeout=WAIT)
+    page.wait_for_function("document.activeElement.dataset.run !== undefined", timeout=WAIT)
+    before = page.evaluate("scrollY")
+    page.keyboard.press("End")
+    page.wait_for_function("document.querySelector('#step').value === document.querySelector('#step').max")
+    assert page.evaluate("scrollY") == before
+
+
 def test_a_question_is_answered_and_its_run_shown(page, out):
     page.goto((out / "fake" / "index.html").as_uri())
     form = page.locator("form.question").nth(1)

@@ -1,5 +1,6 @@
 """The first failing case as a recording that opens where the student's run leaves the reference's."""
 
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,6 +12,11 @@ from workbench.lesson import catalog
 from workbench.recording import record_bytes
 from workbench.timeline import Timeline
 
+SECONDS = 8.0
+"""How long a difference is looked for; the checks have told what is wrong already."""
+AFTER = 12
+"""How many steps beyond the first difference are recorded."""
+
 
 def record_failing(exercise: Exercise, path: Path, out: Path | None = None) -> Path | None:
     """Write a recording of the student's run beside the reference's, from just before the first step that differs.
@@ -21,15 +27,19 @@ def record_failing(exercise: Exercise, path: Path, out: Path | None = None) -> P
         out: The recording; beside the file, with its name, by default.
 
     Returns:
-        The recording's path; None where the lesson's runs show no difference, or none could be recorded.
+        The recording's path; None where the lesson's runs show no difference soon, or none could be recorded.
     """
     lesson = catalog()[exercise.lesson]
     out = path.with_suffix(".rrd") if out is None else out
+    end = time.monotonic() + SECONDS
     with Student(path, exercise.name, seconds=exercise.seconds) as student:
         paired = beside(lesson, exercise, student)
         for params in (lesson.params(), *(preset.params for preset in lesson.presets)):
-            timeline = Timeline(paired, params).complete()
-            at = first_difference(timeline.known())
+            timeline = Timeline(paired, params)
+            at = None
+            while time.monotonic() < end and (at is None or len(timeline) <= at + AFTER) and timeline.extend():
+                if at is None:
+                    at = first_difference(timeline.known())
             if at is not None:
                 break
         else:

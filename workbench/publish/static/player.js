@@ -25,6 +25,7 @@ async function open(name, k) {
   pause();
   const player = $("#player");
   player.setAttribute("aria-busy", "true");
+  player.parentElement.closest("#stage")?.scrollTo(0, 0);
   try {
     if (!shell) await load(player.dataset.root + "viser.js");
     if (!runs[name]) await load(`${player.dataset.runs}${name}.js`);
@@ -34,7 +35,7 @@ async function open(name, k) {
   }
   const data = runs[name];
   const last = data.steps.length - 1;
-  current = { name, data, k: 0, playing: false, timer: 0, frame: null };
+  current = { name, data, k: 0, playing: false, timer: 0, frame: null, focused: document.activeElement };
   document.querySelectorAll("[data-run]").forEach((button) =>
     button.setAttribute("aria-pressed", String(button.dataset.run === name)));
   $("#step").max = last;
@@ -46,6 +47,12 @@ async function open(name, k) {
   showScene(data);
   show(Math.max(0, Math.min(last, k ?? data.first)));
   player.removeAttribute("aria-busy");
+}
+
+// opens the run of a button, which may be far below the replay
+function bring(name) {
+  if (matchMedia("(max-width:1100px)").matches) $("#player").scrollIntoView();
+  return open(name);
 }
 
 // the 3D scene ------------------------------------------------------------------------------------------------------
@@ -79,8 +86,11 @@ function seek() {
     if (bar) bar.style.display = "none";
     inside.addEventListener("keydown", (event) => {
       const verb = KEYS[event.key];
-      if (verb && !event.key.startsWith("Arrow") && !event.target.closest("input")) act(verb);
+      if (!verb || event.key.startsWith("Arrow") || event.target.closest("input")) return;
+      event.preventDefault();
+      act(verb);
     });
+    if (document.activeElement === current.frame) current.focused.focus({ preventScroll: true });
   }
   return true;
 }
@@ -287,7 +297,7 @@ document.addEventListener("DOMContentLoaded", () => {
   const player = $("#player");
   if (!player) return;
   document.querySelectorAll("[data-act]").forEach((button) => button.addEventListener("click", () => act(button.dataset.act)));
-  document.querySelectorAll("[data-run]").forEach((button) => button.addEventListener("click", () => open(button.dataset.run)));
+  document.querySelectorAll("[data-run]").forEach((button) => button.addEventListener("click", () => bring(button.dataset.run)));
   $("#step").addEventListener("input", (event) => { pause(); show(Number(event.target.value)); });
   open(player.dataset.open);
 });
