@@ -80,11 +80,27 @@ def record_file(
 
 
 def record_to_stdout(lesson: Lesson, params: Any, *, preset: str | None = None) -> None:
-    """Run a lesson and write the recording to standard output."""
+    """Run a lesson and write the recording to standard output; a bar is drawn where errors go, if that is a terminal.
+
+    Raises:
+        InputError: If the run fails, or standard output is a terminal, closed, or full.
+    """
+    if sys.stdout is None:
+        raise InputError("standard output is closed: pipe it somewhere, or write -o FILE.rrd")
     if sys.stdout.isatty():
         raise InputError("standard output is a terminal: pipe it somewhere, or write -o FILE.rrd")
-    sys.stdout.buffer.write(record_bytes(_run(lesson, params, lambda what, done, of: None), preset=preset))
-    sys.stdout.buffer.flush()
+    with bar(sys.stderr, "Recording") as tell:
+        data = record_bytes(_run(lesson, params, tell), preset=preset, progress=tell)
+    left = memoryview(data)
+    try:
+        while left:  # without a buffer (python -u), less may be written than was asked for
+            left = left[sys.stdout.buffer.write(left) :]
+        sys.stdout.buffer.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        sys.stdout = None  # what is left in its buffer cannot be written at exit either
+        raise InputError(f"standard output: cannot be written: {error.strerror or error}") from error
 
 
 def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Progress | None = None) -> bytes:
