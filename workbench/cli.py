@@ -140,7 +140,7 @@ def exercise(
             sys.stdout.write(f"{item.lesson:<12} {item.name:<25} {item.task.split('. ')[0].rstrip('.')}.\n")
         return
     lesson = catalog().get(name)
-    chosen = lesson.exercises if lesson is not None and lesson.exercises else (find_exercise(name),)
+    chosen = lesson.exercises() if lesson is not None and lesson.exercises() else (find_exercise(name),)
     for item in chosen:
         sys.stdout.write(f"{write_starter(item, out, force=force)}\n")
 

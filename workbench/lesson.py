@@ -6,6 +6,7 @@ import importlib.metadata
 import importlib.util
 import pkgutil
 import sys
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -90,6 +91,7 @@ class Lesson(Generic[P, S]):
         draw: What one state looks like.
         order: The place in the course.
         first_step: Where the default run opens (negative counts from the end).
+        exercises: Returns the lesson's exercises; a function, so that they are imported only where they are wanted.
     """
 
     name: str
@@ -103,7 +105,7 @@ class Lesson(Generic[P, S]):
     view: View = field(default_factory=View)
     presets: tuple[Preset[P], ...] = ()
     questions: tuple[Question[P, S], ...] = ()
-    exercises: tuple[Any, ...] = ()
+    exercises: Callable[[], tuple[Any, ...]] = tuple
     first_step: int = 0
 
     def __post_init__(self) -> None:
@@ -135,7 +137,8 @@ class Lesson(Generic[P, S]):
 def catalog() -> Mapping[str, Lesson]:
     """Return all lessons by name, in course order: those of the `lessons` package, then of installed third parties.
 
-    A third party registers a lesson under the entry-point group `workbench.lessons`, as `name = "module:lesson"`.
+    A third party registers a lesson under the entry-point group `workbench.lessons`, as `name = "module:lesson"`. One that
+    cannot be loaded is left out with a warning.
     """
     found: list[Lesson] = []
     lessons = importlib.import_module("lessons")
@@ -143,7 +146,10 @@ def catalog() -> Mapping[str, Lesson]:
         if info.ispkg and importlib.util.find_spec(f"{info.name}.lesson") is not None:
             found.append(_lesson_in(importlib.import_module(f"{info.name}.lesson")))
     for entry in importlib.metadata.entry_points(group="workbench.lessons"):
-        found.append(entry.load())
+        try:
+            found.append(_lesson_in(importlib.import_module(entry.module), entry.attr or "lesson"))
+        except Exception as error:  # somebody else's lesson must not take the course down
+            warnings.warn(f"lesson {entry.name} ({entry.value}) is left out: {error}", stacklevel=2)
     by_name: dict[str, Lesson] = {}
     for lesson in sorted(found, key=lambda lesson: (lesson.order, lesson.name)):
         if lesson.name in by_name:
@@ -183,8 +189,8 @@ def _from_file(path: Path) -> Lesson:
         raise InputError(f"{path}: {type(error).__name__}: {error}") from error
 
 
-def _lesson_in(module: ModuleType) -> Lesson:
-    lesson = getattr(module, "lesson", None)
+def _lesson_in(module: ModuleType, value: str = "lesson") -> Lesson:
+    lesson = getattr(module, value, None)
     if not isinstance(lesson, Lesson):
-        raise InputError(f"{module.__name__} defines no value `lesson` of type Lesson")
+        raise InputError(f"{module.__name__} defines no value `{value}` of type Lesson")
     return lesson

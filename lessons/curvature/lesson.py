@@ -10,11 +10,11 @@ a neighbourhood does not; and the defects' sum knows nothing of the mesh but its
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from lessons.curvature.draw import draw
-from lessons.curvature.exercise import EXERCISES
 from lessons.curvature.params import Params
 from lessons.curvature.presets import PRESETS, QUESTIONS
 from lessons.curvature.state import State
@@ -83,6 +83,13 @@ def with_mistake(
     return defects, gaussian, normals
 
 
+def exercises() -> tuple[Any, ...]:
+    """Return what students write for this lesson."""
+    from lessons.curvature.exercise import EXERCISES
+
+    return EXERCISES
+
+
 lesson = Lesson(
     name="curvature",
     title="Curvature of a mesh",
@@ -95,6 +102,6 @@ lesson = Lesson(
     view=View(eye=EYE, target=(0.0, 0.0, -0.45), grid=0.5, grid_height=-1.0, axes=False),
     presets=PRESETS,
     questions=QUESTIONS,
-    exercises=EXERCISES,
+    exercises=exercises,
     first_step=3,
 )

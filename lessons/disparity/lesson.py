@@ -11,9 +11,9 @@ like, `words.py` the captions, `presets.py` the experiments and questions.
 import functools
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from lessons.disparity.draw import draw
-from lessons.disparity.exercise import EXERCISES
 from lessons.disparity.pairs import setup_of
 from lessons.disparity.params import Params
 from lessons.disparity.presets import PRESETS, QUESTIONS
@@ -52,6 +52,13 @@ def run(
     yield from states_of(setup, steps, depth)
 
 
+def exercises() -> tuple[Any, ...]:
+    """Return what students write for this lesson."""
+    from lessons.disparity.exercise import EXERCISES
+
+    return EXERCISES
+
+
 lesson = Lesson(
     name="disparity",
     title="Disparity and depth",
@@ -64,6 +71,6 @@ lesson = Lesson(
     view=View(eye=(0.5, -4.4, 2.4), target=(0.15, 0.8, -0.75), grid=0.5, grid_height=-0.62),
     presets=PRESETS,
     questions=QUESTIONS,
-    exercises=EXERCISES,
+    exercises=exercises,
     first_step=15,
 )

@@ -9,11 +9,11 @@ laid over it in orange, so a mistake is seen where it is made.
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from lessons.pinhole.draw import draw
-from lessons.pinhole.exercise import EXERCISES
 from lessons.pinhole.models import Model, model_of
 from lessons.pinhole.params import Params
 from lessons.pinhole.presets import PRESETS, QUESTIONS
@@ -87,6 +87,13 @@ def _colors(role: Role, n: int) -> np.ndarray:
     return np.tile(np.array([PALETTE[role]], np.uint8), (n, 1))
 
 
+def exercises() -> tuple[Any, ...]:
+    """Return what students write for this lesson."""
+    from lessons.pinhole.exercise import EXERCISES
+
+    return EXERCISES
+
+
 lesson = Lesson(
     name="pinhole",
     title="The pinhole camera",
@@ -99,6 +106,6 @@ lesson = Lesson(
     view=View(eye=(7.6, -12.5, 6.6), target=(0.3, 0.6, 0.4), grid=2.0, grid_height=-0.02),
     presets=PRESETS,
     questions=QUESTIONS,
-    exercises=EXERCISES,
+    exercises=exercises,
     first_step=2,
 )

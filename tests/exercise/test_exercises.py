@@ -65,7 +65,7 @@ def found(report) -> str:
 
 
 def test_names_are_unique():
-    listed = [exercise.name for lesson in catalog().values() for exercise in lesson.exercises]
+    listed = [exercise.name for lesson in catalog().values() for exercise in lesson.exercises()]
     assert len(listed) == len(set(listed))
 
 

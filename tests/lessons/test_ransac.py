@@ -301,7 +301,7 @@ def test_every_model_asks_how_many_samples(model):
 
 
 def test_the_wire_shows_what_a_plane_does_with_points_on_a_line():
-    exercise = next(exercise for exercise in lesson.exercises if exercise.name == "plane_from_points")
+    exercise = next(exercise for exercise in lesson.exercises() if exercise.name == "plane_from_points")
     assert "'Three points on one line'" in exercise.task
     assert "Three points on one line" in [preset.title for preset in lesson.presets if preset.params == presets.WIRE]
     careless = next(mistake.function for mistake in exercise.mistakes if mistake.name == "line not seen")
@@ -310,7 +310,7 @@ def test_the_wire_shows_what_a_plane_does_with_points_on_a_line():
         assert [next(states).now.phase for _ in range(2)] == ["sample", phase]
 
 
-RIGHT = [(exercise, function) for exercise in lesson.exercises for function in exercise.alternatives]
+RIGHT = [(exercise, function) for exercise in lesson.exercises() for function in exercise.alternatives]
 
 
 @pytest.mark.parametrize(("exercise", "function"), RIGHT, ids=lambda value: getattr(value, "__name__", value.__class__))

@@ -68,7 +68,7 @@ def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             )
         return scene | {DIFFERENCE: _difference(pair.difference)}
 
-    return replace(lesson, run=run, draw=draw, questions=(), exercises=(exercise,))
+    return replace(lesson, run=run, draw=draw, questions=(), exercises=lambda: (exercise,))
 
 
 def _trouble(error: Exception, exercise: Exercise) -> str:

@@ -16,7 +16,7 @@ from workbench.lesson import catalog
 
 def exercises() -> dict[str, Exercise]:
     """Return the exercises of all lessons by name, in course order."""
-    return {exercise.name: exercise for lesson in catalog().values() for exercise in lesson.exercises}
+    return {exercise.name: exercise for lesson in catalog().values() for exercise in lesson.exercises()}
 
 
 def find_exercise(name: str) -> Exercise:

@@ -42,7 +42,7 @@ class ExerciseTab:
 
             self._result = gui.add_html("")
             self.show_report()
-        exercises = lesson.exercises if watched is None else (watched.exercise,)
+        exercises = lesson.exercises() if watched is None else (watched.exercise,)
         for exercise in exercises:
             gui.add_html(_task(exercise, alone=watched is not None))
 

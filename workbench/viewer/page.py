@@ -190,7 +190,7 @@ class Page:
         with panel.add_tab("Code"):
             code = CodeTab(gui)
         self._exercise = None
-        if lesson.exercises:
+        if lesson.exercises():
             with panel.add_tab("Exercise"):
                 mine = self._watched if self._watched is not None and self._watched.lesson is lesson else None
                 self._exercise = ExerciseTab(

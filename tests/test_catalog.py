@@ -1,0 +1,69 @@
+import importlib.metadata
+import sys
+from types import ModuleType
+
+import pytest
+
+from tests import fake
+from workbench.errors import InputError
+from workbench.lesson import catalog, find
+
+
+@pytest.fixture
+def registered(monkeypatch):
+    """Registers entry points of third parties; the catalogue is read anew."""
+
+    def register(*values: str) -> None:
+        entries = [importlib.metadata.EntryPoint("theirs", value, "workbench.lessons") for value in values]
+        monkeypatch.setattr(importlib.metadata, "entry_points", lambda group: entries)
+
+    catalog.cache_clear()
+    yield register
+    catalog.cache_clear()
+
+
+def test_the_course_is_in_its_order():
+    assert list(catalog())[:3] == ["transforms", "pinhole", "icp"]
+    assert [lesson.order for lesson in catalog().values()] == sorted(lesson.order for lesson in catalog().values())
+
+
+def test_a_third_party_s_lesson_joins(registered):
+    registered("tests.fake:lesson")
+    assert catalog()["fake"] is fake.lesson
+
+
+@pytest.mark.parametrize(
+    ("value", "said"), [("no_such_module:lesson", "no_such_module"), ("tests.fake:run", "of type Lesson")]
+)
+def test_a_third_party_s_broken_lesson_is_left_out_and_named(registered, value, said):
+    registered(value)
+    with pytest.warns(UserWarning, match=f"lesson theirs .* is left out: .*{said}"):
+        assert "icp" in catalog()
+
+
+def test_a_lesson_from_a_file_or_a_line_that_says_why_not(tmp_path, monkeypatch):
+    file = tmp_path / "mine.py"
+    with pytest.raises(InputError, match="no such file"):
+        find(str(file))
+    file.write_text("from tests.fake import lesson\n")
+    assert find(str(file)) is fake.lesson
+    file.write_text("lesson = 3\n")
+    with pytest.raises(InputError, match="of type Lesson"):
+        find(str(file))
+    file.write_text("1 / 0\n")
+    with pytest.raises(InputError, match="ZeroDivisionError"):
+        find(str(file))
+    with pytest.raises(InputError, match="no lesson is named 'nothing'; there are: transforms, pinhole"):
+        find("nothing")
+
+
+def test_exercises_are_imported_only_where_they_are_wanted():
+    wanted = "lessons.icp.exercise"
+    kept: ModuleType | None = sys.modules.pop(wanted, None)
+    try:
+        assert catalog()["icp"].name == "icp"
+        assert wanted not in sys.modules
+        assert [exercise.lesson for exercise in catalog()["icp"].exercises()] == ["icp"] * 3
+    finally:
+        if kept is not None:
+            sys.modules[wanted] = kept
