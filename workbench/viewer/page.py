@@ -175,7 +175,7 @@ class Page:
         self._sides = []
         self.sink.show({})
         self.session = session = Session(lesson, self.timelines)
-        set_stage(self.client, lesson.view)
+        set_stage(self.client, lesson.view, narrow=self._narrow)
         return session
 
     def _add_text(self, lesson: Lesson, session: Session) -> None:

@@ -6,17 +6,33 @@ import viser
 from workbench.lesson import View
 
 BACKDROPS = {False: (255, 255, 255), True: (20, 21, 23)}  # viser's canvas in the light and the dark theme
+BACK = 1.8  # how much farther away a narrow screen's camera is
+RAISED = 0.58  # of half the picture's height: the sheet leaves the upper two fifths free
 _PLANES = ("yz", "xz", "xy")
 
 
-def set_stage(client: viser.ClientHandle, view: View) -> None:
-    """Put a client's camera, grid and axes where a lesson wants them."""
+def set_stage(client: viser.ClientHandle, view: View, *, narrow: bool = False) -> None:
+    """Put a client's camera, grid and axes where a lesson wants them.
+
+    On a narrow screen a sheet covers the lower part: the camera steps back and down, so that its target stands above it.
+    """
     add_floor(client.scene, view)
+    eye, target = narrow_view(view) if narrow else (np.array(view.eye), np.array(view.target))
     with client.atomic():
         client.camera.up_direction = np.array(view.up)
-        client.camera.position = np.array(view.eye)
-        client.camera.look_at = np.array(view.target)
+        client.camera.position = eye
+        client.camera.look_at = target
         client.camera.fov = float(np.radians(view.fov_degrees))
+
+
+def narrow_view(view: View) -> tuple[np.ndarray, np.ndarray]:
+    """Return eye and target from which a lesson's own target is seen in the middle of what the sheet leaves free."""
+    target = np.array(view.target)
+    ahead = BACK * (target - np.array(view.eye))
+    right = np.cross(ahead, view.up)
+    up = np.cross(right, ahead)
+    shift = RAISED * np.tan(np.radians(view.fov_degrees) / 2) * np.linalg.norm(ahead) * up / np.linalg.norm(up)
+    return target - ahead - shift, target - shift
 
 
 def add_floor(scene: viser.SceneApi, view: View) -> None:
