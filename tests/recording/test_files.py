@@ -1,9 +1,7 @@
 """Files that are damaged or foreign, and places that cannot be written to: one line, and nothing lost."""
 
-import errno
 import os
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -126,26 +124,6 @@ def test_a_place_that_cannot_be_written_is_said_before_the_run(tmp_path, place):
     (tmp_path / "file").touch()
     with pytest.raises(InputError, match=r"no such folder|is not a file"):
         record_file(fake.lesson, fake.Params(trouble="crash"), tmp_path / place)
-
-
-def test_a_full_disk_leaves_what_was_there(tmp_path):
-    path = tmp_path / "a.rrd"
-    path.write_bytes(b"precious")
-    script = (
-        "import resource, signal, sys\n"
-        "from tests import fake\nfrom workbench import record\n"
-        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
-        "resource.setrlimit(resource.RLIMIT_FSIZE, (10000, 10000))\n"
-        "from workbench.errors import InputError\n"
-        "try:\n    record(fake.lesson, sys.argv[1], force=True)\n"
-        "except InputError as error:\n    print(error)\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", script, str(path)], cwd=ROOT, capture_output=True, text=True, check=True
-    )
-    assert done.stdout.strip() == f"{path}: cannot be written: {os.strerror(errno.EFBIG)}"
-    assert os.listdir(tmp_path) == ["a.rrd"]
-    assert path.read_bytes() == b"precious"
 
 
 def test_a_folder_that_takes_no_files_is_said(tmp_path, monkeypatch):

@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from tests import fake
 from tests.fake import test_nothing_is_left_out as test_nothing_is_left_out
 from tests.recording.latest_at import rows, shown_at
+from workbench.recording.contents import contents_of, places
 from workbench.recording.sink import Place, RerunSink
 from workbench.recording.spatial import FADED
 from workbench.recording.streams import stream_bytes
-from workbench.scene import PALETTE, Camera, Classes, Field, Mesh, Points, Scene, Segments
+from workbench.scene import PALETTE, Camera, Classes, Field, Mesh, Points, Scene, Segments, Table
 
 
 def recorded(scenes: list[Scene], path: Path) -> Path:
@@ -194,6 +195,16 @@ def test_what_is_not_there_at_every_step_is_announced(tmp_path):
     assert "from step" not in shown_at(path, 1)["/tables"]["TextDocument:text"][0]
     assert shown_at(path, 2)["/charts/Basin"]["Points2D:labels"] == ["not in this step"]
     assert shown_at(path, 2)["/tables"]["TextDocument:text"] == ["not in this step"]
+
+
+def test_places_are_known_with_the_first_step_of_what_they_show():
+    table = Table("Numbers", ("a",), (("1",),))
+    found = places(contents_of([{}, SCENES[0], {"t": table}, {"t": table}]))
+    without = {entity: place for entity, place in found.items() if entity != "/tables"}
+    assert without
+    assert all(place.first == 1 and place.middle is not None for place in without.values())
+    late = places(contents_of([{}, {}, {"t": table}]))
+    assert late == {"/tables": Place(2)}
 
 
 def rgb(color: int) -> tuple[int, int, int]:
