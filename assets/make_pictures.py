@@ -32,7 +32,10 @@ def main(names: list[str]) -> None:
             page.add_style_tag(content=HIDE)
             page.wait_for_timeout(6000)  # until software rendering has drawn the last frame
             page.screenshot(
-                path=HERE / f"{name}.jpg", type="jpeg", quality=80, clip=None if name == "page" else SCENE  # type: ignore
+                path=HERE / f"{name}.jpg",
+                type="jpeg",
+                quality=80,
+                clip=None if name == "page" else SCENE,  # type: ignore
             )
             print(HERE / f"{name}.jpg")
     app.stop()
