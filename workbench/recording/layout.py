@@ -41,15 +41,15 @@ def one_run(view: View, contents: Contents, values: Values) -> Any:
 def two_runs(view: View, contents: Contents, runs: Mapping[str, Values], names: Mapping[str, str]) -> Any:
     """Return the layout of two runs, given by their root entities: scenes side by side, curves in the same plots."""
     scenes = [
-        rrb.Vertical(scene_view(root, view, names[root]), caption_view(root), row_shares=[4, 1.4]) for root in runs
+        rrb.Vertical(scene_view(root, view, names[root]), caption_view(root), row_shares=[4, 1.9]) for root in runs
     ]
     rows: list[Any] = [rrb.Horizontal(*scenes)]
-    shares = [4.0]
+    shares = [4.7]
     if contents.legend_height:
         rows.append(legend_view(next(iter(runs)), contents))
-        shares.append(0.5 * legend_share(contents))
+        shares.append(0.4 * legend_share(contents))
     rows.append(rrb.TextDocumentView(origin="/differences", name="What differs"))
-    left = rrb.Vertical(*rows, row_shares=[*shares, 1.1])
+    left = rrb.Vertical(*rows, row_shares=[*shares, 1.0])
     right = _column(_beside(contents, runs))
     return finished(rrb.Horizontal(left, right, column_shares=[3, 2]) if right is not None else left)
 
@@ -206,4 +206,4 @@ def _canvas_view(entity: str, canvas: Canvas, root: str = "") -> Any:
 
 
 def _titled(name: str, root: str) -> str:
-    return safe(f"{name} · {root.strip('/').upper()}" if root else name)
+    return safe(f"{root.strip('/').upper()} · {name}" if root else name)
