@@ -1,12 +1,16 @@
+import ast
 import importlib.metadata
+import subprocess
 import sys
 from types import ModuleType
 
 import pytest
 
 from tests import fake
+from workbench import listing
 from workbench.errors import InputError
 from workbench.lesson import catalog, find
+from workbench.listing import listed
 
 
 @pytest.fixture
@@ -67,3 +71,23 @@ def test_exercises_are_imported_only_where_they_are_wanted():
     finally:
         if kept is not None:
             sys.modules[wanted] = kept
+
+
+def test_the_list_that_is_read_off_the_source_is_the_catalogue():
+    lines = [f"{lesson.name} {lesson.summary}" for lesson in catalog().values()]
+    assert [" ".join(line.split()) for line in listed().splitlines()] == lines
+    assert {"numpy", "workbench.lesson"}.isdisjoint(loaded_by("list"))
+
+
+def test_the_list_asks_the_catalogue_where_the_source_does_not_tell(registered, monkeypatch):
+    registered("tests.fake:lesson")
+    monkeypatch.setattr(listing, "entry_points", importlib.metadata.entry_points)
+    assert fake.lesson.summary in listed()
+    head = ast.parse('lesson = Lesson(name="a", summary=f"{1}", order=3)')
+    assert listing._head(head) is None
+
+
+def loaded_by(command: str) -> set[str]:
+    code = f"import sys; sys.argv[1:] = [{command!r}]; from workbench.__main__ import main; main(); print('|', *sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(done.stdout.split("|")[-1].split())

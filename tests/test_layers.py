@@ -24,6 +24,7 @@ ALLOWED = {
     "workbench.data": MATHS | {"workbench.data"},
     "workbench.lesson": DRAWING,
     "workbench.timeline": LESSON,
+    "workbench.listing": {"workbench.lesson"},
     "workbench.links": LESSON,
     "workbench.picking": DRAWING,
     "workbench.typeset": BASE,

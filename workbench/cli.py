@@ -38,10 +38,9 @@ def serve(serving: Serving) -> None:
 @command
 def list_() -> None:
     """List the lessons in course order."""
-    lessons = catalog().values()
-    width = max((len(lesson.name) for lesson in lessons), default=0)
-    for lesson in lessons:
-        sys.stdout.write(f"{lesson.name:<{width}}  {lesson.summary}\n")
+    from workbench.listing import listed
+
+    sys.stdout.write(listed())
 
 
 @command
@@ -223,6 +222,10 @@ def main(args: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # the reader of our output, such as `head`, has had enough
         sys.stdout = None
         return 0
+    except OSError as error:
+        _complain(f"{error.filename or 'standard output'}: {error.strerror or error}")
+        sys.stdout = None
+        return 2
     except SystemExit:  # after --help
         return 0
     return code
@@ -235,8 +238,6 @@ def _carry_out(words: list[str]) -> int | None:
         return parse(serve, words, "workbench", _overview())()
     elif words[0] not in COMMANDS:
         raise InputError(f"no command is named {words[0]!r}; there are: {', '.join(COMMANDS)}")
-    elif words == ["list"]:
-        list_()  # without tyro: the quickest answer
     else:
         function = COMMANDS[words[0]]
         return parse(function, words[1:], f"workbench {words[0]}", function.__doc__ or "")()
@@ -245,7 +246,10 @@ def _carry_out(words: list[str]) -> int | None:
 
 def _overview() -> str:
     lines = [f"  {name:<9} {(function.__doc__ or '').splitlines()[0]}" for name, function in COMMANDS.items()]
-    head = "Watch, touch, record and grade the algorithms of 3D vision. Without a command: " + (serve.__doc__ or "").lower()
+    head = (
+        "Watch, touch, record and grade the algorithms of 3D vision. Without a command: "
+        + (serve.__doc__ or "").lower()
+    )
     return "\n".join([head, "", "commands:", *lines, "", "`workbench COMMAND --help` says more of each."])
 
 

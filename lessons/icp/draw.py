@@ -11,7 +11,8 @@ from workbench.algorithms import icp
 from workbench.geometry.motions import apply, inverse
 from workbench.scene import Caption, Classes, Curve, Label, Points, Primitive, Scalar, Scene, Segments
 
-MOST_LINES = 1500
+MOST_LINES = 750, 200  # of small clouds and of large ones, whose recordings the lines would fill
+LARGE = 5000
 ARROW = np.array([[[0.0, 0.0, 0.0], [0.62, 0.0, 0.0]], [[0.62, 0.0, 0.0], [0.54, 0.035, 0.0]],
                   [[0.62, 0.0, 0.0], [0.54, -0.035, 0.0]]])  # fmt: skip
 
@@ -108,13 +109,14 @@ def _basin(state: State) -> dict[str, Primitive]:
 
 def _matches(state: State, T_world_source: np.ndarray) -> Segments:
     scans, now = state.scans, state.icp
-    rows = np.arange(0, len(now.indices), -(-len(now.indices) // MOST_LINES))
+    n = len(now.indices)
+    rows = np.arange(0, n, -(-n // MOST_LINES[n > LARGE]))
     ends = np.stack(
         [apply(T_world_source, scans.p_source_shown[rows]), scans.p_target_shown[now.indices[rows]]], axis=1
     )
     refused = ~now.kept[rows]
     color = Classes(refused.astype(np.uint8), ("correspondence", "wrong"), ("match", "refused by the gate"))
-    return Segments(ends, color, 1.2, name="matches")
+    return Segments(ends, color, 1.6, name="matches")
 
 
 def _caption(state: State) -> Caption:

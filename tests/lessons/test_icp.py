@@ -177,9 +177,10 @@ class TestPicture:
         for k in range(4):
             now, shown = states(HOME)[k].icp, scene(HOME, k)
             ends, source = shown["matches"].ends, shown["source"]
-            np.testing.assert_allclose(ends[:, 0], apply(source.T_world_object, source.p), atol=1e-12)
-            np.testing.assert_array_equal(ends[:, 1], shown["target"].p[now.indices])
-            np.testing.assert_array_equal(shown["matches"].color.ids, ~now.kept)
+            rows = slice(None, None, 2)  # 1,500 are too many to be drawn
+            np.testing.assert_allclose(ends[:, 0], apply(source.T_world_object, source.p[rows]), atol=1e-12)
+            np.testing.assert_array_equal(ends[:, 1], shown["target"].p[now.indices[rows]])
+            np.testing.assert_array_equal(shown["matches"].color.ids, ~now.kept[rows])
 
     def test_the_arrow_lies_on_the_true_one_at_home(self):
         shown = scene(HOME, -1)

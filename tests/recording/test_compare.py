@@ -1,6 +1,7 @@
 """Two recordings as one: everything of both, on one timeline, curves in the same plots."""
 
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,6 @@ import pytest
 
 from tests import fake
 from tests.recording.latest_at import rows, shown_at
-from tests.recording.test_streams import RIGID
 from workbench.errors import InputError
 from workbench.recording.compare import compare_bytes, differences_of
 from workbench.recording.read import open_recording, read_chunks
@@ -83,6 +83,6 @@ def test_it_is_one_recording_with_a_layout(files):
 
 
 def test_runs_of_two_lessons_are_refused(files, tmp_path):
-    other = record(RIGID, tmp_path / "rigid.rrd")
+    other = record(replace(fake.lesson, name="rigid"), tmp_path / "rigid.rrd")
     with pytest.raises(InputError, match=r"is a run of fake, .* of rigid"):
         compare_bytes(files[0], other)

@@ -2,22 +2,16 @@
 
 import os
 import sys
-from collections.abc import Iterator
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Annotated
+from dataclasses import replace
+from itertools import islice
 
-import numpy as np
 import pytest
 
 from tests import fake
-from workbench.knobs import Knob
-from workbench.lesson import Lesson
+from workbench.lesson import catalog
 from workbench.recording.streams import application_id
 from workbench.recording.write import record_bytes
-from workbench.scene import Caption, Points, Scalar, Scene
 from workbench.timeline import Timeline
-from workbench.watch import watched
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="counts threads in /proc")
@@ -35,44 +29,11 @@ def test_layouts_belong_to_the_lesson():
     assert application_id("Chamfer_EMD") == "workbench-chamfer-emd-1"
 
 
-@dataclass(frozen=True)
-class Params:
-    """A rigid run of the size the size bound speaks of."""
-
-    seed: Annotated[int, Knob("Which points", 0, 9)] = 0
-
-
-@watched
-def turning(p: np.ndarray, q: np.ndarray) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
-    """Yield fifty steps."""
-    for k in range(50):
-        yield k, p, q
-
-
-def draw(state: tuple[int, np.ndarray, np.ndarray]) -> Scene:
-    """Show two clouds of which one turns."""
-    k, p, q = state
-    return {
-        "target": Points(q, "target", name="target"),
-        "source": Points(p, "source", T_world_object=fake.turn_about_z(k / 50), name="source"),
-        "rmse": Scalar(1.0 / (k + 1), "RMSE", "RMSE", "m"),
-        "error": Scalar(50.0 - k, "Rotation error", "Rotation error", "deg", "truth"),
-        "caption": Caption(f"Fit {k}: the source turned, RMSE {1 / (k + 1):.4f} m."),
-    }
-
-
-def run(params: Params) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
-    """Turn 20,000 points."""
-    rng = np.random.default_rng(params.seed)
-    yield from turning(*rng.uniform(-1, 1, (2, 20_000, 3)))
-
-
-RIGID = Lesson("rigid", "Rigid", "Turns.", Path("none.md"), Params, run, draw, 1)
-
-
 def test_a_rigid_run_of_20k_points_and_50_steps_stays_below_a_megabyte():
-    data = record_bytes(Timeline(RIGID, Params()).complete())
-    assert len(data) < 1_000_000
+    icp = catalog()["icp"]
+    long = Timeline(replace(icp, run=lambda params: islice(icp.run(params), 50)), icp.params(points=20_000)).complete()
+    assert len(long) == 50
+    assert len(record_bytes(long)) < 1_000_000
 
 
 def test_progress_is_told_step_by_step():
