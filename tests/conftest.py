@@ -41,3 +41,11 @@ def chromium() -> Iterator:
         pytest.skip(HOW_TO)
     with started() as browser:
         yield browser
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Keep all browser tests with one worker: two browsers that draw without a graphics card starve each other."""
+    for item in items:
+        if item.get_closest_marker("browser"):
+            item.add_marker(pytest.mark.xdist_group("browser"))

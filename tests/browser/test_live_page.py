@@ -15,7 +15,7 @@ WAIT = 60_000  # milliseconds; drawing without a graphics card is slow to start
 class Student:
     """One browser window on the workbench, and what a student does in it."""
 
-    def __init__(self, chromium, app, query: str = "", width: int = 1440, height: int = 900):
+    def __init__(self, chromium, app, query: str = "", width: int = 1100, height: int = 640):
         self.context = chromium.new_context(viewport={"width": width, "height": height})
         self.context.grant_permissions(["clipboard-read", "clipboard-write"], origin=app.address)
         self.page = self.context.new_page()

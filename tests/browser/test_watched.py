@@ -31,7 +31,7 @@ def test_a_student_s_file_is_watched(chromium, tmp_path):
     watched = Watched(lesson, file)
     app = App(links.Place(watched.lesson, lesson.params(), None), port=0, watched=watched)
     errors: list[str] = []
-    page = chromium.new_page(viewport={"width": 1440, "height": 900})
+    page = chromium.new_page(viewport={"width": 1100, "height": 640})
     page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
     page.on("pageerror", lambda error: errors.append(str(error)))
     try:

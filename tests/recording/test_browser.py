@@ -124,7 +124,7 @@ def test_the_live_page_hands_out_the_current_run(chromium, tmp_path):
         page.goto(f"{app.address}/?lesson=transforms&angles=40,20,60&step=2")
         page.get_by_text("Step 2 of", exact=False).first.wait_for(timeout=WAIT)
         with page.expect_download(timeout=WAIT) as download:
-            page.get_by_role("button", name="Recording", exact=True).first.click(timeout=WAIT)
+            page.get_by_role("button", name="Download recording", exact=True).first.click(timeout=WAIT)
         assert download.value.suggested_filename == "transforms.rrd"
         download.value.save_as(tmp_path / "transforms.rrd")
     finally:

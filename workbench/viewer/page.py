@@ -37,7 +37,8 @@ from workbench.viewer.style import escape
 from workbench.viewer.transport import Transport
 
 SLICE = 0.04  # seconds of computing between two pictures
-NARROW = 760  # pixels; below, viser stacks all panels into a sheet at the bottom
+NARROW = 760  # pixels; below, viser stacks all panels into a sheet at the bottom, which hides three fifths of the scene
+SHORT = 820  # pixels; below, the timeline hides a third of it
 
 
 class Page:
@@ -66,7 +67,12 @@ class Page:
         self.sink = ViserSink(client.scene)
         self._wake = asyncio.Event()
         self._loop = asyncio.get_running_loop()
-        self._narrow = 0 < client.camera.image_width < NARROW
+        width = client.camera.image_width or 1440
+        self._narrow = width < NARROW
+        short = 0 < client.camera.image_height < SHORT
+        self._framing = (1.8, 0.58) if self._narrow else (1.15, 0.1) if short else (1.0, 0.0)
+        self._left, self._right = min(max(int(0.26 * width), 300), 380), min(max(int(0.24 * width), 290), 350)
+        self._between = min(width - self._left - self._right - 28, 682)
         self._address = ""
         self._sides: list[Callable[[Look], None]] = []
         self._tasks: set[asyncio.Task] = set()
@@ -138,13 +144,13 @@ class Page:
         else:
             knobs = self._add_controls(lesson, session)
             gui.main_panel.dock_right()
-            gui.main_panel.set_width(350)
+            gui.main_panel.set_width(self._right)
             side = gui.add_panel()
             charts = Beside(gui, side.add_tab("Curves"))
             side.dock_below(gui.main_panel)
             bottom = gui.add_panel()
             self._add_time(session, bottom.add_tab("Timeline"))
-            bottom.float(x=14, y=-14, width=682)
+            bottom.float(x=14, y=-14, width=self._between)
         self._sides += [lambda look: knobs.show(look.params), charts.show]
         self._add_commands(session)
         self._add_picks(lesson, session)
@@ -175,7 +181,7 @@ class Page:
         self._sides = []
         self.sink.show({})
         self.session = session = Session(lesson, self.timelines)
-        set_stage(self.client, lesson.view, narrow=self._narrow)
+        set_stage(self.client, lesson.view, self._framing)
         return session
 
     def _add_text(self, lesson: Lesson, session: Session) -> None:
@@ -200,7 +206,7 @@ class Page:
             add_course(gui, self.lessons.values(), self.progress, self._enter, current=lesson)
         if not self._narrow:
             panel.dock_left()
-            panel.set_width(380)
+            panel.set_width(self._left)
         self._sides.append(lambda look: code.show(look.moment))
 
     def _add_time(self, session: Session, container: Any) -> None:
@@ -220,11 +226,11 @@ class Page:
             "Pin this run": lambda: self._toggle_pin(session),
             "Reset": lambda: self._wish(session.reset),
             "Copy link": lambda: self._copy_link(session),
-            "Recording": lambda: self._do(self._download(session)),
+            "Download recording": lambda: self._do(self._download(session)),
             "Theme": self._switch_theme,
         }
-        first = gui.add_button_group("Run", ("Pin this run", "Reset"))
-        second = gui.add_button_group("Share", ("Copy link", "Recording", "Theme"))
+        first = gui.add_button_group("Run", ("Pin this run", "Reset", "Theme"))
+        second = gui.add_button_group("Share", ("Copy link", "Download recording"))
         speed = gui.add_dropdown(
             "Speed", tuple(map(_speed, SPEEDS)), initial_value=_speed(session.speed), hint="How fast Play goes"
         )
@@ -247,7 +253,7 @@ class Page:
                 self._wish(lambda: session.set_speed(wanted, self._loop.time()))
 
         def show(look: Look) -> None:
-            names = ("Unpin" if look.pinned else "Pin this run", "Reset")
+            names = ("Unpin" if look.pinned else "Pin this run", "Reset", "Theme")
             if tuple(first.options) != names:
                 first.options = names
 

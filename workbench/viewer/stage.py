@@ -6,18 +6,13 @@ import viser
 from workbench.lesson import View
 
 BACKDROPS = {False: (255, 255, 255), True: (20, 21, 23)}  # viser's canvas in the light and the dark theme
-BACK = 1.8  # how much farther away a narrow screen's camera is
-RAISED = 0.58  # of half the picture's height: the sheet leaves the upper two fifths free
 _PLANES = ("yz", "xz", "xy")
 
 
-def set_stage(client: viser.ClientHandle, view: View, *, narrow: bool = False) -> None:
-    """Put a client's camera, grid and axes where a lesson wants them.
-
-    On a narrow screen a sheet covers the lower part: the camera steps back and down, so that its target stands above it.
-    """
+def set_stage(client: viser.ClientHandle, view: View, framing: tuple[float, float] = (1.0, 0.0)) -> None:
+    """Put a client's camera, grid and axes where a lesson wants them, framed for the client's screen."""
     add_floor(client.scene, view)
-    eye, target = narrow_view(view) if narrow else (np.array(view.eye), np.array(view.target))
+    eye, target = framed(view, *framing)
     with client.atomic():
         client.camera.up_direction = np.array(view.up)
         client.camera.position = eye
@@ -25,19 +20,26 @@ def set_stage(client: viser.ClientHandle, view: View, *, narrow: bool = False) -
         client.camera.fov = float(np.radians(view.fov_degrees))
 
 
-def narrow_view(view: View) -> tuple[np.ndarray, np.ndarray]:
-    """Return eye and target from which a lesson's own target is seen in the middle of what the sheet leaves free."""
+def framed(view: View, back: float, raised: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return eye and target from which a lesson's own target is seen `back` times as far away and higher up.
+
+    Args:
+        view: What the lesson asks for.
+        back: How many times as far away.
+        raised: How far above the middle the lesson's target stands, in half heights of the picture.
+    """
     target = np.array(view.target)
-    ahead = BACK * (target - np.array(view.eye))
+    ahead = back * (target - np.array(view.eye))
     right = np.cross(ahead, view.up)
     up = np.cross(right, ahead)
-    shift = RAISED * np.tan(np.radians(view.fov_degrees) / 2) * np.linalg.norm(ahead) * up / np.linalg.norm(up)
+    shift = raised * np.tan(np.radians(view.fov_degrees) / 2) * np.linalg.norm(ahead) * up / np.linalg.norm(up)
     return target - ahead - shift, target - shift
 
 
 def add_floor(scene: viser.SceneApi, view: View) -> None:
     """Draw the grid and the labelled axes of a lesson."""
     scene.set_up_direction(view.up)
+    scene.configure_default_lights(cast_shadow=False)  # nothing of ours casts one; a machine without a graphics card is slow
     axis = int(np.argmax(np.abs(view.up)))
     if view.grid is None:
         scene.add_frame("/grid", show_axes=False)
