@@ -39,7 +39,9 @@ def framed(view: View, back: float, raised: float) -> tuple[np.ndarray, np.ndarr
 def add_floor(scene: viser.SceneApi, view: View) -> None:
     """Draw the grid and the labelled axes of a lesson."""
     scene.set_up_direction(view.up)
-    scene.configure_default_lights(cast_shadow=False)  # nothing of ours casts one; a machine without a graphics card is slow
+    scene.configure_default_lights(
+        cast_shadow=False
+    )  # nothing of ours casts one; a machine without a graphics card is slow
     axis = int(np.argmax(np.abs(view.up)))
     if view.grid is None:
         scene.add_frame("/grid", show_axes=False)
