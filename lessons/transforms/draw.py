@@ -1,5 +1,7 @@
 """What one step looks like: the body and where it started, the numbers beside it, and what just happened in words."""
 
+import functools
+
 import numpy as np
 
 from lessons.transforms.body import FRONT, Body
@@ -8,9 +10,10 @@ from lessons.transforms.states import Built, Moved, State
 from lessons.transforms.tables import in_other_numbers, invariants, matrix, one_point
 from lessons.transforms.words import caption_of_build, caption_of_move
 from workbench.geometry.affine import transform, transform_directions, translation
-from workbench.geometry.rotations import euler_axes, gimbal_margin
+from workbench.geometry.rotations import EulerOrder, euler_axes, gimbal_margin
 from workbench.scene import Axes, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments
 
+MIDDLE = np.arange(-180.0, 181.0, 5.0)  # degrees
 AXIS_ROLES: tuple[Role, ...] = ("x", "y", "z")
 
 
@@ -144,13 +147,16 @@ def _shows_lock(state: Built) -> bool:
     return state.params.compare == "other triples" or gimbal_margin(state.angles, state.params.order) < 0.1
 
 
+@functools.cache
+def _margins(order: EulerOrder) -> np.ndarray:
+    """Return how far from gimbal lock each middle angle is; the other two do not matter."""
+    return np.array([gimbal_margin(np.array([0.0, m, 0.0]), order) for m in np.radians(MIDDLE)])
+
+
 def _gimbal_curve(state: Built) -> Curve:
-    order, angles = state.params.order, np.radians(state.params.angles)
-    middle = np.arange(-180.0, 181.0, 5.0)
-    margin = [gimbal_margin(np.array([angles[0], m, angles[2]]), order) for m in np.radians(middle)]
     return Curve(
-        middle,
-        np.array(margin),
+        MIDDLE,
+        _margins(state.params.order),
         "0: the first and third axis are one",
         "Gimbal lock",
         "middle angle (deg)",
