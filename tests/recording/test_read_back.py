@@ -16,6 +16,7 @@ from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
 from workbench.recording.glyphs import safe
 from workbench.recording.read import FORMAT, read_chunks, reopening
+from workbench.recording.sink import entity_of
 from workbench.recording.viewer_files import binary
 from workbench.recording.write import record_bytes
 from workbench.timeline import Timeline
@@ -78,6 +79,13 @@ def test_running_and_recording_again_gives_the_same(run):
     other = path.with_name("again.rrd")
     other.write_bytes(record_bytes(Timeline(timeline.lesson, timeline.params).complete()))
     assert content(path) == content(other)
+
+
+def test_what_is_kept_does_not_hang_on_earlier_recordings(run):
+    """Rerun drops empty text, but only until it has met text of that name."""
+    timeline, path = run
+    named = {entity for entity, columns in content(path) if "unit" in columns}
+    assert named == {entity_of("scalars", name) for name, one in timeline.series().items() if one.scalar.unit}
 
 
 def test_presets_are_recorded_with_their_name(tmp_path):

@@ -28,12 +28,21 @@ def send_captions(stream: Any, captions: Sequence[Caption]) -> None:
     stream.send_columns("/caption", [_steps(len(captions))], rr.AnyValues.columns(caption=texts, tone=tones))
 
 
+def facts(**values: Any) -> rr.AnyValues:
+    """Return named values for a recording; empty text is left out.
+
+    Rerun would leave it out too, but only until it has met the name with text: two recordings would differ by what was
+    recorded before them.
+    """
+    return rr.AnyValues(**{name: value for name, value in values.items() if value != ""})
+
+
 def send_series(stream: Any, path: str, series: Series, order: int) -> None:
     """Send one scalar over all steps, how it is drawn, and its logarithm where that is what is drawn."""
     scalar, values = series.scalar, series.values.astype(float)
     entity, shown = entity_of("scalars", path), plotted(path, scalar)
     stream.send_columns(entity, [_steps(len(values))], rr.Scalars.columns(scalars=values))
-    about = rr.AnyValues(
+    about = facts(
         name=scalar.name,
         chart=scalar.chart,
         unit=scalar.unit,

@@ -15,7 +15,7 @@ from workbench import __version__, knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
 from workbench.progress import Progress, bar
-from workbench.recording.columns import send_captions, send_series
+from workbench.recording.columns import facts, send_captions, send_series
 from workbench.recording.contents import contents_of, places, to_json
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import one_run
@@ -121,7 +121,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         values = {path: one.values for path, one in series.items()}
         send_blueprint(stream, application, one_run(lesson.view, contents, values))
         stream.send_recording_name(safe(_title(timeline, preset)))
-        stream.send_property("run", rr.AnyValues(layout=to_json(contents, lesson.view), **_facts(timeline, preset)))
+        stream.send_property("run", facts(layout=to_json(contents, lesson.view), **_facts(timeline, preset)))
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
         stream.log("page", document(plain_page(_page_of(lesson))), static=True)
         send_captions(stream, [step.caption for step in steps])
@@ -135,7 +135,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         captions = [step.caption.text for step in steps]
         status = "complete" if timeline.finished and timeline.stopped is None else timeline.stopped or "unfinished"
         check = digest(knobs.to_json(timeline.params), captions, values)
-        stream.send_property("result", rr.AnyValues(status=status, steps=len(steps), digest=check))
+        stream.send_property("result", facts(status=status, steps=len(steps), digest=check))
 
     return stream_bytes(application, fill)
 
