@@ -137,12 +137,12 @@ def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out, n
     shows(last)
     page.get_by_role("button", name="Back", exact=True).click()
     shows(last - 1)
-    page.keyboard.press("Home")
+    page.keyboard.press("p")
+    shows(last - 2)
     page.locator("#speed").select_option("8")
     page.get_by_role("button", name="Play", exact=True).click()
-    page.get_by_role("button", name="Pause", exact=True).wait_for(timeout=WAIT)
-    page.wait_for_function("document.querySelector('#step').value >= 2", timeout=WAIT)
-    page.get_by_role("button", name="Pause", exact=True).click()
+    shows(last)
+    page.get_by_role("button", name="Play", exact=True).wait_for(timeout=WAIT)  # it stops at the end
 
     shown = page.evaluate(EVERY_STEP)
     assert [caption for caption, _ in shown] == [step.caption.text for step in timeline.known()]

@@ -1,11 +1,14 @@
+import io
 from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 import pytest
+import trimesh
 import viser
+from trimesh.visual import TextureVisuals
 
 from tests.fake import Params, lesson
-from workbench.scene import Points, in_space, same
+from workbench.scene import Field, Mesh, Points, color_rows, in_space, same
 from workbench.timeline import Timeline
 from workbench.viewer.sink import ROOT, ViserSink
 
@@ -150,3 +153,19 @@ def test_a_path_below_another_does_not_move_with_it(server, sink):
     parents = {name for name in nodes(server) if any(other.startswith(name + "/") for other in nodes(server))}
     assert not parents
     np.testing.assert_allclose(sink.handle("camera/point").position, (5.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("opacity", [1.0, 0.5])
+def test_a_coloured_mesh_is_matt_and_has_its_own_colours(server, sink, opacity):
+    p, values = np.eye(3), np.array([0.0, 0.5, 1.0])
+    mesh = Mesh(p, np.array([[0, 1, 2]]), Field(values, 0.0, 1.0, "height"), opacity=opacity)
+    sink.show({"mesh": mesh})
+    data = nodes(server)[ROOT + "mesh"]["glb_data"]
+    (shape,) = trimesh.load_scene(io.BytesIO(data), file_type="glb").geometry.values()
+    assert isinstance(shape.visual, TextureVisuals)
+    material = shape.visual.material
+    assert (material.metallicFactor, material.doubleSided) == (0.0, True)
+    assert material.alphaMode == ("BLEND" if opacity < 1 else None)
+    light = shape.visual.vertex_attributes["color"][:, :3] / 255.0  # GLB colours are linear
+    seen = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+    np.testing.assert_allclose(255 * seen, color_rows(mesh.color, 3), atol=3)

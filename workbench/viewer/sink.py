@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 import trimesh
 import viser
+from trimesh.visual import TextureVisuals
+from trimesh.visual.material import PBRMaterial
 from viser.transforms import SO3
 
 from workbench.scene import (
@@ -173,9 +175,13 @@ class ViserSink:
                 receive_shadow=False,
             )
         colors = np.empty((len(p), 4), np.uint8)
-        colors[:, :3], colors[:, 3] = color_rows(mesh.color, len(p)), round(255 * mesh.opacity)
-        both = np.concatenate([mesh.faces, mesh.faces[:, ::-1]])  # GLB faces are one-sided
-        shape = trimesh.Trimesh(p, both, vertex_colors=colors, process=False)
+        colors[:, :3], colors[:, 3] = _as_light(color_rows(mesh.color, len(p))), round(255 * mesh.opacity)
+        matt = PBRMaterial(  # without a material a GLB is all metal, and shows its surroundings instead of its colours
+            metallicFactor=0.0, roughnessFactor=1.0, doubleSided=True, alphaMode="BLEND" if mesh.opacity < 1 else None
+        )
+        visual = TextureVisuals(material=matt)
+        visual.vertex_attributes["color"] = colors
+        shape = trimesh.Trimesh(p, mesh.faces, visual=visual, process=False)
         return self.scene.add_mesh_trimesh(name, shape, cast_shadow=False, receive_shadow=False)
 
     def _axes(self, name: str, axes: Axes) -> Any:

@@ -39,9 +39,7 @@ def framed(view: View, back: float, raised: float) -> tuple[np.ndarray, np.ndarr
 def add_floor(scene: viser.SceneApi, view: View) -> None:
     """Draw the grid and the labelled axes of a lesson."""
     scene.set_up_direction(view.up)
-    scene.configure_default_lights(
-        cast_shadow=False
-    )  # nothing of ours casts one; a machine without a graphics card is slow
+    _light(scene, view)
     axis = int(np.argmax(np.abs(view.up)))
     if view.grid is None:
         scene.add_frame("/grid", show_axes=False)
@@ -74,3 +72,12 @@ def add_floor(scene: viser.SceneApi, view: View) -> None:
             font_screen_scale=0.8,
             anchor="center-center",
         )
+
+
+def _light(scene: viser.SceneApi, view: View) -> None:
+    """Light a lesson by two lamps and a plain sky: shadows and mirrored surroundings are slow without a graphics card."""
+    scene.configure_default_lights(cast_shadow=False)
+    scene.configure_environment_map(hdri=None)
+    scene.add_light_hemisphere(
+        "/sky", sky_color=(255, 255, 255), ground_color=(165, 165, 165), intensity=2.2, position=view.up
+    )
