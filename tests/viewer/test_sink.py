@@ -6,6 +6,7 @@ import pytest
 import trimesh
 import viser
 from trimesh.visual import TextureVisuals
+from trimesh.visual.material import PBRMaterial
 
 from tests.fake import Params, lesson
 from workbench.scene import Field, Mesh, Points, color_rows, in_space, same
@@ -164,6 +165,7 @@ def test_a_coloured_mesh_is_matt_and_has_its_own_colours(server, sink, opacity):
     (shape,) = trimesh.load_scene(io.BytesIO(data), file_type="glb").geometry.values()
     assert isinstance(shape.visual, TextureVisuals)
     material = shape.visual.material
+    assert isinstance(material, PBRMaterial)
     assert (material.metallicFactor, material.doubleSided) == (0.0, True)
     assert material.alphaMode == ("BLEND" if opacity < 1 else None)
     light = shape.visual.vertex_attributes["color"][:, :3] / 255.0  # GLB colours are linear
