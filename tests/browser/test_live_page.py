@@ -4,12 +4,14 @@ import re
 
 import pytest
 
+from workbench import open_recording
 from workbench.lesson import catalog
 from workbench.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 
 WAIT = 60_000  # milliseconds; drawing without a graphics card is slow to start
+DARK = "[data-mantine-color-scheme=dark]"
 
 
 class Student:
@@ -79,7 +81,7 @@ def default_run() -> Timeline:
     return Timeline(lesson, lesson.params()).complete()
 
 
-def test_play_step_back_knob_preset_question_link_code_and_reload(student, default_run):
+def test_play_step_back_knob_preset_question_link_code_theme_and_reload(student, default_run):
     texts = [step.caption.text for step in default_run.known()]
     me = student("?lesson=icp&step=2")
     me.caption(texts[2])
@@ -139,14 +141,17 @@ def test_play_step_back_knob_preset_question_link_code_and_reload(student, defau
     me.click(preset.title)
     me.page.wait_for_url(re.compile(r"\?lesson=icp&\w+="), timeout=WAIT)
 
-    # a question is answered, and remembered after a reload
+    # a question is answered, and remembered after a reload, as is the theme
     me.page.get_by_role("tab", name="Lesson").click()
     question = next(q for q in catalog()["icp"].questions if q.choices)
     me.click(question.choices[0])
     states = Timeline(catalog()["icp"], question.params).states()
     me.page.locator(".wb-result", has_text=question.why(states)[:40]).wait_for(timeout=WAIT)
+    me.click("Theme")
+    me.page.wait_for_selector(DARK, state="attached", timeout=WAIT)
     here = me.page.url
     me.page.reload()
+    me.page.wait_for_selector(DARK, state="attached", timeout=WAIT)
     me.page.locator(".wb-result", has_text=f"You answered: {question.choices[0]}").wait_for(timeout=WAIT)
     assert me.page.url == here
 
@@ -164,13 +169,16 @@ def test_every_lesson_opens_from_the_course_page_and_from_each_other(student):
         me.page.locator(".wb-done").first.wait_for(timeout=WAIT)
 
 
-def test_two_browsers_have_a_place_each(student, default_run):
+def test_two_browsers_have_a_place_each_and_a_link_to_it(student, default_run):
     one, two = student("?lesson=icp&step=1"), student("?lesson=icp&step=3")
     one.caption(default_run[1].caption.text)
     two.caption(default_run[3].caption.text)
     one.click("Last")
     one.caption(default_run[-1].caption.text)
     two.caption(default_run[3].caption.text)
+    two.click("Copy link")
+    two.page.get_by_text("Link to this step copied").wait_for(timeout=WAIT)
+    assert two.page.evaluate("navigator.clipboard.readText()") == two.address + "/?lesson=icp&step=3"
 
 
 def test_a_link_that_cannot_be_used_is_a_message_and_the_page_lives(student):
@@ -180,21 +188,16 @@ def test_a_link_that_cannot_be_used_is_a_message_and_the_page_lives(student):
     me.page.wait_for_selector(".wb-caption", timeout=WAIT)
 
 
-def test_the_link_that_is_copied_leads_to_the_same_step(student, default_run):
-    me = student("?lesson=icp&step=5")
-    me.caption(default_run[5].caption.text)
-    me.click("Copy link")
-    me.page.get_by_text("Link to this step copied").wait_for(timeout=WAIT)
-    copied = me.page.evaluate("navigator.clipboard.readText()")
-    assert copied == me.address + "/?lesson=icp&step=5"
-
-
-def test_the_theme_is_kept(student):
-    me = student("?lesson=icp")
-    me.click("Theme")
-    me.page.wait_for_selector("[data-mantine-color-scheme=dark]", state="attached", timeout=WAIT)
-    me.page.reload()
-    me.page.wait_for_selector("[data-mantine-color-scheme=dark]", state="attached", timeout=WAIT)
+def test_the_current_run_is_handed_out_as_a_recording(student, tmp_path):
+    me = student("?lesson=transforms&angles=40,20,60&step=2")
+    me.step_label(r"Step 2 of")
+    with me.page.expect_download(timeout=WAIT) as download:
+        me.button("Download recording").click(timeout=WAIT)
+    assert download.value.suggested_filename == "transforms.rrd"
+    download.value.save_as(tmp_path / "transforms.rrd")
+    recording = open_recording(tmp_path / "transforms.rrd")
+    assert recording.complete
+    assert (recording.lesson, recording.params["angles"]) == ("transforms", [40.0, 20.0, 60.0])
 
 
 def test_a_phone_shows_caption_and_controls(student, default_run):

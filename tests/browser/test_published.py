@@ -122,6 +122,7 @@ def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out, n
             "k => document.querySelector('#scene iframe').contentDocument.querySelector('input')?.value == k + 0.5",
             arg=k,
             timeout=WAIT,
+            polling=50,  # milliseconds; frames are slow without a graphics card
         )
         assert page.locator("#caption").inner_text() == timeline[k].caption.text
 

@@ -12,10 +12,8 @@ import pytest
 from PIL import Image
 
 from tests.recording.test_compare import files as files
-from workbench import open_recording
 from workbench.recording.replay import Replay
 from workbench.scene import PALETTE, Role
-from workbench.viewer.app import App
 
 pytestmark = pytest.mark.browser
 WIDTH, HEIGHT = 1000, 640
@@ -115,21 +113,3 @@ def test_two_recordings_open_side_by_side(window, files):
     window.open(files[2])
     window.until(shows_two_scenes)
     assert window.trouble == []
-
-
-def test_the_live_page_hands_out_the_current_run(chromium, tmp_path):
-    app = App(port=0)
-    page = chromium.new_page(viewport={"width": 1440, "height": 900})
-    try:
-        page.goto(f"{app.address}/?lesson=transforms&angles=40,20,60&step=2")
-        page.get_by_text("Step 2 of", exact=False).first.wait_for(timeout=WAIT)
-        with page.expect_download(timeout=WAIT) as download:
-            page.get_by_role("button", name="Download recording", exact=True).first.click(timeout=WAIT)
-        assert download.value.suggested_filename == "transforms.rrd"
-        download.value.save_as(tmp_path / "transforms.rrd")
-    finally:
-        page.close()
-        app.stop()
-    recording = open_recording(tmp_path / "transforms.rrd")
-    assert recording.complete
-    assert (recording.lesson, recording.params["angles"]) == ("transforms", [40.0, 20.0, 60.0])
