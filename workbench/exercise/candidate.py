@@ -9,7 +9,7 @@ from workbench.exercise.model import Function
 from workbench.exercise.sandbox import StudentError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Call:
     """One call of a candidate: what it was given, and what it gave or raised."""
 

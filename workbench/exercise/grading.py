@@ -1,7 +1,8 @@
 """Judges a function by an exercise's checks, each on its own, and names the mistake it makes."""
 
+import functools
 import warnings
-from collections.abc import Iterable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,9 @@ import numpy as np
 from workbench.exercise.candidate import Call, Candidate
 from workbench.exercise.model import Check, Exercise, Function, Mistake, Verdict, fail
 from workbench.exercise.sandbox import Student, StudentError
+
+Answer = Callable[[Function, Call], tuple[Any, str]]
+"""answer(function, call) -> its value, or None and the name of the error."""
 
 
 @dataclass(frozen=True)
@@ -91,8 +95,9 @@ def grade_function(function: Function, exercise: Exercise, *, hidden: bool = Tru
             if outcomes[-1].verdict.share < 1.0:
                 failing.append(candidate.calls)
     mistake = None
+    answer = functools.cache(lambda function, call: _answer(function, call.args))
     for asked in (calls, *failing) if failing else ():  # who makes two mistakes makes only one of them somewhere
-        mistake = mistake or recognised(asked, exercise)
+        mistake = mistake or recognised(asked, exercise, answer)
     not_run = tuple(check for check in exercise.checks if not (check.public or hidden))
     printed = function.printed() if isinstance(function, Student) else ""
     return Report(exercise, file, tuple(outcomes), not_run, mistake, printed)
@@ -108,21 +113,25 @@ def _judged(check: Check, candidate: Candidate) -> Verdict:
         return fail(f"The answer could not be judged ({type(error).__name__}: {' '.join(str(error).split())}).")
 
 
-def recognised(calls: Iterable[Call], exercise: Exercise) -> Mistake | None:
+def recognised(calls: Sequence[Call], exercise: Exercise, answer: Answer) -> Mistake | None:
     """Return the mistake whose answers equal those of the calls and differ from the right ones; None if there is none.
 
     Where the contract asks for an error, or leaves the answer open so that right solutions differ, another answer than
     the mistake's does not speak against it.
+
+    Args:
+        calls: What the student's function was asked, and what it said.
+        exercise: Whose mistakes are compared.
+        answer: Gives what one of our functions says to a call.
     """
-    asked = [(call, _answer(exercise.reference, call.args)) for call in calls]
     best, most = None, 0
     for mistake in exercise.mistakes:
         telling = 0
-        for call, right in asked:
-            wrong = _answer(mistake.function, call.args)
+        for call in calls:
+            right, wrong = answer(exercise.reference, call), answer(mistake.function, call)
             if _alike((call.value, call.error), wrong):
                 telling += not _alike(wrong, right)
-            elif not right[1] and all(_alike(_answer(other, call.args), right) for other in exercise.alternatives):
+            elif not right[1] and all(_alike(answer(other, call), right) for other in exercise.alternatives):
                 break
         else:
             if telling > most:
