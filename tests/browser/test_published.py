@@ -114,6 +114,7 @@ def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out, n
     lesson = catalog()[name]
     timeline = Timeline(lesson, lesson.params()).complete()
     last = len(timeline) - 1
+    page.set_viewport_size({"width": 640, "height": 400})  # fewer pixels are drawn sooner
     page.goto((out / name / "index.html").as_uri())
     page.frame_locator("#scene iframe").locator("canvas").first.wait_for(timeout=WAIT)
 
