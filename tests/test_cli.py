@@ -344,6 +344,21 @@ class TestCompare:
         assert f"{good} is a run of {QUICK}, {other} of fake" in line
 
 
+class TestPublish:
+    @pytest.mark.parametrize(
+        "words", [["--lesson", "icp", "ransac"], ["--lesson", "icp", "--lesson=ransac"], ["--lesson", "icp,ransac,icp"]]
+    )
+    def test_lessons_are_named_as_anybody_would(self, tmp_path, monkeypatch, words):
+        asked = []
+        monkeypatch.setattr("workbench.publish.site.publish", lambda out, lessons, **_: asked.extend(lessons) or [])
+        main(["publish", str(tmp_path), *words, "--base-url", "https://example.org/"])
+        assert [lesson.name for lesson in asked] == ["icp", "ransac"]
+
+    @pytest.mark.parametrize("words", [["--lesson"], ["--lesson", "--base-url", "https://example.org/"]])
+    def test_a_flag_without_its_names_is_said(self, capsys, tmp_path, words):
+        assert "--lesson needs a value behind it" in refused(capsys, "publish", tmp_path, *words)
+
+
 def test_unknown_commands_and_flags_are_said(capsys):
     assert "no command is named 'recrod'; there are: list, show, record" in refused(capsys, "recrod")
     assert "unknown flag --natve; did you mean --native?" in refused(capsys, "replay", "a.rrd", "--natve")

@@ -192,7 +192,7 @@ def grade(
 def publish(
     out: Annotated[Path, Option("Folder to write the site into.", "OUT")],
     /,
-    lesson: Annotated[str | None, Option("Only these lessons, comma-separated.", "NAME,NAME")] = None,
+    lesson: Annotated[tuple[str, ...], Option("Only these lessons; all by default.", "NAME ...")] = (),
     base_url: Annotated[str | None, Option("The address the site will have.", "URL")] = None,
 ) -> None:
     """Write static tutorial pages that play in any browser, without Python."""
@@ -201,7 +201,8 @@ def publish(
     from workbench.publish.site import publish as publish_site
     from workbench.publish.site import sizes_told
 
-    chosen = list(catalog().values()) if lesson is None else [find(name.strip()) for name in lesson.split(",")]
+    names = dict.fromkeys(name for word in lesson for name in word.split(",") if name)
+    chosen = [find(name) for name in names or catalog()]
     with bar(sys.stderr, "Publishing") as progress:
         files = publish_site(out, chosen, base_url=base_url, progress=progress)
     sys.stdout.write(sizes_told(out, files) + "\n")

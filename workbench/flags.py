@@ -101,6 +101,8 @@ def _part(parameter: inspect.Parameter, left: list[str], prog: str) -> _Part:
             lambda values: Serving(**{name: part.read(values.serving) for name, part in parts.items()}),
         )
     default = ... if parameter.default is parameter.empty else parameter.default
+    if isinstance(default, tuple):
+        left[:] = _gathered("--" + parameter.name.replace("_", "-"), left)
     return _option(parameter.name, parameter.annotation, default, parameter.kind is parameter.POSITIONAL_ONLY)
 
 
@@ -158,6 +160,23 @@ def _lesson_named(words: Sequence[str]) -> str | None:
     return next((word for word in words if word in catalog() or word.endswith(".py")), None)
 
 
+def _gathered(flag: str, words: Sequence[str]) -> list[str]:
+    """Return the words with a flag that takes many values once, at the end, however often it was given."""
+    values, others, taking = [], [], False
+    for word in words:
+        name, has_value, value = word.partition("=")
+        taking = name == flag or (taking and not word.startswith("-"))
+        if not taking:
+            others.append(word)
+        elif word != flag:
+            values.append(value if name == flag and has_value else word)
+    if len(others) == len(words):
+        return others
+    if not any(values):
+        raise InputError(f"{flag} needs a value behind it")
+    return [*others, flag, *values]
+
+
 def _given(flag: str, words: Sequence[str]) -> str | None:
     for word, following in zip(words, [*words[1:], ""], strict=False):
         if word == flag:
@@ -190,7 +209,7 @@ def _tuple(value: Any) -> tuple:
 def _flag(name: str, kind: Any, option: Option, default: Any, positional: bool = False, pair: bool = False) -> Flag:
     from tyro.conf import FlagCreatePairsOff, Positional, arg
 
-    hint = "(required)" if default is ... else "" if default in (None, "", True, False) and not pair else None
+    hint = "(required)" if default is ... else "" if default in (None, "", (), True, False) and not pair else None
     aliases = (option.short,) if option.short else None
     shown = name.rstrip("_") if name.endswith("_") else None  # a Python keyword, such as --with
     config = arg(
