@@ -74,7 +74,7 @@ def ransac_batched(
                 needed = min(max_iterations, iterations_needed(best.count / len(p), model.sample_size, confidence))
     if best is None:
         return Answer(None, drawn, Stop.NO_MODEL)
-    *_, last = best, *refit_rounds(p, model, best, judge, changing=0.002)
+    *_, last = best, *refit_rounds(p, model, best, judge, changing=0.005)
     estimate = mixture_fit(p, model, last.estimate, inlier_distance=inlier_distance)
     best = judge(estimate)
     return Answer(best, drawn, Stop.MAX_ITERATIONS if needed == max_iterations else Stop.ENOUGH)

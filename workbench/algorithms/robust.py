@@ -101,7 +101,7 @@ def mixture_fit(
     *,
     inlier_distance: float,
     rounds: int = 3,
-    tolerance: float = 0.01,
+    tolerance: float = 0.05,
 ) -> Float[np.ndarray, "..."]:
     """Return the estimate, near a good one, that explains the rows around it best as inliers among evenly spread outliers.
 
@@ -119,13 +119,14 @@ def mixture_fit(
     Reference: Torr and Zisserman, MLESAC, 2000, section 5 (the mixture); Dempster, Laird and Rubin 1977 (the iteration).
     """
     window = 10.0 * inlier_distance
-    near = np.compress(model.distances(estimate, p) <= window, p, axis=0)
+    distances = model.distances(estimate, p)
+    taken = distances <= window
+    near, distances = np.compress(taken, p, axis=0), distances[taken]
     if len(near) < model.fewest:
         return estimate
     # The volume in which an outlier near the model may lie: a strip to both sides, or a disc.
     outlier_density = 1.0 / (2.0 * window if model.directions == 1 else np.pi * window**2)
     sigma, share = 0.5 * inlier_distance, 0.5
-    distances = model.distances(estimate, near)
     for _ in range(rounds):
         peak = share / (np.sqrt(2.0 * np.pi) * sigma) ** model.directions
         inlier_density = peak * np.exp(-0.5 * (distances / sigma) ** 2)

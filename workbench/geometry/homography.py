@@ -25,7 +25,7 @@ def normalising_similarity(uv: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray,
 
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997, section 5.
     """
-    centroid = uv.mean(axis=-2)
+    centroid = np.ones(uv.shape[-2]) @ uv / uv.shape[-2]  # quicker than the mean of columns
     spread = np.sqrt(np.square(uv - centroid[..., None, :]) @ np.ones(2)).mean(axis=-1)
     scale = np.sqrt(2.0) / np.where(spread > 0.0, spread, np.sqrt(2.0))
     T = np.zeros((*uv.shape[:-2], 3, 3), uv.dtype)
@@ -40,7 +40,8 @@ def transform_pixels(H_b_a: Float[np.ndarray, "*k 3 3"], uv_a: Float[np.ndarray,
 
     Several homographies give one block each. Works in the precision of its input.
     """
-    uv_b_h = (H_b_a.reshape(-1, 3) @ homogeneous(uv_a).T).reshape(*H_b_a.shape[:-1], len(uv_a))
+    rows = H_b_a.reshape(-1, 3)
+    uv_b_h = (rows[:, :2] @ uv_a.T + rows[:, 2:]).reshape(*H_b_a.shape[:-1], len(uv_a))
     w = uv_b_h[..., 2, :]
     w = np.where(w == 0.0, np.asarray(np.nan, w.dtype), w)
     return np.stack([uv_b_h[..., 0, :] / w, uv_b_h[..., 1, :] / w], axis=-1)
