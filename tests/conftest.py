@@ -34,18 +34,10 @@ def shared_data() -> Path:
 
 @pytest.fixture(scope="session")
 def chromium() -> Iterator:
-    """A running Chromium, the only one: Playwright starts once a session. A build server fails without it."""
+    """A running Chromium, one for all tests of a worker. A build server fails without it."""
     if find_chromium() is None:
         if os.environ.get("CI"):
             pytest.fail(HOW_TO)
         pytest.skip(HOW_TO)
     with started() as browser:
         yield browser
-
-
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Keep all browser tests with one worker: two browsers that draw without a graphics card starve each other."""
-    for item in items:
-        if item.get_closest_marker("browser"):
-            item.add_marker(pytest.mark.xdist_group("browser"))
