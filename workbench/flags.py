@@ -164,12 +164,12 @@ def _gathered(flag: str, words: Sequence[str]) -> list[str]:
     """Return the words with a flag that takes many values once, at the end, however often it was given."""
     values, others, taking = [], [], False
     for word in words:
-        name, has_value, value = word.partition("=")
+        name, _, value = word.partition("=")
         taking = name == flag or (taking and not word.startswith("-"))
         if not taking:
             others.append(word)
         elif word != flag:
-            values.append(value if name == flag and has_value else word)
+            values.append(value if name == flag else word)
     if len(others) == len(words):
         return others
     if not any(values):

@@ -68,10 +68,6 @@ def page(chromium):
     assert trouble == []
 
 
-def seconds(page) -> str:
-    return page.frame_locator("#scene iframe").locator("input").first.input_value(timeout=WAIT)
-
-
 def barriers(page) -> list[tuple[str, str]]:
     """Return what axe calls serious on this page: the rule, and the first place that breaks it."""
     found = Axe().run(page, options={"iframes": False, "preload": False}).response["violations"]
@@ -202,10 +198,18 @@ def test_replays_load_when_they_are_opened_and_not_before(page, out):
     assert loaded.count("viser.js") == 1
 
 
-def test_one_run_alone_plays_too(page, out):
-    page.goto((out / "fake" / "runs" / "half.html").as_uri())
-    page.locator("#caption", has_text="points turned").wait_for(timeout=WAIT)
+def test_one_run_alone_plays_too_and_pauses(page, out):
+    page.goto((out / "icp" / "runs" / "default.html").as_uri())
     page.frame_locator("#scene iframe").locator("canvas").first.wait_for(timeout=WAIT)
+    page.keyboard.press("Home")
+    page.get_by_role("button", name="Play", exact=True).click()
+    page.get_by_role("button", name="Pause", exact=True).wait_for(timeout=WAIT)
+    page.wait_for_function("document.querySelector('#step').value >= 2", timeout=WAIT, polling=50)
+    page.get_by_role("button", name="Pause", exact=True).click()
+    page.get_by_role("button", name="Play", exact=True).wait_for(timeout=WAIT)
+    paused = page.locator("#step").input_value()
+    page.wait_for_timeout(1500)  # milliseconds; a step a second
+    assert page.locator("#step").input_value() == paused
 
 
 def test_a_phone_sees_the_scene_and_the_caption_without_scrolling_sideways(chromium, out):
