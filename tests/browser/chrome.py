@@ -4,7 +4,13 @@ import os
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, BrowserContext, Page
+
+WAIT = 180_000
+"""Milliseconds after which a test gives up: it waits for states, also on a busy machine that draws slowly."""
 HOW_TO = (
     "no Chromium or Chrome here: install one (Debian: apt-get install chromium), or set WORKBENCH_CHROMIUM to its path"
 )
@@ -29,8 +35,27 @@ def find_chromium() -> str | None:
     return next((path for name in names if (path := shutil.which(name))), None)
 
 
+class Chrome:
+    """A running browser; whatever its pages wait for, they wait for as long as a slow machine needs."""
+
+    def __init__(self, browser: "Browser"):
+        self._browser = browser
+
+    def new_context(self, **options: Any) -> "BrowserContext":
+        """Return a browser window of its own: its own storage, its own tabs."""
+        context = self._browser.new_context(**options)
+        context.set_default_timeout(WAIT)
+        return context
+
+    def new_page(self, **options: Any) -> "Page":
+        """Return a page in a window of its own, which closes with it."""
+        page = self._browser.new_page(**options)
+        page.set_default_timeout(WAIT)
+        return page
+
+
 @contextmanager
-def started() -> Iterator:
+def started() -> Iterator[Chrome]:
     """Start a browser; the value opens pages."""
     from playwright.sync_api import sync_playwright
 
@@ -39,6 +64,6 @@ def started() -> Iterator:
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
         try:
-            yield browser
+            yield Chrome(browser)
         finally:
             browser.close()

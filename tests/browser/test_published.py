@@ -17,8 +17,6 @@ from workbench.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 
-WAIT = 60_000
-
 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory):
@@ -112,13 +110,12 @@ def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out, n
     last = len(timeline) - 1
     page.set_viewport_size({"width": 640, "height": 400})  # fewer pixels are drawn sooner
     page.goto((out / name / "index.html").as_uri())
-    page.frame_locator("#scene iframe").locator("canvas").first.wait_for(timeout=WAIT)
+    page.frame_locator("#scene iframe").locator("canvas").first.wait_for()
 
     def shows(k: int) -> None:
         page.wait_for_function(
             "k => document.querySelector('#scene iframe').contentDocument.querySelector('input')?.value == k + 0.5",
             arg=k,
-            timeout=WAIT,
             polling=50,  # milliseconds; frames are slow without a graphics card
         )
         assert page.locator("#caption").inner_text() == timeline[k].caption.text
@@ -140,7 +137,7 @@ def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out, n
     page.locator("#speed").select_option("8")
     page.get_by_role("button", name="Play", exact=True).click()
     shows(last)
-    page.get_by_role("button", name="Play", exact=True).wait_for(timeout=WAIT)  # it stops at the end
+    page.get_by_role("button", name="Play", exact=True).wait_for()  # it stops at the end
 
     shown = page.evaluate(EVERY_STEP)
     assert [caption for caption, _ in shown] == [step.caption.text for step in timeline.known()]
@@ -157,12 +154,12 @@ def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out, n
 def test_a_run_further_down_is_brought_into_view_and_keeps_the_keys(page, out, width):
     page.set_viewport_size({"width": width, "height": 700})
     page.goto((out / "icp" / "index.html").as_uri())
-    page.frame_locator("#scene iframe").locator("canvas").first.wait_for(timeout=WAIT)
+    page.frame_locator("#scene iframe").locator("canvas").first.wait_for()
     page.locator("[data-run]").last.click()
-    page.locator("[data-run][aria-pressed=true]").last.wait_for(timeout=WAIT)
-    page.wait_for_function("document.querySelector('#scene').getBoundingClientRect().top >= -1", timeout=WAIT)
-    page.frame_locator("#scene iframe").locator("canvas").first.wait_for(timeout=WAIT)
-    page.wait_for_function("document.activeElement.dataset.run !== undefined", timeout=WAIT)
+    page.locator("[data-run][aria-pressed=true]").last.wait_for()
+    page.wait_for_function("document.querySelector('#scene').getBoundingClientRect().top >= -1")
+    page.frame_locator("#scene iframe").locator("canvas").first.wait_for()
+    page.wait_for_function("document.activeElement.dataset.run !== undefined")
     before = page.evaluate("scrollY")
     page.keyboard.press("End")
     page.wait_for_function("document.querySelector('#step').value === document.querySelector('#step').max")
@@ -174,22 +171,20 @@ def test_a_question_is_answered_and_its_run_shown(page, out):
     form = page.locator("form.question").nth(1)
     form.get_by_label("the first").check()
     form.get_by_role("button", name="Answer", exact=True).click()
-    form.locator("output", has_text="You said the first; the run says the second. The second is.").wait_for(
-        timeout=WAIT
-    )
+    form.locator("output", has_text="You said the first; the run says the second. The second is.").wait_for()
     number = page.locator("form.question").first
     number.get_by_role("button", name="Answer", exact=True).click()
-    number.locator("output", has_text="type an answer first").wait_for(timeout=WAIT)
+    number.locator("output", has_text="type an answer first").wait_for()
     number.locator("input[type=number]").fill("0")
     number.get_by_role("button", name="Answer", exact=True).click()
-    number.locator("output", has_text="Right").wait_for(timeout=WAIT)
+    number.locator("output", has_text="Right").wait_for()
 
 
 def test_replays_load_when_they_are_opened_and_not_before(page, out):
     loaded: list[str] = []
     page.on("request", lambda request: loaded.append(request.url.rsplit("/", 1)[-1]))
     page.goto((out / "fake" / "index.html").as_uri())
-    page.locator("#caption", has_text="points turned").wait_for(timeout=WAIT)
+    page.locator("#caption", has_text="points turned").wait_for()
     assert "default.js" in loaded
     assert "half.js" not in loaded
     page.get_by_role("button", name="Half a turn").click()
@@ -200,13 +195,13 @@ def test_replays_load_when_they_are_opened_and_not_before(page, out):
 
 def test_one_run_alone_plays_too_and_pauses(page, out):
     page.goto((out / "icp" / "runs" / "default.html").as_uri())
-    page.frame_locator("#scene iframe").locator("canvas").first.wait_for(timeout=WAIT)
+    page.frame_locator("#scene iframe").locator("canvas").first.wait_for()
     page.keyboard.press("Home")
     page.get_by_role("button", name="Play", exact=True).click()
-    page.get_by_role("button", name="Pause", exact=True).wait_for(timeout=WAIT)
-    page.wait_for_function("document.querySelector('#step').value >= 2", timeout=WAIT, polling=50)
+    page.get_by_role("button", name="Pause", exact=True).wait_for()
+    page.wait_for_function("document.querySelector('#step').value >= 2", polling=50)
     page.get_by_role("button", name="Pause", exact=True).click()
-    page.get_by_role("button", name="Play", exact=True).wait_for(timeout=WAIT)
+    page.get_by_role("button", name="Play", exact=True).wait_for()
     paused = page.locator("#step").input_value()
     page.wait_for_timeout(1500)  # milliseconds; a step a second
     assert page.locator("#step").input_value() == paused
@@ -215,7 +210,7 @@ def test_one_run_alone_plays_too_and_pauses(page, out):
 def test_a_phone_sees_the_scene_and_the_caption_without_scrolling_sideways(chromium, out):
     phone = chromium.new_page(viewport={"width": 390, "height": 844})
     phone.goto((out / "icp" / "index.html").as_uri())
-    phone.wait_for_function("document.querySelector('#caption').textContent.length > 10", timeout=WAIT)
+    phone.wait_for_function("document.querySelector('#caption').textContent.length > 10")
     assert phone.evaluate("document.documentElement.scrollWidth") <= 390
     box = phone.locator("#caption").bounding_box()
     assert box is not None

@@ -8,7 +8,6 @@ from workbench.lesson import catalog
 from workbench.viewer.app import App
 
 pytestmark = pytest.mark.browser
-WAIT = 60_000
 TRANSPOSED = """import numpy as np
 
 
@@ -36,28 +35,28 @@ def test_a_student_s_file_is_watched(chromium, tmp_path):
     page.on("pageerror", lambda error: errors.append(str(error)))
     try:
         page.goto(app.address)
-        page.get_by_role("tab", name="Exercise").click(timeout=WAIT)
+        page.get_by_role("tab", name="Exercise").click()
         report, caption = page.locator(".wb-report"), page.locator(".wb-caption")
-        report.get_by_text("public 0/3 · hidden 4 not run here").wait_for(timeout=WAIT)
-        report.get_by_text("Your R equals the transpose of the right one").wait_for(timeout=WAIT)
+        report.get_by_text("public 0/3 · hidden 4 not run here").wait_for()
+        report.get_by_text("Your R equals the transpose of the right one").wait_for()
         page.get_by_role("button", name="Go to the first difference").click()
-        caption.get_by_text("Here your run first differs from the reference").wait_for(timeout=WAIT)
-        page.get_by_text("first difference", exact=True).wait_for(timeout=WAIT)
+        caption.get_by_text("Here your run first differs from the reference").wait_for()
+        page.get_by_text("first difference", exact=True).wait_for()
 
         file.write_text(RIGHT)
-        report.get_by_text("public 3/3 · hidden 4 not run here").wait_for(timeout=WAIT)
-        page.get_by_text("first difference", exact=True).wait_for(state="detached", timeout=WAIT)
+        report.get_by_text("public 3/3 · hidden 4 not run here").wait_for()
+        page.get_by_text("first difference", exact=True).wait_for(state="detached")
 
         late = chromium.new_page()
         late.goto(app.address)
-        late.get_by_role("tab", name="Exercise").click(timeout=WAIT)
-        late.locator(".wb-report").get_by_text("public 3/3").wait_for(timeout=WAIT)
+        late.get_by_role("tab", name="Exercise").click()
+        late.locator(".wb-report").get_by_text("public 3/3").wait_for()
         late.close()
 
         file.write_text(BROKEN)
-        caption.get_by_text("my_align_rigid.py, line 5: align_rigid raised ZeroDivisionError").wait_for(timeout=WAIT)
+        caption.get_by_text("my_align_rigid.py, line 5: align_rigid raised ZeroDivisionError").wait_for()
         file.write_text("def align_rigid(p_target, p_source:\n")
-        report.get_by_text("line 1").first.wait_for(timeout=WAIT)
+        report.get_by_text("line 1").first.wait_for()
         assert errors == []
     finally:
         page.close()

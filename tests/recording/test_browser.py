@@ -17,8 +17,7 @@ from workbench.scene import PALETTE, Role
 
 pytestmark = pytest.mark.browser
 WIDTH, HEIGHT = 1000, 640
-WAIT = 120_000  # milliseconds; drawing without a graphics card is slow to start
-LOOKS = 120  # how often a picture is looked at before it is given up
+LOOKS = 480  # how often a picture is looked at before it is given up
 
 
 class Window:
@@ -31,7 +30,7 @@ class Window:
         self.page.on("response", lambda answer: self._local(answer.url, address))
         self.page.on("pageerror", lambda error: self.trouble.append(str(error)))
         self.page.goto(address)
-        self.page.locator("#note").wait_for(state="detached", timeout=WAIT)
+        self.page.locator("#note").wait_for(state="detached")
 
     def _local(self, url: str, address: str) -> None:
         if not url.startswith((address, "data:", "blob:")):
