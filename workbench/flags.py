@@ -26,8 +26,8 @@ RESERVED = frozenset(
 )
 """Flags of the commands, words of links, keywords of `record`: no Params field may have one of these names."""
 
-SWITCHES = frozenset({"--no-browser", "--force", "--native"})
-"""Flags of the commands that take no value."""
+SWITCHES = frozenset({"--no-browser", "--force"})
+"""Flags without a value, of the commands that take a lesson."""
 
 Flag: TypeAlias = tuple[str, Any, Any]
 """A field of what tyro fills in: name, annotated type, default; `...` where one must be given."""
