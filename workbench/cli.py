@@ -141,15 +141,14 @@ def exercise(
     force: Annotated[bool, Option("Replace a file that is there: your work in it is lost.")] = False,
 ) -> None:
     """Write the starter file of an exercise, or list all exercises."""
-    from workbench.exercise.starter import exercises, find_exercise, write_starter
+    from workbench.exercise.starter import exercises, exercises_of, find_exercise, write_starter
 
     if name is None:
         for item in exercises().values():
             sys.stdout.write(f"{item.lesson:<12} {item.name:<25} {item.task.split('. ')[0].rstrip('.')}.\n")
         return
     lesson = catalog().get(name)
-    chosen = lesson.exercises() if lesson is not None and lesson.exercises() else (find_exercise(name),)
-    for item in chosen:
+    for item in (lesson and exercises_of(lesson)) or (find_exercise(name),):
         sys.stdout.write(f"{write_starter(item, out, force=force)}\n")
 
 
