@@ -9,7 +9,7 @@ import pytest
 from tests import fake
 from workbench import listing
 from workbench.errors import InputError
-from workbench.lesson import catalog, find
+from workbench.lesson import catalog, find, load
 from workbench.listing import listed
 
 
@@ -45,18 +45,20 @@ def test_a_third_party_s_broken_lesson_is_left_out_and_named(registered, value, 
         assert "icp" in catalog()
 
 
-def test_a_lesson_from_a_file_or_a_line_that_says_why_not(tmp_path, monkeypatch):
+def test_a_lesson_from_a_file_or_a_line_that_says_why_not(tmp_path):
     file = tmp_path / "mine.py"
     with pytest.raises(InputError, match="no such file"):
-        find(str(file))
+        load(file)
     file.write_text("from tests.fake import lesson\n")
-    assert find(str(file)) is fake.lesson
-    file.write_text("lesson = 3\n")
-    with pytest.raises(InputError, match="of type Lesson"):
-        find(str(file))
-    file.write_text("1 / 0\n")
-    with pytest.raises(InputError, match="ZeroDivisionError"):
-        find(str(file))
+    assert load(file) is fake.lesson
+    for text, said in (
+        ("lesson = 3\n", "of type Lesson"),
+        ("1 / 0\n", "ZeroDivisionError"),
+        ("raise SystemExit(0)\n", "SystemExit"),
+    ):
+        file.write_text(text)
+        with pytest.raises(InputError, match=f"mine.py: .*{said}"):
+            load(file)
     with pytest.raises(InputError, match="no lesson is named 'nothing'; there are: transforms, pinhole"):
         find("nothing")
 

@@ -118,8 +118,16 @@ class TestRecord:
         assert said == f"{out}: 3 steps, {out.stat().st_size / 1e6:.1f} MB\n"
         assert complaints == ""  # a bar is for terminals only
         recording = open_recording(out)
-        assert (recording.lesson, recording.preset, recording.seed, len(recording)) == ("fake", "half", 7, 3)
+        assert (recording.lesson, recording.seed, len(recording)) == ("fake", 7, 3)
         assert recording.params["angle"] == fake.lesson.preset("half").params.angle
+
+    @pytest.mark.parametrize(
+        ("words", "kept"), [([], "short"), (["--steps", "2"], "short"), (["--steps", "3"], None), (["--wobble"], None)]
+    )
+    def test_a_preset_s_name_is_kept_only_where_the_params_are_the_preset_s(self, tmp_path, words, kept):
+        out = tmp_path / "a.rrd"
+        assert main(["record", FAKE, "--preset", "short", *words, "-o", str(out)]) == 0
+        assert open_recording(out).preset == kept
 
     def test_a_terminal_sees_how_far_it_is(self, capsys, tmp_path, monkeypatch):
         monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
@@ -316,7 +324,7 @@ class TestReopen:
     def test_a_lesson_that_is_not_here_is_said(self, capsys, tmp_path, opened):
         path = record(fake.lesson, tmp_path / "a.rrd")
         line = refused(capsys, "reopen", path, *HIDDEN)
-        assert f"{path}: no lesson is named 'fake'; there are: " in line
+        assert f"{path}: is a run of the lesson 'fake', which is not installed" in line
         assert opened == []
 
 

@@ -36,7 +36,7 @@ ALLOWED = {
     "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.recording", "workbench.viewer", "workbench.typeset", "workbench.session",
-        "workbench.links", "workbench.images", "workbench.progress",
+        "workbench.links", "workbench.images", "workbench.progress", "workbench.flags",
     },
     "workbench.viewer": LESSON | {
         "workbench.viewer", "workbench.session", "workbench.links", "workbench.picking", "workbench.typeset",

@@ -138,14 +138,14 @@ def test_every_question_is_answered_by_its_run(lesson):
 
 
 def test_the_page_has_its_parts(lesson):
-    text = lesson.page.read_text(encoding="utf-8")
+    text = lesson.text()
     assert 350 <= len(text.split()) <= 1100, len(text.split())
     for part in ("Conventions", "Watch", "Predict", "Break it", "Your turn", "Pitfalls", "References"):
         assert part.lower() in text.lower(), f"{lesson.name}/page.md has no part {part!r}"
 
 
 def test_every_formula_of_the_page_is_read(lesson):
-    formulas = re.findall(r"<math.*?</math>", page_html(lesson.page.read_text(encoding="utf-8")), re.DOTALL)
+    formulas = re.findall(r"<math.*?</math>", page_html(lesson.text()), re.DOTALL)
     assert formulas
     for formula in formulas:
         assert chr(92) not in formula, f"an unknown TeX command in {formula}"

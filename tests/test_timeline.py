@@ -1,5 +1,4 @@
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Annotated
 
 import numpy as np
@@ -20,7 +19,7 @@ class Bare:
 
 def bare(run, draw=None) -> Lesson:
     shown = draw or (lambda state: {"p": Points(state), "caption": Caption("A step happened")})
-    return Lesson("bare", "Bare", "One line", Path(__file__), Bare, run, shown, order=1)
+    return Lesson(name="bare", title="Bare", summary="One line", params=Bare, run=run, draw=shown, order=1)
 
 
 def test_steps_are_computed_once_and_kept():

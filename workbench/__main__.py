@@ -2,10 +2,18 @@
 
 import contextlib
 import sys
+import warnings
+from typing import Any
 
 
 def main() -> int:
     """Carry out the command line and return the exit code."""
+    with warnings.catch_warnings():
+        _tell_in_one_line()
+        return _carry_out()
+
+
+def _carry_out() -> int:
     if sys.argv[1:] == ["list"]:  # needs nothing of what the other commands import
         from workbench.listing import listed
 
@@ -16,6 +24,21 @@ def main() -> int:
     from workbench.cli import main as carry_out
 
     return carry_out()
+
+
+def _tell_in_one_line() -> None:
+    """Let what is left out be told like everything else the commands tell, without Python's file and line."""
+    from workbench.errors import LeftOutWarning
+
+    otherwise = warnings.showwarning
+
+    def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+        if issubclass(category, LeftOutWarning):
+            sys.stderr.write(f"workbench: {message}\n")
+        else:
+            otherwise(message, category, *where, **more)
+
+    warnings.showwarning = show
 
 
 if __name__ == "__main__":

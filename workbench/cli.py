@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from workbench import __version__
-from workbench.errors import InputError
-from workbench.flags import Chosen, Option, Serving, parse
+from workbench.errors import InputError, one_line
+from workbench.flags import Chosen, Option, Serving, command_line, lesson_given, parse
 from workbench.lesson import catalog
 
 Command = Callable[..., int | None]
@@ -102,16 +102,25 @@ def replay(file: Recording, /, serving: Serving, native: Native = False) -> None
 
 
 @command
-def reopen(file: Recording, /, serving: Serving) -> None:
+def reopen(
+    file: Recording,
+    /,
+    serving: Serving,
+    lesson: Annotated[
+        str | None, Option("The lesson's own file, for a recording of a lesson from a single file.", "FILE.py")
+    ] = None,
+    files: Annotated[bool, Option("Open the files that the recording names as its input.")] = False,
+) -> None:
     """Open the live lesson at the params of a recording."""
     from workbench.recording.read import reopening
     from workbench.viewer.app import serve as serve_page
 
-    lesson, params, warnings = reopening(file)
+    given = None if lesson is None else lesson_given(lesson)
+    found, params, warnings = reopening(file, given, files=files)
     for warning in warnings:
         _complain(warning)
-    _try_first_step(lesson, params)
-    serve_page(lesson, params, None, host=serving.host, port=serving.port, browser=serving.browser)
+    _try_first_step(found, params)
+    serve_page(found, params, None, host=serving.host, port=serving.port, browser=serving.browser)
 
 
 @command
@@ -132,15 +141,14 @@ def exercise(
     force: Annotated[bool, Option("Replace a file that is there: your work in it is lost.")] = False,
 ) -> None:
     """Write the starter file of an exercise, or list all exercises."""
-    from workbench.exercise.starter import exercises, find_exercise, write_starter
+    from workbench.exercise.starter import exercises, exercises_of, find_exercise, write_starter
 
     if name is None:
         for item in exercises().values():
             sys.stdout.write(f"{item.lesson:<12} {item.name:<25} {item.task.split('. ')[0].rstrip('.')}.\n")
         return
     lesson = catalog().get(name)
-    chosen = lesson.exercises() if lesson is not None and lesson.exercises() else (find_exercise(name),)
-    for item in chosen:
+    for item in (lesson and exercises_of(lesson)) or (find_exercise(name),):
         sys.stdout.write(f"{write_starter(item, out, force=force)}\n")
 
 
@@ -165,7 +173,7 @@ def check(
         sys.stdout.flush()  # what follows takes a while
         recorded = None if report.is_full else record_failing(report.exercise, file)
         if recorded is not None:
-            sys.stdout.write(f"  Watch where it goes wrong: workbench replay {recorded}\n")
+            sys.stdout.write(f"  Watch where it goes wrong: {command_line('replay', recorded)}\n")
     if out is not None:
         write_files(reports, out)
     return 0 if all(report.is_full for report in reports) else 1
@@ -196,13 +204,12 @@ def publish(
     base_url: Annotated[str | None, Option("The address the site will have.", "URL")] = None,
 ) -> None:
     """Write static tutorial pages that play in any browser, without Python."""
-    from workbench.lesson import find
     from workbench.progress import bar
     from workbench.publish.site import publish as publish_site
     from workbench.publish.site import sizes_told
 
     names = dict.fromkeys(name for word in lesson for name in word.split(",") if name)
-    chosen = [find(name) for name in names or catalog()]
+    chosen = [lesson_given(name) for name in names or catalog()]
     with bar(sys.stderr, "Publishing") as progress:
         files = publish_site(out, chosen, base_url=base_url, progress=progress)
     sys.stdout.write(sizes_told(out, files) + "\n")
@@ -265,4 +272,4 @@ def _try_first_step(lesson: Any, params: Any) -> None:
 
 
 def _complain(line: str) -> None:
-    sys.stderr.write(f"workbench: {line}\n")
+    sys.stderr.write(f"workbench: {one_line(line)}\n")

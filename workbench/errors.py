@@ -1,4 +1,12 @@
-"""The one error whose message is written for the person at the keyboard."""
+"""The error and the warning whose messages are written for the person at the keyboard."""
+
+
+def one_line(text: str) -> str:
+    """Return text on one line of signs that can be seen: what a terminal would obey is written out (`\\x1b`).
+
+    A message often quotes a name out of a file, and that file may be anybody's.
+    """
+    return "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in " ".join(text.split()))
 
 
 class InputError(ValueError):
@@ -8,4 +16,11 @@ class InputError(ValueError):
     """
 
     def __init__(self, message: str):
-        super().__init__(" ".join(message.split()))
+        super().__init__(one_line(message))
+
+
+class LeftOutWarning(UserWarning):
+    """Something installed cannot be used and is left out; one line that says what, where it is, and why."""
+
+    def __init__(self, message: str):
+        super().__init__(one_line(message))

@@ -10,16 +10,24 @@ import difflib
 import inspect
 import io
 import re
+import shlex
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, make_dataclass
+from pathlib import Path
 from typing import Annotated, Any, TypeAlias, get_args
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.lesson import Lesson, catalog, find
+from workbench.lesson import Lesson, catalog, find, load
 
-RESERVED = frozenset({"lesson", "preset", "step", "out", "force", "host", "port", "browser", "with", "native", "help"})
-"""Flags of the commands and words of links: no Params field may have one of these names."""
+RESERVED = frozenset(
+    {"lesson", "preset", "step", "out", "force", "host", "port", "browser", "with", "native", "help", "params"}
+)
+"""Flags of the commands, words of links, keywords of `record`: no Params field may have one of these names."""
+
+SWITCHES = frozenset({"--no-browser", "--force"})
+"""Flags without a value, of the commands that take a lesson."""
 
 Flag: TypeAlias = tuple[str, Any, Any]
 """A field of what tyro fills in: name, annotated type, default; `...` where one must be given."""
@@ -49,7 +57,7 @@ class Serving:
 
 @dataclass(frozen=True)
 class Chosen:
-    """A lesson and its params, as asked for, and the preset they started from."""
+    """A lesson and its params, as asked for, and the preset they started from (flags may have changed them since)."""
 
     lesson: Lesson
     params: Any
@@ -88,6 +96,32 @@ def parse(
     call = signature.bind_partial()
     call.arguments.update({name: part.read(values) for name, part in parts.items()})
     return lambda: function(*call.args, **call.kwargs)
+
+
+def command_line(*words: object) -> str:
+    """Return a command of the workbench as a person can type it, quoted for a shell."""
+    return shlex.join(["workbench", *map(str, words)])
+
+
+def show_command(lesson: Lesson, params: Any) -> str:
+    """Return the command that opens a lesson live at these params.
+
+    A lesson that the catalogue does not have is named by its file. Where a run reads somebody's own file, FILE stands in
+    its place: what a person's folders are called is nobody else's business.
+    """
+    given = knobs.changed(params)
+    flags = [_flag_of(field, given[field.name]) for field in knobs.fields_of(type(params)) if field.name in given]
+    file = getattr(sys.modules.get(lesson.params.__module__), "__file__", None)
+    name = lesson.name if lesson.name in catalog() or file is None else Path(file).name
+    return command_line("show", name, *flags)
+
+
+def _flag_of(field: knobs.Field, text: str) -> str:
+    """Return the flag that gives a field the value that `knobs.changed` writes as this text."""
+    name = field.name.replace("_", "-")
+    if field.kind == "bool":
+        return f"--{name}" if field.clean(text) else f"--no-{name}"
+    return f"--{name}={'FILE' if field.kind == 'path' else text}"
 
 
 def _part(parameter: inspect.Parameter, left: list[str], prog: str) -> _Part:
@@ -135,7 +169,7 @@ def _lesson_part(left: list[str], prog: str) -> _Part:
         )
         return _Part((_flag("lesson", str, about, ..., positional=True),), lambda values: None)
     left.remove(name)
-    lesson = find(name)
+    lesson = lesson_given(name)
     preset = _given("--preset", left)
     base = lesson.params() if preset is None else lesson.preset(preset).params
     flags = [_param_flag(field, getattr(base, field.name)) for field in knobs.fields_of(lesson.params)]
@@ -153,11 +187,28 @@ def _lesson_part(left: list[str], prog: str) -> _Part:
     return _Part((("params", group, ...), start), read, lesson)
 
 
+def lesson_given(word: str) -> Lesson:
+    """Return the lesson that a person names on the command line: by its name, or by the path of its file.
+
+    For words that a person typed only, since the file is run; names out of files and links go to `find`.
+
+    Raises:
+        InputError: If there is no such lesson, or the file cannot be used.
+    """
+    return load(Path(word)) if word.endswith(".py") else find(word)
+
+
 def _lesson_named(words: Sequence[str]) -> str | None:
-    """Return the lesson's name: the first word, or further on one that is a lesson or a Python file."""
+    """Return the lesson's name: the first word, or further on one that is a lesson, or a Python file behind no flag.
+
+    What stands behind a flag is its value: `--with FILE.py` is a student's file, which is never run in this process.
+    """
     if words and not words[0].startswith("-"):
         return words[0]
-    return next((word for word in words if word in catalog() or word.endswith(".py")), None)
+    for before, word in zip(["", *words], words, strict=False):
+        if word in catalog() or (word.endswith(".py") and (before in SWITCHES or not before.startswith("-"))):
+            return word
+    return None
 
 
 def _gathered(flag: str, words: Sequence[str]) -> list[str]:

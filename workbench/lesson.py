@@ -7,13 +7,13 @@ import importlib.util
 import pkgutil
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar
 
-from workbench.errors import InputError
+from workbench.errors import InputError, LeftOutWarning
 from workbench.knobs import check, fields_of
 from workbench.scene import Scene
 
@@ -78,14 +78,14 @@ class Question(Generic[P, S]):
     step: int | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Lesson(Generic[P, S]):
     """One topic, whole.
 
     Args:
         name: Its folder's name and its name in links and commands.
         title, summary: The heading, and one line for the course page.
-        page: Path of page.md.
+        page: Path of page.md; without one the summary is the page.
         params: The Params class; `params()` is the default run.
         run: Yields states; takes params and, by keyword, the functions an exercise may replace.
         draw: What one state looks like.
@@ -97,7 +97,7 @@ class Lesson(Generic[P, S]):
     name: str
     title: str
     summary: str
-    page: Path
+    page: Path | None = None
     params: type[P]
     run: Callable[..., Iterator[S]]
     draw: Callable[[S], Scene]
@@ -113,6 +113,22 @@ class Lesson(Generic[P, S]):
         names = [preset.name for preset in self.presets] + [question.name for question in self.questions]
         if len(set(names)) != len(names):
             raise ValueError(f"lesson {self.name}: two presets or questions share a name")
+        if self.page is not None:
+            self.text()
+
+    def text(self) -> str:
+        """Return the page, Markdown; title and summary where the lesson has none.
+
+        Raises:
+            InputError: If the page cannot be read; names the lesson and the path.
+        """
+        if self.page is None:
+            return f"# {self.title}\n\n{self.summary}\n"
+        try:
+            return Path(self.page).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            why = getattr(error, "strerror", None) or "not UTF-8 text"
+            raise InputError(f"lesson {self.name}: its page {Path(self.page).absolute()}: {why}") from None
 
     def preset(self, name: str) -> Preset[P]:
         """Return a preset by name.
@@ -134,45 +150,64 @@ class Lesson(Generic[P, S]):
 
 
 @functools.cache
-def catalog() -> Mapping[str, Lesson]:
-    """Return all lessons by name, in course order: those of the `lessons` package, then of installed third parties.
-
-    A third party registers a lesson under the entry-point group `workbench.lessons`, as `name = "module:lesson"`. One that
-    cannot be loaded is left out with a warning.
-    """
+def course() -> Mapping[str, Lesson]:
+    """Return the lessons of the `lessons` package by name, in course order."""
     found: list[Lesson] = []
     lessons = importlib.import_module("lessons")
     for info in pkgutil.iter_modules(lessons.__path__, "lessons."):
         if info.ispkg and importlib.util.find_spec(f"{info.name}.lesson") is not None:
             found.append(_lesson_in(importlib.import_module(f"{info.name}.lesson")))
-    for entry in importlib.metadata.entry_points(group="workbench.lessons"):
-        try:
-            found.append(_lesson_in(importlib.import_module(entry.module), entry.attr or "lesson"))
-        except Exception as error:  # somebody else's lesson must not take the course down
-            warnings.warn(f"lesson {entry.name} ({entry.value}) is left out: {error}", stacklevel=2)
-    by_name: dict[str, Lesson] = {}
-    for lesson in sorted(found, key=lambda lesson: (lesson.order, lesson.name)):
-        if lesson.name in by_name:
-            raise ValueError(f"two lessons are named {lesson.name!r}")
-        by_name[lesson.name] = lesson
+    by_name = _in_order(found)
+    if len(by_name) < len(found):
+        raise ValueError("two lessons of the course share a name")
     return by_name
 
 
+@functools.cache
+def catalog() -> Mapping[str, Lesson]:
+    """Return all lessons by name, in course order: those of the course and those of installed third parties.
+
+    A third party registers a lesson under the entry-point group `workbench.lessons`, as `name = "module:lesson"`. One that
+    cannot be loaded, or whose name is taken, is left out with a warning; the course itself is always whole.
+    """
+    found, places = dict(course()), {name: f"lessons.{name}" for name in course()}
+    for entry in importlib.metadata.entry_points(group="workbench.lessons"):
+        place = f"{entry.name} ({entry.value})"
+        try:
+            lesson = _lesson_in(importlib.import_module(entry.module), entry.attr or "lesson")
+            if lesson.name in found:
+                raise InputError(f"its name {lesson.name!r} is taken by {places[lesson.name]}")
+        except (Exception, SystemExit) as error:  # somebody else's lesson must not take the course down
+            warnings.warn(LeftOutWarning(f"lesson {place} is left out: {error}"), stacklevel=1)
+        else:
+            found[lesson.name], places[lesson.name] = lesson, place
+    return _in_order(found.values())
+
+
+def _in_order(lessons: Iterable[Lesson]) -> Mapping[str, Lesson]:
+    return {lesson.name: lesson for lesson in sorted(lessons, key=lambda lesson: (lesson.order, lesson.name))}
+
+
 def find(name: str) -> Lesson:
-    """Return a lesson by its name in the catalogue, or from a path to a single file that defines `lesson`.
+    """Return a lesson by its name in the catalogue. Nothing is run: the name may come out of a file or a link.
 
     Raises:
-        InputError: If there is no such lesson or the file cannot be used.
+        InputError: If there is no such lesson; lists those there are.
     """
-    if name.endswith(".py"):
-        return _from_file(Path(name))
     lessons = catalog()
     if name not in lessons:
-        raise InputError(f"no lesson is named {name!r}; there are: {', '.join(lessons)}")
+        raise InputError(f"no lesson is named {name[:80]!r}; there are: {', '.join(lessons)}")
     return lessons[name]
 
 
-def _from_file(path: Path) -> Lesson:
+def load(path: Path) -> Lesson:
+    """Run a Python file and return the `lesson` that it defines.
+
+    The file is a program and may do anything: its path must come from the person, never out of a file or a link.
+
+    Raises:
+        InputError: If the file is missing, fails, or defines no lesson.
+    """
     if not path.is_file():
         raise InputError(f"{path}: no such file")
     spec = importlib.util.spec_from_file_location(f"lesson_file_{path.stem}", path)
@@ -183,9 +218,9 @@ def _from_file(path: Path) -> Lesson:
     try:
         spec.loader.exec_module(module)
         return _lesson_in(module)
-    except InputError:
-        raise
-    except Exception as error:
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    except (Exception, SystemExit) as error:
         raise InputError(f"{path}: {type(error).__name__}: {error}") from error
 
 

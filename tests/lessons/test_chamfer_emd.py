@@ -170,7 +170,7 @@ class TestPage:
         definitions = preset("clump")[-1].left.numbers.definitions
         shown = [f"{value:.2g}" for value in definitions.values()]
         assert shown == ["0.0096", "0.072", "0.77", "5.7"]
-        assert all(number in lesson.page.read_text() for number in shown)
+        assert all(number in lesson.text() for number in shown)
 
     def test_no_metric(self):
         zero, pair, one = np.zeros((1, 3)), np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[1.0, 0, 0]])

@@ -59,7 +59,7 @@ def rivals(state):
 
 
 def page() -> str:
-    return " ".join(lesson.page.read_text(encoding="utf-8").split())
+    return " ".join(lesson.text().split())
 
 
 # the page ----------------------------------------------------------------------------------------------------------

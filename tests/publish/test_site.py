@@ -45,7 +45,7 @@ def test_the_numbers_are_those_of_the_run(published):
         values = timeline.series()[one["path"]].values
         assert one["values"] == [None if v != v else pytest.approx(v, rel=1e-5) for v in values]
     assert data["scene"]
-    assert data["reopen"] == "workbench show fake"
+    assert data["reopen"] == "workbench show fake.py"
 
 
 def test_what_repeats_is_kept_once():

@@ -86,3 +86,23 @@ def test_runs_of_two_lessons_are_refused(files, tmp_path):
     other = record(replace(fake.lesson, name="rigid"), tmp_path / "rigid.rrd")
     with pytest.raises(InputError, match=r"is a run of fake, .* of rigid"):
         compare_bytes(files[0], other)
+
+
+@pytest.mark.parametrize(
+    "odd",
+    [
+        "3",
+        "{}",
+        "[" * 9000,
+        '{"view": {"x": 1}, "tables": null, "legend_height": 0, "charts": {}, "pictures": {}}',
+        '{"view": {}, "tables": "a", "legend_height": 0, "charts": {}, "pictures": {}}',
+        '{"view": {}, "tables": null, "legend_height": 0, "pictures": {},'
+        ' "charts": {"a": {"title": 1, "width": "x", "height": 0, "first": -5}}}',
+    ],
+)
+def test_a_layout_that_is_none_is_damage(files, tmp_path, monkeypatch, odd):
+    monkeypatch.setattr("workbench.recording.write.to_json", lambda *what: odd)
+    bad = record(fake.lesson, tmp_path / "bad.rrd", steps=2)
+    for pair in ((bad, files[0]), (files[0], bad)):
+        with pytest.raises(InputError, match=r"bad\.rrd: is damaged"):
+            compare_bytes(*pair)

@@ -124,25 +124,6 @@ def test_reopening_gives_the_lesson_and_its_params(lesson: Lesson, tmp_path):
     assert reopening(tmp_path / "a.rrd") == (lesson, params, [])
 
 
-def test_reopening_a_recording_of_another_version_warns_and_tries(tmp_path, monkeypatch):
-    monkeypatch.setattr("workbench.recording.read.find", lambda name: fake.lesson)
-    monkeypatch.setattr("workbench.recording.write.__version__", "9.9")
-    monkeypatch.setattr("workbench.recording.write.FORMAT", FORMAT + 1)
-    odd = '{"angle": 30.0, "steps": 999999, "gone": 1}'
-    monkeypatch.setattr("workbench.recording.write.knobs.to_json", lambda params: odd)
-    path = record(fake.lesson, tmp_path / "a.rrd")
-    lesson, params, lines = reopening(path)
-    assert (lesson.name, params) == ("fake", fake.Params(angle=30.0))
-    assert len(lines) == 4
-    for line, word in zip(lines, ("version 9.9", f"format {FORMAT + 1}", "steps", "gone"), strict=True):
-        assert word in line
-
-
-def test_reopening_an_unknown_lesson_says_which_there_are(fake_file):
-    with pytest.raises(InputError, match=r"fake.rrd: no lesson is named 'fake'; there are: .*icp"):
-        reopening(fake_file)
-
-
 def content(path: Path) -> dict[tuple[str, tuple[str, ...]], bytes]:
     """Return a fingerprint of everything in a recording but ids and times, by entity and kind of row."""
     tables: dict[tuple[str, tuple[str, ...]], list[pa.Table]] = {}

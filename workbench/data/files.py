@@ -4,7 +4,7 @@ import functools
 import gzip
 import io
 import re
-import zipfile
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int, UInt8
 
+from workbench.data.arrays import read_arrays
 from workbench.data.formats import mesh_error, obj_points, pcd_points, ply_points, text_points
 from workbench.errors import InputError
 from workbench.geometry.motions import inverse, motion
@@ -19,6 +20,9 @@ from workbench.geometry.motions import inverse, motion
 MOST_BYTES = 500 * 10**6
 MOST_POINTS = 5_000_000
 MOST_PIXELS = 50_000_000
+
+IMAGES = ("PNG", "JPEG", "WEBP", "TIFF", "BMP", "GIF", "PPM")
+"""What pictures are read from; Pillow would also hand a file to other programs (EPS to Ghostscript)."""
 
 _TEXT = (".xyz", ".txt", ".csv", ".asc", ".pts", ".tsv", ".dat")
 _MESHES = (".off", ".stl", ".glb", ".gltf", ".obj", ".ply")
@@ -59,8 +63,10 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
 
     try:
         loaded: Any = trimesh.load(io.BytesIO(content), file_type=kind[1:], process=False)
-        mesh = loaded.to_mesh() if isinstance(loaded, trimesh.Scene) else loaded
+        mesh = _one_mesh(loaded, path.name) if isinstance(loaded, trimesh.Scene) else loaded
         p, faces = np.array(mesh.vertices, float), np.array(getattr(mesh, "faces", np.empty((0, 3))), np.int64)
+    except InputError:
+        raise
     except Exception as error:  # the readers of trimesh raise whatever they trip over
         raise InputError(f"{path.name}: not readable as a {kind[1:]} mesh ({type(error).__name__})") from None
     if len(faces) == 0:
@@ -68,6 +74,15 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
     if not np.isfinite(p).all() or faces.min() < 0 or faces.max() >= len(p):
         raise InputError(f"{path.name}: a vertex is not finite, or a face names a vertex that is not there")
     return p, faces
+
+
+def _one_mesh(scene: Any, name: str) -> Any:
+    """Return all meshes of a scene as one; a small file may name the same mesh a million times."""
+    sizes = {key: len(shape.vertices) for key, shape in scene.geometry.items()}
+    n = sum(sizes[scene.graph[node][1]] for node in scene.graph.nodes_geometry)
+    if n > MOST_POINTS:
+        raise InputError(f"{name}: {n:,} vertices; at most {MOST_POINTS:,} are read")
+    return scene.to_mesh()
 
 
 def read_image(path: Path) -> UInt8[np.ndarray, "h w *channels"]:
@@ -81,7 +96,7 @@ def read_image(path: Path) -> UInt8[np.ndarray, "h w *channels"]:
     from PIL import Image
 
     try:
-        with Image.open(path) as image:
+        with Image.open(path, formats=IMAGES) as image:
             if image.width * image.height > MOST_PIXELS:
                 raise InputError(
                     f"{path.name}: {image.width} x {image.height} pixels; at most {MOST_PIXELS:,} are read"
@@ -114,7 +129,9 @@ def read_pose(path: Path, target: Path | None = None, source: Path | None = None
     _stat(path)
     content, kind = _content(path)
     if kind == ".npy":
-        T = np.asarray(_load_array(content, path.name), float)
+        T = _load_array(content, path.name)
+        if T.dtype.kind not in "fiu":
+            raise InputError(f"{path.name}: not a pose; 4 x 4 numbers are wanted")
     else:
         text = content.decode("utf-8", "replace")
         poses = _listed_poses(text)
@@ -129,7 +146,7 @@ def read_pose(path: Path, target: Path | None = None, source: Path | None = None
             raise InputError(f"{path.name}: not a pose; a text file of 4 x 4 numbers is wanted") from None
     if T.size != 16:
         raise InputError(f"{path.name}: {_count(T.size, 'number')}, where a pose is 4 x 4")
-    return _checked_pose(T.reshape(4, 4), path.name)
+    return _checked_pose(T.reshape(4, 4).astype(float), path.name)
 
 
 def _listed_poses(text: str) -> dict[str, np.ndarray]:
@@ -201,19 +218,11 @@ def _array_points(content: bytes, name: str) -> np.ndarray:
 
 
 def _load_array(content: bytes, name: str) -> np.ndarray:
-    try:
-        loaded = np.load(io.BytesIO(content), allow_pickle=False)
-        if isinstance(loaded, np.ndarray):
-            return loaded
-        names = [n for n in ("p", "points", "xyz", "vertices") if n in loaded.files]
-        names = names or (loaded.files if len(loaded.files) == 1 else [])
-        if not names:
-            raise InputError(f"{name}: no array named p, points, xyz or vertices, but {', '.join(loaded.files)}")
-        return loaded[names[0]]
-    except InputError:
-        raise
-    except (ValueError, EOFError, OSError, zipfile.BadZipFile):
-        raise InputError(f"{name}: not readable as arrays of numpy") from None
+    arrays = read_arrays(content, name)
+    names = [n for n in ("p", "points", "xyz", "vertices") if n in arrays] or list(arrays)[: len(arrays) == 1]
+    if not names:
+        raise InputError(f"{name}: no array named p, points, xyz or vertices, but {', '.join(arrays)}")
+    return arrays[names[0]]
 
 
 def _content(path: Path) -> tuple[bytes, str]:
@@ -224,7 +233,7 @@ def _content(path: Path) -> tuple[bytes, str]:
             return path.read_bytes(), kind
         with gzip.open(path) as stream:
             content = stream.read(MOST_BYTES + 1)
-    except (OSError, EOFError) as error:
+    except (OSError, EOFError, zlib.error) as error:
         raise InputError(f"{path}: not readable ({error.__class__.__name__})") from None
     if len(content) > MOST_BYTES:
         raise InputError(f"{path.name}: over {MOST_BYTES // 10**6} MB unpacked; that is too large")

@@ -11,6 +11,8 @@ from jaxtyping import Float
 
 from workbench.errors import InputError
 
+MOST_UNPACKED = 500 * 10**6
+
 _PLY_TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
     "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "float": "f4", "float32": "f4",
@@ -120,6 +122,8 @@ def _compressed_columns(body: bytes, columns: list[tuple[str, str, int]], n: int
     if len(body) < 8:
         raise InputError(f"{name}: the file is cut short")
     packed, unpacked = (int(size) for size in np.frombuffer(body, "<u4", 2))
+    if unpacked > MOST_UNPACKED:
+        raise InputError(f"{name}: over {MOST_UNPACKED // 10**6} MB unpacked; that is too large")
     if unpacked != n * sum(np.dtype(t).itemsize * c for _, t, c in columns):
         raise InputError(f"{name}: the compressed size does not fit {n:,} points")
     plain, start, found = _unpack_lzf(body[8 : 8 + packed], unpacked, name), 0, {}

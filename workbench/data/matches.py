@@ -1,13 +1,12 @@
 """Matches between two images that people bring, read or refused in one clear line."""
 
-import io
-import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
+from workbench.data.arrays import read_arrays
 from workbench.errors import InputError
 
 MOST_BYTES = 100 * 10**6
@@ -56,11 +55,7 @@ def read_matches(path: Path, fewest: int = 4) -> Matches:
 
 
 def _from_arrays(path: Path) -> Matches:
-    try:
-        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as loaded:
-            arrays = {name: np.asarray(loaded[name]) for name in loaded.files}
-    except (AttributeError, ValueError, EOFError, OSError, TypeError, zipfile.BadZipFile):
-        raise InputError(f"{path.name}: not readable as arrays of numpy") from None
+    arrays = read_arrays(path.read_bytes(), path.name)
     first, second, both = (_named(arrays, names) for names in (_FIRST, _SECOND, _BOTH))
     if first is not None and second is not None:
         p = (

@@ -3,20 +3,63 @@
 import ast
 import inspect
 import textwrap
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from workbench.errors import InputError
+from workbench.errors import InputError, LeftOutWarning
 from workbench.exercise.model import Exercise
-from workbench.lesson import catalog
+from workbench.lesson import Lesson, catalog, course
 
 
 def exercises() -> dict[str, Exercise]:
-    """Return the exercises of all lessons by name, in course order."""
-    return {exercise.name: exercise for lesson in catalog().values() for exercise in lesson.exercises()}
+    """Return the exercises of all lessons by name, in course order.
+
+    A third party's exercise whose name is taken, or that cannot be loaded, is left out with a warning.
+    """
+    found = {exercise.name: exercise for lesson in course().values() for exercise in lesson.exercises()}
+    for lesson in catalog().values():
+        if lesson.name not in course():
+            found |= _usable(lesson, found)
+    order = list(catalog())
+    return dict(sorted(found.items(), key=lambda named: order.index(named[1].lesson)))
+
+
+def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
+    """Return the exercises of a lesson of the catalogue, in its order, without those that are left out."""
+    return tuple(exercise for exercise in exercises().values() if exercise.lesson == lesson.name)
+
+
+def _usable(lesson: Lesson, taken: Mapping[str, Exercise]) -> Mapping[str, Exercise]:
+    """Return the exercises of a third party's lesson that can stand beside those there are, by name."""
+    kept: dict[str, Exercise] = {}
+    try:
+        for exercise in lesson.exercises():
+            other = taken.get(exercise.name, kept.get(exercise.name))
+            if other is not None:
+                _leave_out(
+                    f"exercise {exercise.name} of", lesson, f"its name is taken by {_place(catalog()[other.lesson])}"
+                )
+            elif exercise.lesson != lesson.name:
+                _leave_out(
+                    f"exercise {exercise.name} of", lesson, f"it says that it belongs to lesson {exercise.lesson!r}"
+                )
+            else:
+                kept[exercise.name] = exercise
+    except (Exception, SystemExit) as error:  # somebody else's exercises must not take the course's down
+        _leave_out("what follows of the exercises of", lesson, f"{type(error).__name__}: {error}")
+    return kept
+
+
+def _leave_out(what: str, lesson: Lesson, why: str) -> None:
+    warnings.warn(LeftOutWarning(f"{what} {_place(lesson)} is left out: {why}"), stacklevel=1)
+
+
+def _place(lesson: Lesson) -> str:
+    return f"lesson {lesson.name} ({lesson.params.__module__})"
 
 
 def find_exercise(name: str) -> Exercise:

@@ -8,7 +8,7 @@ from workbench.exercise.beside import beside
 from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox import Student
-from workbench.exercise.starter import exercises_in
+from workbench.exercise.starter import exercises_in, exercises_of
 from workbench.lesson import Lesson
 
 RUNNING = "The checks are running …"
@@ -31,9 +31,9 @@ class Watched:
 
     def __init__(self, lesson: Lesson, path: Path):
         self.original, self.path = lesson, path
-        found = [exercise for exercise in exercises_in(path) if exercise in lesson.exercises()]
+        found = [exercise for exercise in exercises_in(path) if exercise.lesson == lesson.name]
         if not found:
-            names = ", ".join(exercise.name for exercise in lesson.exercises()) or "none"
+            names = ", ".join(exercise.name for exercise in exercises_of(lesson)) or "none"
             raise InputError(f"{path}: defines no function that lesson {lesson.name} can take; it takes: {names}")
         self.exercise: Exercise = found[0]
         self._stamp = self._stamp_now()

@@ -10,10 +10,8 @@ from typing import Any
 import numpy as np
 import viser
 
-from workbench import knobs
 from workbench.errors import InputError
 from workbench.images import webp
-from workbench.lesson import Lesson
 from workbench.scene import PALETTE, Curve, Field, Picture, Scene, Table, in_space
 from workbench.timeline import Timeline
 from workbench.viewer.charts import table_html
@@ -157,11 +155,3 @@ def _curve(curve: Curve) -> dict[str, Any]:
 def _number(value: float) -> float | None:
     """Return a number with the digits that a curve needs; None where there is none."""
     return float(f"{float(value):.6g}") if np.isfinite(value) else None
-
-
-def reopening(lesson: Lesson, params: Any) -> str:
-    """Return the command that opens a run live."""
-    flags = "".join(
-        f" --{name.replace('_', '-')} {value.replace(',', ' ')}" for name, value in knobs.changed(params).items()
-    )
-    return f"workbench show {lesson.name}{flags}"

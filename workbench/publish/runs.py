@@ -17,9 +17,10 @@ from typing import Any
 import workbench
 from workbench import knobs
 from workbench.errors import InputError
+from workbench.flags import show_command
 from workbench.lesson import Lesson, catalog
 from workbench.publish.pages import embed_page, question_run
-from workbench.publish.replay import Renderer, beside, reopening
+from workbench.publish.replay import Renderer, beside
 from workbench.recording import record_bytes
 from workbench.timeline import Timeline
 
@@ -124,7 +125,7 @@ def files_of(out: Path, lesson: Lesson, run: Run) -> list[Path]:
 def run_script(lesson: Lesson, run: Run, timeline: Timeline, scene: str) -> str:
     """Return the script file of a run."""
     first = run.first if run.first >= 0 else len(timeline) + run.first
-    data = beside(timeline) | {"scene": scene, "first": first, "reopen": reopening(lesson, run.params)}
+    data = beside(timeline) | {"scene": scene, "first": first, "reopen": show_command(lesson, run.params)}
     return f"replay({_script(run.name)}, {_script(data)});\n"
 
 

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.lesson import View
 from workbench.recording.columns import curve_style
-from workbench.recording.contents import both, from_json
+from workbench.recording.contents import Contents, both, from_json
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import plotted, two_runs
 from workbench.recording.read import Recording, open_recording, read_chunks
@@ -39,7 +40,7 @@ def compare_bytes(a: Path, b: Path) -> bytes:
     if one.lesson != two.lesson:
         raise InputError(f"{a} is a run of {one.lesson}, {b} of {two.lesson}: two runs of one lesson can be compared")
     application = application_id(f"compare {one.lesson}")
-    (contents_a, view), (contents_b, _) = (from_json(run.layout, run.curves) for run in runs.values())
+    (contents_a, view), (contents_b, _) = (_beside(run) for run in runs.values())
     differences = differences_of(one, two)
 
     def fill(stream: Any) -> None:
@@ -56,6 +57,13 @@ def compare_bytes(a: Path, b: Path) -> bytes:
                 stream.log(root + plotted(path, scalar), style, static=True)
 
     return stream_bytes(application, fill)
+
+
+def _beside(run: Recording) -> tuple[Contents, View]:
+    try:
+        return from_json(run.layout, run.curves)
+    except InputError as error:
+        raise InputError(f"{run.path}: is damaged: {error}") from None
 
 
 def differences_of(a: Recording, b: Recording) -> list[tuple[str, str, str]]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from workbench.errors import InputError
 from workbench.lesson import View
 from workbench.recording.chart import HEIGHT, WIDTH, legend_height
 from workbench.recording.sink import Place, chart_entity, entity_of, legend_of
@@ -90,17 +91,32 @@ def to_json(contents: Contents, view: View) -> str:
 
 
 def from_json(text: str, curves: Mapping[str, Scalar]) -> tuple[Contents, View]:
-    """Return contents and view from `to_json`'s text and the scalars by path."""
-    plain = json.loads(text)
-    found = Contents(tables=plain["tables"], legend_height=float(plain["legend_height"]))
-    found.charts = {title: Canvas(**canvas) for title, canvas in plain["charts"].items()}
-    found.pictures = {path: Canvas(**canvas) for path, canvas in plain["pictures"].items()}
+    """Return contents and view from `to_json`'s text and the scalars by path.
+
+    Raises:
+        InputError: If the text is not what `to_json` wrote.
+    """
+    try:
+        return _from_json(json.loads(text), curves)
+    except Exception:  # text out of a file may be anything
+        raise InputError("what it shows beside the scene is not understood") from None
+
+
+def _from_json(plain: Mapping[str, Any], curves: Mapping[str, Scalar]) -> tuple[Contents, View]:
+    tables = None if plain["tables"] is None else int(plain["tables"])
+    found = Contents(tables=tables, legend_height=float(plain["legend_height"]))
+    found.charts = {title: _canvas(**canvas) for title, canvas in plain["charts"].items()}
+    found.pictures = {path: _canvas(**canvas) for path, canvas in plain["pictures"].items()}
     for path, scalar in curves.items():
         found.scalars.setdefault(scalar.chart, {})[path] = scalar
     view: dict[str, Any] = {
-        name: tuple(value) if isinstance(value, list) else value for name, value in plain["view"].items()
+        name: tuple(map(float, value)) if isinstance(value, list) else value for name, value in plain["view"].items()
     }
     return found, View(**view)
+
+
+def _canvas(title: str, width: float, height: float, first: int) -> Canvas:
+    return Canvas(str(title), float(width), float(height), int(first))
 
 
 def both(a: Contents, b: Contents) -> Contents:

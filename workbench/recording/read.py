@@ -2,6 +2,7 @@
 
 import json
 import re
+import reprlib
 import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from rerun.chunk import RrdReader
 
 from workbench import __version__, knobs
 from workbench.errors import InputError
-from workbench.lesson import Lesson, find
+from workbench.lesson import Lesson, catalog
 from workbench.recording.viewer_files import binary, quiet_environment
 from workbench.scene import Scalar
 
@@ -23,7 +24,7 @@ FORMAT = 1
 """What this version writes and reads; it grows when an older version could not read a new recording."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Recording:
     """What a recording says of its run.
 
@@ -39,7 +40,7 @@ class Recording:
         version: The version of the workbench that wrote it.
         captions: What happened, step by step.
         tones: `info`, `good` or `wrong`, step by step.
-        scalars: One column per curve, by path, NaN where a step has none; with `step` first, a table.
+        scalars: One column per curve, by path, NaN where a step has none; with `step` first, a table. Read-only.
         curves: How each scalar is drawn, by path: name, unit, colour; with its last value.
         layout: What stands beside the scene and how that is first seen, for a viewer.
     """
@@ -63,13 +64,22 @@ class Recording:
         """Return the number of steps."""
         return len(self.captions)
 
+    def __repr__(self) -> str:
+        """Return one short line: the file, the lesson, where it comes from, how many steps, and how it ended."""
+        words = [self.path.name, self.lesson, *([] if self.preset is None else [f"preset {self.preset}"])]
+        said = [reprlib.repr(word) for word in (*words, self.status)]
+        return f"<Recording {said[0]}: {', '.join(said[1:-1])}, {len(self):,} steps, {said[-1]}>"
+
     @property
     def complete(self) -> bool:
         """Whether the run was recorded to its end."""
         return self.status == "complete"
 
     def typed_params(self, lesson: Lesson) -> Any:
-        """Return the params as the lesson's own Params; raise InputError where they do not fit."""
+        """Return the params as the lesson's own Params; raise InputError where they do not fit.
+
+        Paths among them are what the file says: a run of these params reads those files.
+        """
         return knobs.make(lesson.params, self.params)
 
 
@@ -90,17 +100,21 @@ def open_recording(path: str | Path) -> Recording:
         raise InputError(f"{path}: is damaged ({type(error).__name__})") from error
 
 
-def reopening(path: Path) -> tuple[Lesson, Any, list[str]]:
+def reopening(path: Path, given: Lesson | None = None, *, files: bool = False) -> tuple[Lesson, Any, list[str]]:
     """Return the lesson and the params of a recording, and a line for everything that is not as it was.
 
+    The lesson's name is looked up in the catalogue and nowhere else: a recording may come from anybody.
+
+    Args:
+        path: The recording.
+        given: The lesson, where the person named its file; it has to have the recording's name.
+        files: Whether the person lets the run read the files that the recording names.
+
     Raises:
-        InputError: If the file cannot be read or its lesson is not here.
+        InputError: If the file cannot be read, its lesson is not here, or it names files and may not.
     """
     recording = open_recording(path)
-    try:
-        lesson = find(recording.lesson)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+    lesson = _lesson_of(recording, given)
     lines = []
     if recording.version != __version__:
         lines.append(f"{path}: recorded by version {recording.version}, this is {__version__}; the run may differ")
@@ -116,7 +130,27 @@ def reopening(path: Path) -> tuple[Lesson, Any, list[str]]:
             values[name] = fields[name].clean(value)
         except InputError as error:
             lines.append(f"{path}: {error}; left at its default")
+    named = [f"{name} {values[name]}" for name in values if fields[name].sensitive and values[name] is not None]
+    if named and not files:
+        raise InputError(
+            f"{path}: was made from files ({', '.join(named)}); a recording may come from anybody, so they are read"
+            " only with --files"
+        )
     return lesson, knobs.make(lesson.params, values), lines
+
+
+def _lesson_of(recording: Recording, given: Lesson | None) -> Lesson:
+    """Return the lesson of a recording: the one given if it has the name, or the one that the catalogue has."""
+    name, path = recording.lesson, recording.path
+    if given is not None and given.name != name:
+        raise InputError(f"{path}: is a run of the lesson {name[:80]!r}, and the lesson given is {given.name!r}")
+    found = catalog().get(name) if given is None else given
+    if found is None:
+        raise InputError(
+            f"{path}: is a run of the lesson {name[:80]!r}, which is not installed; if you have its file, name it:"
+            " --lesson FILE.py"
+        )
+    return found
 
 
 def read_chunks(path: Path) -> list[Any]:
@@ -172,6 +206,9 @@ def _recording(path: Path, chunks: Sequence[Any]) -> Recording:
     if not result:
         raise InputError(f"{path}: is cut short: its end is missing")
     n = int(result["steps"])
+    told = sum(chunk.num_rows for chunk in chunks if chunk.entity_path == "/caption" and not chunk.is_static)
+    if not 0 < n <= told:
+        raise InputError(f"{path}: is damaged: it has fewer captions than steps")
     captions = _column(chunks, "/caption", "caption", n)
     paths = [chunk.entity_path for chunk in chunks if chunk.entity_path.startswith("/scalars/") and not chunk.is_static]
     found = {_scene_path(entity): np.array(_column(chunks, entity, "Scalars:scalars", n), float) for entity in paths}
@@ -181,19 +218,23 @@ def _recording(path: Path, chunks: Sequence[Any]) -> Recording:
     if any(caption is None for caption in captions) or digest(facts["params"], captions, scalars) != result["digest"]:
         raise InputError(f"{path}: is damaged: its content does not fit its fingerprint")
     params = json.loads(facts["params"])
+    if not isinstance(params, dict):
+        raise InputError(f"{path}: is damaged: its parameters are no JSON object")
+    for values in (steps := np.arange(n), *scalars.values()):
+        values.setflags(write=False)
     return Recording(
         path=path,
-        lesson=facts["lesson"],
-        title=facts["title"],
+        lesson=str(facts["lesson"]),
+        title=str(facts["title"]),
         params=params,
-        preset=facts.get("preset") or None,
+        preset=str(facts.get("preset") or "") or None,
         seed=int(facts["seed"]) if "seed" in params else None,
-        status=result["status"],
+        status=str(result["status"]),
         format=int(facts["format"]),
-        version=facts["version"],
+        version=str(facts["version"]),
         captions=tuple(captions),
         tones=tuple(_column(chunks, "/caption", "tone", n)),
-        scalars={"step": np.arange(n), **scalars},
+        scalars={"step": steps, **scalars},
         curves={path: _scalar(abouts[path], scalars[path]) for path in order},
         layout=facts["layout"],
     )

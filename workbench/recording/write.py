@@ -13,7 +13,7 @@ import rerun as rr
 
 from workbench import __version__, knobs
 from workbench.errors import InputError
-from workbench.lesson import Lesson, find
+from workbench.lesson import Lesson, find, load
 from workbench.progress import Progress, bar
 from workbench.recording.columns import facts, send_captions, send_series
 from workbench.recording.contents import contents_of, places, to_json
@@ -36,24 +36,39 @@ class Written:
 
 
 def record(
-    lesson: Lesson | str, path: str | Path, params: Any = None, *, preset: str | None = None, force: bool = False
+    lesson: Lesson | str | Path,
+    path: str | Path,
+    /,
+    params: Any = None,
+    *,
+    preset: str | None = None,
+    force: bool = False,
+    **values: Any,
 ) -> Path:
     """Run a lesson and write the run to a recording.
 
+    `record("icp", "icp.rrd", start_angle=120)` runs the defaults with one field changed; `preset="far"` starts from a
+    preset instead.
+
     Args:
-        lesson: The lesson, its name, or the path of a file that defines one.
+        lesson: The lesson, its name, or the `Path` of a file that defines one, which is run (text is only looked up).
         path: Where to write, `.rrd`.
-        params: The inputs; None means those of the preset, or the defaults.
-        preset: Where the params come from; kept in the recording.
+        params: The whole inputs, as the lesson's Params; instead of a preset and values.
+        preset: The preset to start from. Its name is kept in the recording where no value differs from it.
         force: Replace a file that is there.
+        values: Fields of the lesson's Params, by name.
 
     Raises:
-        InputError: If the run fails, or the file is there or cannot be written; then nothing has changed.
+        InputError: If the inputs cannot be used, the run fails, or the file is there or cannot be written; then nothing
+            has changed.
     """
-    lesson = find(lesson) if isinstance(lesson, str) else lesson
+    found = find(lesson) if isinstance(lesson, str) else load(lesson) if isinstance(lesson, Path) else lesson
+    if params is not None and (preset is not None or values):
+        other = f"preset {preset!r}" if preset is not None else f"{next(iter(values))}=…"
+        raise InputError(f"params and {other}: give whole params, or a preset and single values")
     if params is None:
-        params = lesson.params() if preset is None else lesson.preset(preset).params
-    record_file(lesson, params, Path(path), preset=preset, force=force)
+        params = knobs.make(found.params, values, base=None if preset is None else found.preset(preset).params)
+    record_file(found, params, Path(path), preset=preset, force=force)
     return Path(path)
 
 
@@ -106,6 +121,11 @@ def record_to_stdout(lesson: Lesson, params: Any, *, preset: str | None = None) 
 def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Progress | None = None) -> bytes:
     """Return a recording of the steps of a run that are known so far.
 
+    Args:
+        timeline: The run.
+        preset: The preset that the params started from; it is kept where they still are the preset's.
+        progress: Told of each step.
+
     Raises:
         InputError: If no step is known.
     """
@@ -113,6 +133,8 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
     if not steps:
         raise InputError(timeline.stopped or "there is no step to record yet")
     lesson = timeline.lesson
+    if preset is not None and lesson.preset(preset).params != timeline.params:
+        preset = None  # changed since: the name would promise another run
     application = application_id(lesson.name)
 
     def fill(stream: Any) -> None:
@@ -123,7 +145,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         stream.send_recording_name(safe(_title(timeline, preset)))
         stream.send_property("run", facts(layout=to_json(contents, lesson.view), **_facts(timeline, preset)))
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-        stream.log("page", document(plain_page(_page_of(lesson))), static=True)
+        stream.log("page", document(plain_page(lesson.text())), static=True)
         send_captions(stream, [step.caption for step in steps])
         for order, (path, one) in enumerate(series.items()):
             send_series(stream, path, one, order)
@@ -174,10 +196,6 @@ def _facts(timeline: Timeline, preset: str | None) -> dict[str, Any]:
         "version": __version__,
         "versions": json.dumps({"workbench": __version__, "rerun": rr.__version__, "numpy": np.__version__}),
     }
-
-
-def _page_of(lesson: Lesson) -> str:
-    return lesson.page.read_text(encoding="utf-8") if lesson.page.is_file() else f"# {lesson.title}\n\n{lesson.summary}"
 
 
 def _check_place(path: Path, force: bool) -> None:

@@ -26,8 +26,7 @@ class Reading:
     def __init__(self, gui: viser.GuiApi, lesson: Lesson, predict: Predict, answers: dict[str, Any]):
         self.gui, self._predict = gui, predict
         self._results: dict[str, Any] = {}
-        text = lesson.page.read_text(encoding="utf-8")
-        before, break_, after = _around_questions(page_html(text))
+        before, break_, after = _around_questions(page_html(lesson.text()))
         gui.add_html(f'<div class="wb wb-pad">{before}</div>')
         for number, question in enumerate(lesson.questions, 1):
             self._ask(number, question, answers.get(question.name))

@@ -1,0 +1,113 @@
+"""Commands that are printed for a run open that run: each goes through a shell's words and the real parser."""
+
+import functools
+import inspect
+import shlex
+from dataclasses import replace
+from pathlib import Path
+from typing import get_args
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests import fake
+from workbench.cli import COMMANDS, show
+from workbench.errors import InputError
+from workbench.flags import SWITCHES, Chosen, command_line, parse, show_command
+from workbench.knobs import fields_of
+from workbench.lesson import Lesson, catalog
+
+LESSONS = list(catalog().values())
+
+
+def opened(command: str) -> Chosen:
+    """What a command opens, read as a shell and then `workbench show` read it."""
+    program, verb, *words = shlex.split(command)
+    assert (program, verb) == ("workbench", "show")
+    seen: list[Chosen] = []
+
+    @functools.wraps(show)
+    def seeing(run, serving, step=None, with_=None):
+        seen.append(run)
+
+    parse(seeing, words, "workbench show", "")()
+    return seen[0]
+
+
+@pytest.mark.parametrize("lesson", LESSONS, ids=lambda lesson: lesson.name)
+def test_the_command_of_every_preset_and_question_opens_its_run(lesson: Lesson):
+    for params in (lesson.params(), *(named.params for named in (*lesson.presets, *lesson.questions))):
+        command = show_command(lesson, params)
+        run = opened(command)
+        assert (run.lesson, run.params) == (lesson, params), command
+
+
+def values_of(field) -> st.SearchStrategy:
+    knob = field.knob
+    if field.kind == "bool":
+        return st.booleans()
+    if field.kind == "choice":
+        return st.sampled_from(field.choices)
+    if field.kind == "path":
+        return st.none()
+    whole = field.kind in ("int", "ints")
+    one = st.integers(int(knob.low), int(knob.high)) if whole else st.floats(knob.low, knob.high)
+    return st.tuples(*[one] * field.length) if field.length else one
+
+
+@settings(max_examples=40, derandomize=True, deadline=None)
+@given(chosen=st.data())
+def test_the_command_of_any_params_opens_them(chosen):
+    lesson = chosen.draw(st.sampled_from(LESSONS))
+    values = {field.name: chosen.draw(values_of(field), field.name) for field in fields_of(lesson.params)}
+    try:
+        params = lesson.check(lesson.params(**values))
+    except ValueError:
+        return  # what the lesson itself refuses together
+    assert opened(show_command(lesson, params)).params == params
+
+
+def test_a_command_can_be_read_by_a_shell_and_by_a_person(monkeypatch):
+    monkeypatch.setitem(catalog(), "fake", fake.lesson)
+    params = fake.Params(angle=30.0, wobble=True, place=(-1.0, 0.25, 0.0), pixel=(1, 2))
+    assert show_command(fake.lesson, params) == "workbench show fake --angle=30 --wobble --place=-1,0.25,0 --pixel=1,2"
+    assert command_line("replay", Path("my runs/a$b.rrd")) == "workbench replay 'my runs/a$b.rrd'"
+
+
+def test_a_command_names_no_file_of_the_machine_it_was_printed_on(monkeypatch):
+    monkeypatch.setitem(catalog(), "fake", fake.lesson)
+    assert (
+        show_command(fake.lesson, fake.Params(scan=Path("/home/ann/secret/scan.npy")))
+        == "workbench show fake --scan=FILE"
+    )
+
+
+def test_a_single_file_lesson_is_named_by_its_file(monkeypatch):
+    monkeypatch.chdir(Path(fake.__file__).parent)
+    mine = replace(fake.lesson, name="mine")
+    command = show_command(mine, fake.Params(steps=2))
+    assert command == "workbench show fake.py --steps=2"
+    assert opened(command).params.steps == 2
+
+
+def test_a_student_s_file_behind_a_flag_is_not_taken_for_the_lesson(tmp_path):
+    evil = tmp_path / "my_align_rigid.py"
+    evil.write_text(f"open({str(tmp_path / 'was-run')!r}, 'w')\n")
+    (tmp_path / "mine.py").write_text("from tests.fake import lesson\n")
+    assert opened(command_line("show", "--with", evil, "icp")).lesson.name == "icp"
+    with pytest.raises(InputError, match="which lesson"):
+        opened(command_line("show", "--with", evil))
+    assert opened(command_line("show", "--no-browser", tmp_path / "mine.py")).lesson is fake.lesson
+    assert not (tmp_path / "was-run").exists()
+
+
+def test_every_switch_of_a_command_that_takes_a_lesson_is_known():
+    switches = {"--no-browser"}  # of Serving
+    for command in COMMANDS.values():
+        parameters = inspect.signature(command).parameters.values()
+        if any(parameter.annotation is Chosen for parameter in parameters):
+            switches |= {
+                f"--{parameter.name}" for parameter in parameters if get_args(parameter.annotation)[:1] == (bool,)
+            }
+    assert switches == SWITCHES

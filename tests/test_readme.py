@@ -1,0 +1,110 @@
+"""The README's examples, verbatim: each is cut out of the file and run."""
+
+import contextlib
+import io
+import re
+from pathlib import Path
+
+import pytest
+
+from workbench import links, open_recording
+from workbench.cli import main
+from workbench.errors import InputError
+from workbench.lesson import Lesson, load
+from workbench.publish import site
+from workbench.session import Session
+
+ROOT = Path(__file__).resolve().parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def example(heading: str) -> str:
+    """The first block of Python below a heading."""
+    section = re.split(r"^#+ ", README.split(f"# {heading}\n")[1], flags=re.MULTILINE)[0]
+    return re.findall(r"```python\n(.*?)```", section, re.DOTALL)[0]
+
+
+@pytest.fixture
+def lesson_file(tmp_path) -> Path:
+    path = tmp_path / "my_lesson.py"
+    path.write_text(example("Add a lesson in five lines"), encoding="utf-8")
+    return path
+
+
+def test_the_example_in_python(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        exec(compile(example("From Python"), "README.md", "exec"), {})
+    shown, caption, *curves = said.getvalue().splitlines()
+    recording = open_recording("icp.rrd")
+    assert shown == repr(recording)
+    assert recording.params["start_angle"] == 60
+    assert caption == recording.captions[-1]
+    assert len(curves) == len(recording.curves) >= 2
+
+
+def test_the_lesson_is_recorded_and_opened_again(capsys, monkeypatch, lesson_file):
+    opened: list[tuple] = []
+    monkeypatch.setattr("workbench.viewer.app.serve", lambda *place, **_: opened.append(place))
+    out = lesson_file.with_name("turn.rrd")
+    assert main(["record", str(lesson_file), "--turns", "180", "-o", str(out)]) == 0
+    recording = open_recording(out)
+    assert (recording.lesson, len(recording)) == ("turn", 11)
+    assert recording.captions[-1] == "Turned by 180 degrees."
+    assert main(["show", str(lesson_file), "--turns=45"]) == 0
+    assert main(["reopen", str(out), "--lesson", str(lesson_file)]) == 0
+    assert [params.turns for _, params, _ in opened] == [45.0, 180.0]
+    assert capsys.readouterr().err == ""
+
+
+def test_the_lesson_plays_live_with_its_summary_as_its_page(lesson_file):
+    import viser
+
+    from workbench.viewer.reading import Reading
+
+    lesson = load(lesson_file)
+    session = Session(lesson)
+    session.compute(10)
+    look = session.look()
+    assert look is not None
+    assert look.finished
+    assert links.read(links.write(links.Place(lesson, lesson.params(), 3)), here=lesson)
+    with contextlib.redirect_stdout(io.StringIO()):
+        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+        try:
+            Reading(server.gui, lesson, lambda question, given: None, {})
+        finally:
+            server.stop()
+
+
+def test_the_lesson_is_published_with_its_summary_as_its_page(tmp_path, lesson_file):
+    site.publish(tmp_path / "site", [load(lesson_file)])
+    page = (tmp_path / "site" / "turn" / "index.html").read_text(encoding="utf-8")
+    assert "A turn" in page
+    assert page.count("An arrow turns.") >= 2  # of the head, and on the page
+    assert "workbench show my_lesson.py" in (tmp_path / "site" / "turn" / "runs" / "default.js").read_text(
+        encoding="utf-8"
+    )
+
+
+@pytest.mark.parametrize("command", [["show"], ["record", "-o", "a.rrd"], ["publish", "site", "--lesson"]])
+def test_a_page_that_is_not_there_is_one_line_with_lesson_and_path(capsys, monkeypatch, lesson_file, command):
+    monkeypatch.chdir(lesson_file.parent)
+    text = lesson_file.read_text(encoding="utf-8").replace("params=Params", 'page=Path("none/page.md"), params=Params')
+    lesson_file.write_text("from pathlib import Path\n" + text, encoding="utf-8")
+    assert main([*command, "my_lesson.py"]) == 2
+    missing = lesson_file.parent / "none" / "page.md"
+    line = capsys.readouterr().err
+    assert line == f"workbench: my_lesson.py: lesson turn: its page {missing}: No such file or directory\n"
+
+
+def test_a_page_that_goes_away_is_one_line_too(tmp_path, lesson_file):
+    page = tmp_path / "page.md"
+    page.write_text("# Here", encoding="utf-8")
+    found = load(lesson_file)
+    lesson = Lesson(**{name: getattr(found, name) for name in found.__dataclass_fields__} | {"page": page})
+    assert lesson.text() == "# Here"
+    page.unlink()
+    with pytest.raises(InputError, match=r"lesson turn: its page .*page\.md: No such file"):
+        lesson.text()
