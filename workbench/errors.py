@@ -9,3 +9,15 @@ class InputError(ValueError):
 
     def __init__(self, message: str):
         super().__init__(" ".join(message.split()))
+
+
+class AuthorError(InputError):
+    """The code of a lesson or an exercise went wrong; the message names its file and line.
+
+    Attributes:
+        trace: The traceback, for whoever mends it.
+    """
+
+    def __init__(self, message: str, trace: str = ""):
+        super().__init__(message)
+        self.trace = trace

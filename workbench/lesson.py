@@ -4,8 +4,10 @@ import functools
 import importlib
 import importlib.metadata
 import importlib.util
+import inspect
 import pkgutil
 import sys
+import traceback
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,7 +15,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar
 
-from workbench.errors import InputError
+from workbench.authors import at, described
+from workbench.errors import AuthorError, InputError
 from workbench.knobs import check, fields_of
 from workbench.scene import Scene
 
@@ -109,10 +112,27 @@ class Lesson(Generic[P, S]):
     first_step: int = 0
 
     def __post_init__(self) -> None:
-        fields_of(self.params)
+        try:
+            fields_of(self.params)
+        except TypeError as error:
+            raise TypeError(f"lesson {self.name}: {error}") from None
+        for wrong in self._mistakes():
+            raise ValueError(f"lesson {self.name}{wrong}")
+
+    def _mistakes(self) -> Iterator[str]:
+        """Yield what is wrong with the values given, as ends of lines that begin with the lesson's name."""
+        if not isinstance(self.page, Path):
+            yield f": page is a Path, not {self.page!r}: Path(__file__).with_name(...) finds it beside the lesson"
+        yield from _not_called_with(self.run, "run", "the params and, by keyword, functions that have defaults")
+        yield from _not_called_with(self.draw, "draw", "one state")
         names = [preset.name for preset in self.presets] + [question.name for question in self.questions]
         if len(set(names)) != len(names):
-            raise ValueError(f"lesson {self.name}: two presets or questions share a name")
+            yield ": two presets or questions share a name"
+        for what, one in [("preset", p) for p in self.presets] + [("question", q) for q in self.questions]:
+            try:
+                self.check(one.params)
+            except InputError as error:
+                yield f", {what} {one.name!r}: {error}"
 
     def preset(self, name: str) -> Preset[P]:
         """Return a preset by name.
@@ -172,6 +192,19 @@ def find(name: str) -> Lesson:
     return lessons[name]
 
 
+def _not_called_with(function: Any, name: str, wanted: str) -> Iterator[str]:
+    """Yield a line where a function cannot be called with one positional argument alone."""
+    if not callable(function):
+        yield f": {name} is a function, not {function!r}"
+        return
+    try:
+        inspect.signature(function).bind(None)
+    except TypeError:
+        yield f": {at(function)}{name}{inspect.signature(function)} takes {wanted}"
+    except ValueError:  # a function of C says nothing of its arguments
+        pass
+
+
 def _from_file(path: Path) -> Lesson:
     if not path.is_file():
         raise InputError(f"{path}: no such file")
@@ -186,7 +219,7 @@ def _from_file(path: Path) -> Lesson:
     except InputError:
         raise
     except Exception as error:
-        raise InputError(f"{path}: {type(error).__name__}: {error}") from error
+        raise AuthorError(f"{path}: {described(error, module)}", traceback.format_exc()) from error
 
 
 def _lesson_in(module: ModuleType, value: str = "lesson") -> Lesson:
