@@ -59,7 +59,7 @@ class Params:
     wobble: Annotated[bool, Knob("Move the points themselves too, so that no pose will do")] = False
     colors: Annotated[Literal["role", "field", "classes", "measured"], Knob("How the cloud is coloured")] = "field"
     place: Annotated[tuple[float, float, float], Knob("Where the target is", -2, 2, unit="m", by=Gizmo())] = (0.5, 0, 0)
-    pixel: Annotated[tuple[int, int], Knob("The chosen pixel", 0, 63, unit="px", by=Pick("beside/depth"))] = (10, 20)
+    pixel: Annotated[tuple[int, int], Knob("The chosen pixel", 0, 63, unit="px", by=Pick("plane"))] = (10, 20)
     scan: Annotated[Path | None, Knob("A .npy file of points (n, 3) instead of the made ones")] = None
     trouble: Annotated[Literal["none", "input", "crash"], Knob("How the run fails at its third step")] = "none"
     seed: Annotated[int, Knob("Which points are made", 0, 99)] = 0

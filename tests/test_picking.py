@@ -54,7 +54,7 @@ def test_a_click_on_a_picture_is_a_pixel(u, v):
 
 def test_a_click_sets_the_field_that_names_what_was_hit():
     width = 2.0
-    scene = {"beside/depth": Picture(np.zeros((48, 64), np.uint8), width=width)}
+    scene = {"plane": Picture(np.zeros((48, 64), np.uint8), width=width)}
     above = np.array([0.0, 0.0, 3.0])
     at = np.array([(12 - 31.5) * width / 64, (30 - 23.5) * width / 64, 0.0])
     assert picked_params(Params(), scene, above, at - above) == {"pixel": (12, 30)}

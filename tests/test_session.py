@@ -235,22 +235,6 @@ def test_a_preset_opens_where_it_says():
         session.use_preset("nothing")
 
 
-def test_answers_are_read_off_the_run():
-    session = settled()
-    number, choice = lesson.questions
-    assert session.answer(number, 0.005).right
-    assert not session.answer(number, 0.5).right
-    assert session.answer(choice, "the second").right
-    assert not session.answer(choice, "the first").right
-    skipped = session.answer(choice, None)
-    assert (skipped.right, skipped.truth) == (False, "the second")
-    for bad in ("perhaps", 7):
-        with pytest.raises(InputError):
-            session.answer(choice, bad)
-    with pytest.raises(InputError, match="a number"):
-        session.answer(number, "much")
-
-
 def test_two_sessions_share_runs_but_not_places():
     shared = Timelines()
     one, two = Session(lesson, shared), Session(lesson, shared)

@@ -1,3 +1,4 @@
+import threading
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -8,7 +9,7 @@ from tests.fake import Params, lesson
 from workbench.errors import InputError
 from workbench.knobs import Knob
 from workbench.lesson import Lesson
-from workbench.scene import Caption, Points, same
+from workbench.scene import Caption, Points, Scalar, same
 from workbench.timeline import Timeline, Timelines
 
 
@@ -107,6 +108,45 @@ def test_series_hold_every_scalar_and_nan_where_there_is_none():
     assert list(series) == ["error", "truth", "cost"]
     np.testing.assert_allclose(series["error"].values, [1, 0.75, 0.5, 0.25, 0])
     assert np.isnan(series["truth"].values[0])
+
+
+def test_series_grow_with_the_run_and_what_was_read_before_stays():
+    def late(state):
+        scene = {"caption": Caption("A step happened"), "always": Scalar(state, "a", "c")}
+        return scene | ({"late": Scalar(-state, "l", "c")} if state >= 150 and state % 2 else {})
+
+    timeline, read = Timeline(bare(lambda params: iter(range(300)), late), Bare()), []
+    assert timeline.series() == {}
+    while timeline.extend():
+        read.append(timeline.series())
+    for n, series in enumerate(read, 1):
+        assert list(series) == (["always", "late"] if n > 151 else ["always"])
+        np.testing.assert_array_equal(series["always"].values, np.arange(n))
+        if n > 151:
+            expected = [-k if k >= 150 and k % 2 else np.nan for k in range(n)]
+            np.testing.assert_array_equal(series["late"].values, expected)
+    with pytest.raises(ValueError, match="read-only"):
+        read[-1]["late"].values[0] = 1.0
+
+
+def test_series_are_read_without_a_look_at_the_steps():
+    timeline = Timeline(lesson, Params(steps=5)).complete()
+    timeline._steps = [None] * 5  # type: ignore[list-item]
+    assert len(timeline.series()["error"].values) == 5
+
+
+def test_series_are_read_while_another_thread_computes():
+    timeline = Timeline(bare(lambda params: iter(range(4000)), lambda k: {
+        "caption": Caption("A step happened"), "k": Scalar(k, "k", "c"), f"at/{k // 40}": Scalar(k, "k", "c")
+    }), Bare())  # fmt: skip
+    computing = threading.Thread(target=timeline.complete)
+    computing.start()
+    while computing.is_alive():
+        series = timeline.series()
+        if series:
+            np.testing.assert_array_equal(series["k"].values, np.arange(len(series["k"].values)))
+    computing.join()
+    assert len(timeline.series()) == 101
 
 
 def test_runs_are_shared_and_the_least_recently_used_is_dropped():

@@ -51,6 +51,6 @@ def test_the_font_has_every_letter_of_every_formula():
     assert file is not None
     known = TTFont(io.BytesIO(base64.b64decode(file.group(1)))).getBestCmap() or {}
     for lesson in catalog().values():
-        for formula in re.findall(r"<math.*?</math>", page_html(lesson.page.read_text(encoding="utf-8")), re.DOTALL):
+        for formula in re.findall(r"<math.*?</math>", page_html(lesson.text()), re.DOTALL):
             letters = set(html.unescape(re.sub(r"<[^>]*>", "", formula)))
             assert {c for c in letters if not c.isspace() and ord(c) not in known} == set(), lesson.name

@@ -1,6 +1,6 @@
 import numpy as np
 
-from workbench.watch import describe, listening, source_of, watched
+from workbench.watch import describe, listening, source_of, unwatched, watched
 
 
 @watched
@@ -35,6 +35,17 @@ def test_the_line_and_the_locals_of_the_yield_are_known():
 def test_the_generator_that_did_the_work_is_reported():
     names = [m.function.__name__ for m in moments(outer(2))]
     assert names == ["outer", "inner", "inner"]
+
+
+def test_a_run_inside_a_run_can_go_unwatched():
+    @watched
+    def around():
+        yield "before"
+        with unwatched():
+            *_, last = inner(3)
+        yield last
+
+    assert [m.function.__name__ for m in moments(around())] == ["around", "around"]
 
 
 def test_nobody_listening_records_nothing():

@@ -24,3 +24,15 @@ class LeftOutWarning(UserWarning):
 
     def __init__(self, message: str):
         super().__init__(one_line(message))
+
+
+class AuthorError(InputError):
+    """The code of a lesson or an exercise went wrong; the message names its file and line.
+
+    Attributes:
+        trace: The traceback, for whoever mends it.
+    """
+
+    def __init__(self, message: str, trace: str = ""):
+        super().__init__(message)
+        self.trace = trace

@@ -187,6 +187,10 @@ def _read(owner: type, field: dataclasses.Field, hint: Any) -> Field:
     kind, choices, length = _kind(where, declared)
     if kind in ("float", "int", "floats", "ints") and (knob.low is None or knob.high is None or knob.low >= knob.high):
         raise TypeError(f"{where}: a number needs Knob(hint, low, high) with low < high")
+    if isinstance(knob.by, Gizmo) and not (kind == "floats" and length in (3, 6)):
+        raise TypeError(f"{where}: a Gizmo sets 3 floats (a position) or 6 (with a rotation vector), not {declared}")
+    if isinstance(knob.by, Pick) and kind not in ("int", "ints"):
+        raise TypeError(f"{where}: a Pick sets an int or a tuple of ints, not {declared}")
     return Field(field.name, kind, field.default, knob, choices, length)
 
 

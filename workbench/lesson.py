@@ -4,8 +4,10 @@ import functools
 import importlib
 import importlib.metadata
 import importlib.util
+import inspect
 import pkgutil
 import sys
+import traceback
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,7 +15,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar
 
-from workbench.errors import InputError, LeftOutWarning
+from workbench.authors import at, described
+from workbench.errors import AuthorError, InputError, LeftOutWarning
 from workbench.knobs import check, fields_of
 from workbench.scene import Scene
 
@@ -109,12 +112,28 @@ class Lesson(Generic[P, S]):
     first_step: int = 0
 
     def __post_init__(self) -> None:
-        fields_of(self.params)
+        try:
+            fields_of(self.params)
+        except TypeError as error:
+            raise TypeError(f"lesson {self.name}: {error}") from None
+        for wrong in self._mistakes():
+            raise ValueError(f"lesson {self.name}{wrong}")
+        self.text()
+
+    def _mistakes(self) -> Iterator[str]:
+        """Yield what is wrong with the values given, as ends of lines that begin with the lesson's name."""
+        if self.page is not None and not isinstance(self.page, Path):
+            yield f": page is a Path, not {self.page!r}: Path(__file__).with_name(...) finds it beside the lesson"
+        yield from _not_called_with(self.run, "run", "the params and, by keyword, functions that have defaults")
+        yield from _not_called_with(self.draw, "draw", "one state")
         names = [preset.name for preset in self.presets] + [question.name for question in self.questions]
         if len(set(names)) != len(names):
-            raise ValueError(f"lesson {self.name}: two presets or questions share a name")
-        if self.page is not None:
-            self.text()
+            yield ": two presets or questions share a name"
+        for what, one in [("preset", p) for p in self.presets] + [("question", q) for q in self.questions]:
+            try:
+                self.check(one.params)
+            except InputError as error:
+                yield f", {what} {one.name!r}: {error}"
 
     def text(self) -> str:
         """Return the page, Markdown; title and summary where the lesson has none.
@@ -125,10 +144,10 @@ class Lesson(Generic[P, S]):
         if self.page is None:
             return f"# {self.title}\n\n{self.summary}\n"
         try:
-            return Path(self.page).read_text(encoding="utf-8")
+            return self.page.read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:
             why = getattr(error, "strerror", None) or "not UTF-8 text"
-            raise InputError(f"lesson {self.name}: its page {Path(self.page).absolute()}: {why}") from None
+            raise InputError(f"lesson {self.name}: its page {self.page.absolute()}: {why}") from None
 
     def preset(self, name: str) -> Preset[P]:
         """Return a preset by name.
@@ -200,6 +219,19 @@ def find(name: str) -> Lesson:
     return lessons[name]
 
 
+def _not_called_with(function: Any, name: str, wanted: str) -> Iterator[str]:
+    """Yield a line where a function cannot be called with one positional argument alone."""
+    if not callable(function):
+        yield f": {name} is a function, not {function!r}"
+        return
+    try:
+        inspect.signature(function).bind(None)
+    except TypeError:
+        yield f": {at(function)}{name}{inspect.signature(function)} takes {wanted}"
+    except ValueError:  # a function of C says nothing of its arguments
+        pass
+
+
 def load(path: Path) -> Lesson:
     """Run a Python file and return the `lesson` that it defines.
 
@@ -221,7 +253,7 @@ def load(path: Path) -> Lesson:
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
     except (Exception, SystemExit) as error:
-        raise InputError(f"{path}: {type(error).__name__}: {error}") from error
+        raise AuthorError(f"{path}: {described(error, module)}", traceback.format_exc()) from error
 
 
 def _lesson_in(module: ModuleType, value: str = "lesson") -> Lesson:

@@ -38,11 +38,16 @@ def picked(primitive: Primitive, p_origin: np.ndarray, v_ray: np.ndarray) -> int
         to the ray; a mesh's hidden vertices lose to those in front.
     """
     v_ray = v_ray / np.linalg.norm(v_ray)
+    if not pickable(primitive):
+        return None
     if isinstance(primitive, (Points, Mesh)):
         return _nearest(_in_world(primitive.p, primitive.T_world_object), p_origin, v_ray)
-    if isinstance(primitive, Picture) and primitive.width is not None:
-        return _pixel(primitive, p_origin, v_ray)
-    return None
+    return _pixel(primitive, p_origin, v_ray) if isinstance(primitive, Picture) else None
+
+
+def pickable(primitive: Primitive) -> bool:
+    """Tell whether a click can pick something of a primitive: Points, a Mesh, or a Picture that stands in space."""
+    return isinstance(primitive, (Points, Mesh)) or (isinstance(primitive, Picture) and primitive.width is not None)
 
 
 def _nearest(p_world: np.ndarray, p_origin: np.ndarray, v_ray: np.ndarray) -> int | None:

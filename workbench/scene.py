@@ -53,6 +53,7 @@ class Field:
     map: Literal["viridis", "diverging"] = "viridis"
 
     def __post_init__(self) -> None:
+        _array("Field.values", self.values)
         _need(
             bool(np.isfinite([self.low, self.high]).all()) and self.low < self.high, "a Field needs low < high, finite"
         )
@@ -78,6 +79,7 @@ class Classes:
 
     def __post_init__(self) -> None:
         _need(len(self.roles) == len(self.names) > 0, "Classes needs one name per role")
+        _array("Classes.ids", self.ids)
         _need(self.ids.dtype.kind in "iub", "Classes.ids are whole numbers")
         _need(self.ids.size == 0 or int(self.ids.max()) < len(self.roles), "a class id is beyond the roles")
 
@@ -121,6 +123,7 @@ class Segments:
     name: str = ""
 
     def __post_init__(self) -> None:
+        _array("Segments.ends", self.ends)
         _need(
             self.ends.ndim == 3 and self.ends.shape[1:] == (2, 3), f"Segments.ends is (n, 2, 3), not {self.ends.shape}"
         )
@@ -143,6 +146,7 @@ class Mesh:
 
     def __post_init__(self) -> None:
         _rows("Mesh.p", self.p, 3)
+        _array("Mesh.faces", self.faces)
         _need(self.faces.ndim == 2 and self.faces.shape[1] == 3, f"Mesh.faces is (f, 3), not {self.faces.shape}")
         _need(self.faces.dtype.kind in "iu", "Mesh.faces are whole numbers")
         _need(len(self.faces) > 0 and len(self.p) > 0, "a Mesh has at least one face")
@@ -182,6 +186,7 @@ class Camera:
     name: str = ""
 
     def __post_init__(self) -> None:
+        _array("Camera.K", self.K)
         _need(
             self.K.shape == (3, 3) and self.K[0, 0] > 0 and self.K[1, 1] > 0,
             "Camera.K is (3, 3), focal lengths positive",
@@ -203,6 +208,8 @@ class Label:
     opacity: float = 1.0
 
     def __post_init__(self) -> None:
+        _text("Label.text", self.text)
+        _array("Label.p", self.p)
         _need(self.p.shape == (3,), f"Label.p is (3,), not {self.p.shape}")
         _common(self, None)
 
@@ -250,6 +257,11 @@ class Scalar:
     color: Role = "source"
     log: bool = False
 
+    def __post_init__(self) -> None:
+        number = isinstance(self.value, (int, float, np.number)) and not isinstance(self.value, np.complexfloating)
+        _need(number, f"Scalar.value is one real number, not {_what(self.value)}: float(...) makes one")
+        _color(self.color)
+
 
 @dataclass(frozen=True, eq=False)
 class Curve:
@@ -269,7 +281,11 @@ class Curve:
     marks: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        _need(self.x.ndim == 1 and self.x.shape == self.y.shape and len(self.x) > 0, "Curve.x and y are (n,), n > 0")
+        _array("Curve.x", self.x)
+        _array("Curve.y", self.y)
+        good = self.x.ndim == 1 and self.x.shape == self.y.shape and len(self.x) > 0
+        _need(good, f"Curve.x and y are (n,), n > 0, as long as each other, not {self.x.shape} and {self.y.shape}")
+        _color(self.color)
         _finite("Curve.x", self.x)
 
 
@@ -283,6 +299,8 @@ class Table:
 
     def __post_init__(self) -> None:
         _need(all(len(row) == len(self.header) for row in self.rows), "every Table row is as long as the header")
+        for cell in (*self.header, *(cell for row in self.rows for cell in row)):
+            _text(f"each cell of the Table {self.title!r}", cell)
 
 
 @dataclass(frozen=True, eq=False)
@@ -293,6 +311,7 @@ class Caption:
     tone: Literal["info", "good", "wrong"] = "info"
 
     def __post_init__(self) -> None:
+        _text("Caption.text", self.text)
         _need(bool(self.text.strip()), "a Caption says something")
 
 
@@ -403,16 +422,34 @@ def _need(holds: bool, message: str) -> None:
         raise ValueError(message)
 
 
+def _what(value: object) -> str:
+    return f"{value!r:.40}" if isinstance(value, str) else f"of type {type(value).__name__}"
+
+
+def _array(name: str, value: object) -> None:
+    _need(isinstance(value, np.ndarray), f"{name} is an array, not {_what(value)}: np.asarray(...) makes one")
+
+
+def _text(name: str, value: object) -> None:
+    _need(isinstance(value, str), f'{name} is a text, not {_what(value)}: f"{{...:.3f}}" makes one')
+
+
+def _color(role: object) -> None:
+    _need(role in PALETTE, f"unknown colour role {role!r}: one of {', '.join(PALETTE)}")
+
+
 def _finite(name: str, values: np.ndarray) -> None:
     _need(bool(np.isfinite(values).all()), f"{name} holds NaN or infinity: leave such rows out before drawing")
 
 
 def _rows(name: str, rows: np.ndarray, columns: int) -> None:
+    _array(name, rows)
     _need(rows.ndim == 2 and rows.shape[1] == columns, f"{name} is (n, {columns}), not {rows.shape}")
     _finite(name, rows)
 
 
 def _image(name: str, image: np.ndarray) -> None:
+    _array(name, image)
     good = image.dtype == np.uint8 and (image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)) and image.size > 0
     _need(good, f"{name} is (h, w) or (h, w, 3) uint8, not {image.dtype} {image.shape}")
 
@@ -420,12 +457,13 @@ def _image(name: str, image: np.ndarray) -> None:
 def _common(primitive: Any, n: int | None) -> None:
     T = primitive.T_world_object
     if T is not None:
+        _array("T_world_object", T)
         _need(T.shape == (4, 4), f"T_world_object is (4, 4), not {T.shape}")
         _finite("T_world_object", T)
     _need(0.0 <= primitive.opacity <= 1.0, "opacity is between 0 and 1")
     color = getattr(primitive, "color", "neutral")
     if isinstance(color, str):
-        _need(color in PALETTE, f"unknown colour role {color!r}: one of {', '.join(PALETTE)}")
+        _color(color)
     elif isinstance(color, np.ndarray):
         _need(
             color.dtype == np.uint8 and color.shape == (n, 3),
@@ -433,5 +471,7 @@ def _common(primitive: Any, n: int | None) -> None:
         )
     elif isinstance(color, Field):
         _need(color.values.shape == (n,), f"the Field holds {color.values.shape} values for {n} items")
-    else:
+    elif isinstance(color, Classes):
         _need(color.ids.shape == (n,), f"Classes holds {color.ids.shape} ids for {n} items")
+    else:
+        _need(False, f"a colour is a role, a Field, Classes or an array ({n}, 3) uint8, not {_what(color)}")

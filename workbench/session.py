@@ -6,12 +6,12 @@ and shows what `look` returns. The latest wish wins: `compute` gives up a run as
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from workbench import knobs
-from workbench.errors import InputError
-from workbench.lesson import Lesson, Question
+from workbench.errors import AuthorError, InputError
+from workbench.lesson import Lesson
 from workbench.scene import Caption, Scene, ghost
 from workbench.timeline import Series, Timeline, Timelines
 from workbench.watch import Moment
@@ -50,16 +50,6 @@ class Look:
     pinned: bool
 
 
-@dataclass(frozen=True)
-class Answer:
-    """What came of a prediction: whether it was right, the right answer in words, and why."""
-
-    right: bool
-    truth: str
-    why: str
-
-
-@dataclass
 class Session:
     """A place in a lesson, and the verbs that move it.
 
@@ -67,21 +57,31 @@ class Session:
         lesson: The lesson that is open.
         timelines: Where runs are kept; share one between the sessions of a server.
         slots: Functions that replace keyword arguments of the lesson's run (a student's); such runs are not shared.
+
+    Attributes:
+        params: What is wanted.
+        timeline: The run of these params.
+        message: What the person gave that could not be used, or None.
+        playing, speed: As they are; steps per second.
     """
 
-    lesson: Lesson
-    timelines: Timelines = field(default_factory=Timelines)
-    slots: Mapping[str, Callable] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
+    def __init__(
+        self,
+        lesson: Lesson,
+        timelines: Timelines | None = None,
+        slots: Mapping[str, Callable] | None = None,
+    ):
+        self.lesson, self.slots = lesson, dict(slots or {})
+        self.timelines = Timelines() if timelines is None else timelines
         self.playing, self.speed = False, 1.0
-        self.message: str | None = None  # what the person gave that could not be used
+        self.message: str | None = None
         self._due = 0.0
         self._pinned: tuple[Timeline, int] | None = None
         self._shown: Timeline | None = None  # the run whose picture stays until the wanted one has a first step
-        self.params = self.lesson.params()
+        self._last_k = 0
+        self.params = lesson.params()
         self.timeline = self._run(self.params)
-        self._want(self.lesson.first_step)
+        self._start(f"lesson {lesson.name}", lesson.first_step)
 
     # what is wanted -------------------------------------------------------------------------------------------------
 
@@ -97,7 +97,10 @@ class Session:
         if other:
             self._pinned, self._shown, self.slots = None, None, {}
         self._go(params)
-        self._want(lesson.first_step if step is None else step)
+        if step is None and params == lesson.params():
+            self._start(f"lesson {lesson.name}", lesson.first_step)
+        else:
+            self._want(lesson.first_step if step is None else step)
 
     def change(self, **values: Any) -> None:
         """Set params; numbers out of range go to the nearer end. What cannot be used becomes the caption, no more."""
@@ -120,7 +123,9 @@ class Session:
     def use_preset(self, name: str) -> None:
         """Open a preset of the lesson."""
         preset = self.lesson.preset(name)
-        self.open(self.lesson, preset.params, preset.step)
+        self.open(self.lesson, preset.params)
+        step = self.lesson.first_step if preset.step is None else preset.step
+        self._start(f"lesson {self.lesson.name}, preset {name!r}", step)
 
     def pin(self) -> None:
         """Keep the run and step that are shown as a ghost behind what comes."""
@@ -197,7 +202,7 @@ class Session:
             return None
         if now >= self._due:
             if self.step + 1 < len(self.timeline):
-                self._wanted = self.step + 1
+                self._want(self.step + 1)
                 self._due = max(self._due + 1.0 / self.speed, now)
             elif self.timeline.finished:
                 self.playing = False
@@ -242,33 +247,6 @@ class Session:
             timeline.series(), pinned_series, self.playing, self.speed, self.pinned,
         )  # fmt: skip
 
-    def answer(self, question: Question, given: Any) -> Answer:
-        """Compare a prediction (None: skipped, only tell) with the run that answers it; computes that run.
-
-        Raises:
-            InputError: If what was given is no answer to this question, or its run fails.
-        """
-        value = self._given(question, given)
-        states = self.timelines.get(self.lesson, question.params).states()
-        truth = question.answer(states)
-        if question.choices:
-            return Answer(value == truth, question.choices[int(truth)], question.why(states))
-        right = abs(value - truth) <= question.tolerance
-        return Answer(right, f"{truth:.4g} {question.unit}".rstrip(), question.why(states))
-
-    @staticmethod
-    def _given(question: Question, given: Any) -> float:
-        if given is None:
-            return float("nan")
-        if question.choices:
-            if given not in question.choices:
-                raise InputError("choose one of the answers")
-            return float(question.choices.index(given))
-        try:
-            return float(given)
-        except (TypeError, ValueError):
-            raise InputError("a number is asked for") from None
-
     def _go(self, params: Any) -> None:
         self.params, self.timeline = params, self._run(params)
 
@@ -276,22 +254,28 @@ class Session:
         return Timeline(self.lesson, params, self.slots) if self.slots else self.timelines.get(self.lesson, params)
 
     def _want(self, step: int) -> None:
-        self._wanted = step
+        self._wanted, self._opens = step, None
+
+    def _start(self, who: str, step: int) -> None:
+        """Go to the step at which an author lets a run open; `who` is told if it turns out that there is none."""
+        self._wanted, self._opens = step, (who, step)
 
     def _trouble(self, k: int) -> Caption | None:
         if self.message is not None:
             return Caption(self.message, "wrong")
+        if self._opens is not None:
+            try:
+                self.timeline.opening(*self._opens)
+            except AuthorError as error:
+                return Caption(str(error), "wrong")
         ended = self.timeline.stopped
         if ended is not None and (not len(self.timeline) or k == len(self.timeline) - 1):
             return Caption(ended, "wrong")
         return None
 
     def _blank(self) -> Look:
-        text = self.message or self.timeline.stopped or "This run has no steps."
+        text = self.message or self.timeline.stopped or ""
         return Look(
             self.lesson, self.params, self.timeline, 0, 0, True, {}, Caption(text, "wrong"), None, {}, {},
             False, self.speed, self.pinned,
         )  # fmt: skip
-
-    _wanted: int = 0
-    _last_k: int = 0

@@ -1,17 +1,19 @@
 """One run as random access: its states, scenes and moments, computed when first asked for, kept, read-only, shared."""
 
 import threading
-import traceback
 from collections import OrderedDict
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from workbench.errors import InputError
+from workbench.authors import Blaming, at
+from workbench.errors import AuthorError, InputError
+from workbench.knobs import Field, Pick, fields_of
 from workbench.lesson import Lesson
-from workbench.scene import Caption, Scalar, Scene, arrays, caption_of
+from workbench.picking import pickable
+from workbench.scene import PRIMITIVES, Caption, Primitive, Scalar, Scene, arrays, caption_of
 from workbench.watch import Moment, listening, moment_of
 
 MOST_STEPS = 5000
@@ -64,10 +66,13 @@ class Timeline:
         self.lesson, self.params = lesson, lesson.check(params)
         self.finished = False
         self.stopped: str | None = None  # why the run ended before its end, in one line for a person
-        self.failure: str | None = None  # the traceback of an error that is not the person's
+        self.failure: str | None = None  # the traceback of an error in the lesson's own code
         self.bytes = 0
         self._steps: list[Step] = []
-        self._generator = lesson.run(params, **(slots or {}))
+        self._series = Columns()
+        self._slots = dict(slots or {})
+        self._generator: Iterator[Any] | None = None  # made with the first step: whatever `run` raises is told there
+        self._shown: dict[str, Primitive] = {}  # by path, what a step showed last
         self._lock = threading.Lock()
         self._owners: dict[int, np.ndarray] = {}
         self._most_steps, self._most_bytes = most_steps, most_bytes
@@ -90,20 +95,17 @@ class Timeline:
             if self.finished:
                 return False
             try:
-                with listening() as last:
-                    state = next(self._generator)
-                    moment = last() or moment_of(self._generator, self.lesson.run)
-                scene = dict(self.lesson.draw(state))
-                caption_of(scene)
+                state, moment = self._next()
+                scene = self._drawn(state)
                 self._freeze(state)
                 self._freeze(scene)
             except StopIteration:
-                return self._end()
+                return self._end(self._incomplete())
             except InputError as error:
+                self.failure = error.trace if isinstance(error, AuthorError) else None
                 return self._end(str(error))
-            except Exception as error:
-                self.failure = traceback.format_exc()
-                return self._end(f"The run failed: {type(error).__name__}: {' '.join(str(error).split())}")
+            self._shown |= scene
+            self._series.add(scene)
             self._steps.append(Step(state, scene, moment))
             if len(self._steps) >= self._most_steps:
                 self._end(f"The run was cut after {self._most_steps:,} steps.")
@@ -131,17 +133,61 @@ class Timeline:
             raise InputError(self.stopped)
         return tuple(step.state for step in self._steps)
 
+    def opening(self, who: str, step: int) -> int:
+        """Return the index of the step where a run opens, as an author gave it: negative counts from the end.
+
+        Args:
+            who: Who asks for the step, in words that begin the line, such as "lesson icp, preset far".
+            step: An index.
+
+        Raises:
+            AuthorError: If the run, computed to its end, has no such step.
+        """
+        n = len(self)
+        if self.finished and self.stopped is None and not -n <= step < n:
+            raise AuthorError(f"{who} opens at step {step}, but its run has {n} steps: 0 to {n - 1}, or -1 to -{n}")
+        return step if step >= 0 else max(0, n + step)
+
     def series(self) -> dict[str, Series]:
-        """Return every scalar of the steps known so far, by path, in order of appearance."""
-        steps = self.known()
-        first: dict[str, Scalar] = {}
-        for step in steps:
-            for path, primitive in step.scene.items():
-                if isinstance(primitive, Scalar):
-                    first.setdefault(path, primitive)
-        return {
-            path: Series(scalar, np.array([_value(s.scene, path) for s in steps])) for path, scalar in first.items()
-        }
+        """Return every scalar of the steps known so far, by path, in order of appearance; costs no look at the steps."""
+        return self._series.until(len(self._steps))
+
+    def _next(self) -> tuple[Any, Moment | None]:
+        run = self.lesson.run
+        with Blaming(f"lesson {self.lesson.name}", run), listening() as last:
+            if self._generator is None:
+                made = run(self.params, **self._slots)
+                if not isinstance(made, Iterator):
+                    wrong = f"run returned {_kind(made)}; it is a generator: `yield` each state"
+                    raise AuthorError(f"lesson {self.lesson.name}: {at(run)}{wrong}")
+                self._generator = made
+            state = next(self._generator)
+            return state, last() or moment_of(self._generator, run)
+
+    def _drawn(self, state: Any) -> dict[str, Primitive]:
+        """Return the scene of a state.
+
+        Raises:
+            AuthorError: If it is none: what is no primitive is named by its path.
+        """
+        draw = self.lesson.draw
+        with Blaming(f"lesson {self.lesson.name}", draw):
+            shown = draw(state)
+            wrong = _no_scene(shown)
+            if wrong:
+                raise AuthorError(f"lesson {self.lesson.name}: {at(draw)}{wrong}")
+            caption_of(shown)
+            return dict(shown)
+
+    def _incomplete(self) -> str | None:
+        """Say what a run that came to its end lacks, None when nothing: a step, and what the default run is to show."""
+        lesson = self.lesson
+        if not self._steps:
+            return f"lesson {lesson.name}: {at(lesson.run)}run ended without a step; it yields at least one state"
+        if self._slots or self.params != lesson.params():
+            return None
+        picked = (_not_picked(field, self._shown) for field in fields_of(lesson.params))
+        return next((f"lesson {lesson.name}: {lesson.params.__name__}.{wrong}" for wrong in picked if wrong), None)
 
     def _end(self, why: str | None = None) -> bool:
         self.finished, self.stopped = True, why
@@ -159,9 +205,68 @@ class Timeline:
                 self.bytes += array.nbytes
 
 
-def _value(scene: Scene, path: str) -> float:
-    primitive = scene.get(path)
-    return float(primitive.value) if isinstance(primitive, Scalar) else float("nan")
+class Columns:
+    """The scalars of a run's steps, grown step by step; read from any thread while one adds."""
+
+    def __init__(self) -> None:
+        self._first: dict[str, Scalar] = {}
+        self._values: dict[str, np.ndarray] = {}  # longer than what is known; NaN where a step has none
+        self._steps = 0
+
+    def add(self, scene: Scene) -> None:
+        """Take the scalars of one more step."""
+        k, self._steps = self._steps, self._steps + 1
+        for path, primitive in scene.items():
+            if isinstance(primitive, Scalar) and path not in self._first:
+                self._values[path] = np.full(max(64, 2 * k), np.nan)
+                self._first[path] = primitive
+        for path, values in self._values.items():
+            if k >= len(values):
+                self._values[path] = values = np.concatenate([values, np.full(len(values), np.nan)])
+            primitive = scene.get(path)
+            if isinstance(primitive, Scalar):
+                values[k] = primitive.value
+
+    def until(self, steps: int) -> dict[str, Series]:
+        """Return every scalar of the first steps, as read-only views."""
+        found = {}
+        for path, scalar in tuple(self._first.items()):
+            values = self._values[path][:steps]
+            values.setflags(write=False)
+            found[path] = Series(scalar, values)
+        return found
+
+
+def _no_scene(shown: Any) -> str | None:
+    """Say why what `draw` returned is no scene, None when it is one."""
+    if not isinstance(shown, Mapping):
+        return f"draw returned {_kind(shown)}; it returns a dict from path to primitive"
+    for path, primitive in shown.items():
+        if not isinstance(path, str):
+            return f"draw returned a scene with the path {path!r}; a path is a text"
+        if not isinstance(primitive, PRIMITIVES):
+            names = ", ".join(kind.__name__ for kind in PRIMITIVES)
+            return f"the scene holds {_kind(primitive)} at {path!r}; wanted is one of {names}"
+    return None
+
+
+def _not_picked(field: Field, shown: Mapping[str, Primitive]) -> str | None:
+    """Say why no click can set a field that is picked, None when one can."""
+    pick = field.knob.by
+    if not isinstance(pick, Pick) or (pick.path in shown and pickable(shown[pick.path])):
+        return None
+    can = ", ".join(path for path, primitive in shown.items() if pickable(primitive)) or "nothing"
+    there = f"shows {_kind(shown[pick.path])} at" if pick.path in shown else "shows nothing at"
+    return (
+        f"{field.name} is picked at {pick.path!r}, but the default run {there} {pick.path!r}; what can be picked: {can}"
+    )
+
+
+def _kind(value: object) -> str:
+    if value is None:
+        return "None"
+    name = type(value).__name__
+    return f"an {name}" if name[0].lower() in "aeiou" else f"a {name}"
 
 
 class Timelines:

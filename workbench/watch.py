@@ -44,7 +44,7 @@ class Moment:
 @functools.lru_cache(maxsize=256)
 def source_of(function: Callable[..., Any]) -> tuple[tuple[str, ...], int]:
     """Return the source lines of a function without decorators, dedented, and the file line of the first."""
-    lines, first = inspect.getsourcelines(inspect.unwrap(function))
+    lines, first = inspect.getsourcelines(function)
     skip = next((i for i, line in enumerate(lines) if line.lstrip().startswith(("def ", "async def "))), 0)
     kept = lines[skip:]
     indent = len(kept[0]) - len(kept[0].lstrip())
@@ -71,6 +71,16 @@ def listening() -> Iterator[Callable[[], Moment | None]]:
         yield lambda: _listener.moment
     finally:
         _listener.on, _listener.yielded, _listener.moment = before
+
+
+@contextmanager
+def unwatched() -> Iterator[None]:
+    """Record nothing in this thread for the length of the block: for runs inside a run whose lines nobody looks at."""
+    before, _listener.on = _listener.on, False
+    try:
+        yield
+    finally:
+        _listener.on = before
 
 
 def watched(algorithm: Callable[Options, Iterator[State]]) -> Callable[Options, Iterator[State]]:

@@ -1,7 +1,6 @@
 """Where ICP ends from a row of starts: its basin of convergence, on a thinned source."""
 
 import functools
-import inspect
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -12,6 +11,7 @@ from lessons.icp.scans import Scans, scans_of
 from workbench.algorithms.icp import Align, Gate, icp
 from workbench.geometry.alignment import align_affine, align_rigid, align_similarity
 from workbench.geometry.motions import inverse
+from workbench.watch import unwatched
 
 ANGLES = tuple(range(0, 181, 15))
 POINTS, MAX_ITERATIONS, TOLERANCE = 300, 100, 1e-4
@@ -61,7 +61,7 @@ def align_of(params: Params, align: Align = align_rigid) -> Align:
 def _try(params: Params, angle: float) -> Try:
     scans = scans_of(params)
     assert scans.T_truth is not None
-    states = inspect.unwrap(icp)(  # unwatched: nobody looks at the lines of these runs
+    states = icp(
         scans.p_target,
         thinned(scans),
         scans.about_centre(np.array([0.0, 0.0, np.radians(angle)])) @ scans.T_truth,
@@ -71,7 +71,8 @@ def _try(params: Params, angle: float) -> Try:
         max_iterations=MAX_ITERATIONS,
         tolerance=TOLERANCE,
     )
-    *_, end = states
+    with unwatched():
+        *_, end = states
     error, _ = scans.errors(end.T_target_source)
     return Try(angle, end.T_target_source @ inverse(scans.T_truth), error, end.rmse)
 

@@ -18,7 +18,7 @@ from lessons.icp.draw import State, draw
 from lessons.icp.params import Params
 from lessons.icp.presets import PRESETS, QUESTIONS
 from lessons.icp.scans import scans_of
-from workbench.algorithms.icp import Align, Match, PlaneStep, icp, nearest
+from workbench.algorithms.icp import Align, Match, PlaneStep, icp
 from workbench.geometry.alignment import align_rigid, nearest_rotation, point_to_plane_step
 from workbench.geometry.motions import rotation_angle
 from workbench.lesson import Lesson, View
@@ -27,9 +27,12 @@ MAX_ITERATIONS, TOLERANCE = 150, 1e-5
 
 
 def run(
-    params: Params, *, align: Align = align_rigid, match: Match = nearest, step: PlaneStep = point_to_plane_step
+    params: Params, *, align: Align | None = None, match: Match | None = None, step: PlaneStep | None = None
 ) -> Iterator[State]:
-    """Yield the steps of ICP on the scans, then, where the truth is known, one try from each of a row of starts."""
+    """Yield the steps of ICP on the scans, then, where the truth is known, one try from each of a row of starts.
+
+    Where a function is given in place of ours (None), there are no tries.
+    """
     scans = scans_of(params)
     T_before, rmse_before, state = scans.T_start, float("nan"), None
     for now in icp(
@@ -39,8 +42,8 @@ def run(
         n_target=scans.n_target() if params.fit == "point-to-plane" else None,
         gate=gate_of(params),
         match=match,
-        align=align_of(params, align),
-        step=step,
+        align=align_of(params, align or align_rigid),
+        step=step or point_to_plane_step,
         max_iterations=MAX_ITERATIONS,
         tolerance=TOLERANCE,
     ):
@@ -49,7 +52,7 @@ def run(
         state = State(params, scans, now, rmse_before, turned, *scans.errors(now.T_target_source), right)
         yield state
         T_before, rmse_before = now.T_target_source, now.rmse
-    ours = (align, match, step) == (align_rigid, nearest, point_to_plane_step)
+    ours = align is None and match is None and step is None
     if state is None or scans.T_truth is None or not ours:
         return
     tries: tuple[Try, ...] = ()

@@ -6,7 +6,6 @@ Times are the best of a few runs, ours and the peer's in turn, so that a ratio i
 """
 
 import importlib
-import inspect
 import time
 from collections.abc import Callable
 from typing import Any
@@ -113,16 +112,15 @@ def bench_normals() -> None:
 def bench_icp(n: int, floor: str, floor_whole: str) -> None:
     p_target, p_source, T_true = scans(n)
     n_target = point_normals(p_target)
-    run = inspect.unwrap(icp)
 
     def fixed_iterations() -> None:
-        for _ in run(
+        for _ in icp(
             p_target, p_source, n_target=n_target, gate=Gate(FIRST), max_iterations=ITERATIONS, tolerance=1e-300
         ):
             pass
 
     def whole() -> np.ndarray:
-        *_, end = run(p_target, p_source, n_target=n_target, gate=Gate(medians=3.0), tolerance=1e-6)
+        *_, end = icp(p_target, p_source, n_target=n_target, gate=Gate(medians=3.0), tolerance=1e-6)
         return end.T_target_source
 
     o3_icp = open3d and with_open3d(p_target, p_source, n_target)
@@ -205,7 +203,7 @@ def profiled_run(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarra
 
     match, iterations = timed("match", matcher(p_target, p_source)), 0
     start = time.process_time()
-    for state in inspect.unwrap(icp)(
+    for state in icp(
         p_target, p_source, n_target=n_target, gate=Gate(medians=3.0), max_iterations=8,
         match=match, step=timed("step", point_to_plane_step),
     ):  # fmt: skip

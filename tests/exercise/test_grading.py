@@ -128,6 +128,18 @@ def test_the_right_function_never_differs():
     assert not any(path.startswith("ghost/") for step in timeline.known() for path in step.scene)
 
 
+@pytest.mark.parametrize("turned", [turning, lambda angle: fake.turn_about_z(-angle)])
+def test_every_scene_beside_a_students_function_is_drawn_once(turned):
+    drawn = []
+
+    def draw(state):
+        drawn.append(state)
+        return fake.draw(state)
+
+    Timeline(beside(replace(fake.lesson, draw=draw), TURN, turned), fake.Params(steps=4)).complete()
+    assert len(drawn) == len({id(state) for state in drawn}) == 8
+
+
 def test_a_wrong_function_differs_from_a_step_on_with_the_reference_as_ghost():
     timeline = Timeline(beside(fake.lesson, TURN, lambda angle: fake.turn_about_z(-angle)), fake.Params()).complete()
     assert first_difference(timeline.known()) == 1  # at step 0 both turn by nothing

@@ -161,7 +161,7 @@ class TestBasin:
 
     def test_without_a_truth_or_with_ones_own_function_there_is_none(self, two_files):
         assert not any(s.tries for s in states(two_files))
-        assert not any(s.tries for s in run(HOME, match=lambda p_target, p_source: nearest(p_target, p_source)))
+        assert not any(s.tries for s in run(HOME, match=nearest))
 
 
 class TestPicture:

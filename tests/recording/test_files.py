@@ -103,7 +103,9 @@ def test_an_existing_file_is_replaced_only_by_force(tmp_path):
 def test_a_failing_run_leaves_what_was_there(tmp_path):
     path = tmp_path / "a.rrd"
     path.write_bytes(b"precious")
-    with pytest.raises(InputError, match=r"a bug \(at step 2\); nothing was written"):
+    with pytest.raises(
+        InputError, match=r"fake.py, line \d+: RuntimeError: a bug .*\(at step 2\); nothing was written"
+    ):
         record(fake.lesson, path, fake.Params(trouble="crash"), force=True)
     assert os.listdir(tmp_path) == ["a.rrd"]
     assert path.read_bytes() == b"precious"

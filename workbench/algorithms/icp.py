@@ -125,7 +125,7 @@ def icp(
     *,
     n_target: Float[np.ndarray, "m 3"] | None = None,
     gate: Gate = Gate(),
-    match: Match = nearest,
+    match: Match | None = None,
     align: Align = align_rigid,
     step: PlaneStep = point_to_plane_step,
     max_iterations: int = 100,
@@ -139,7 +139,7 @@ def icp(
         T_target_source: The initial guess.
         n_target: Unit normals of the target. With them each fit is one point-to-plane step, without them `align`.
         gate: Which matches a fit may use.
-        match: Finds partners. Ours keeps one k-d tree over the target for the whole run.
+        match: Finds partners; None means `matcher`'s, which keeps one k-d tree over the target for the whole run.
         align: Fits a motion to pairs: `align_rigid`, `align_similarity`, `align_affine`, or one's own.
         step: Makes the point-to-plane step.
         max_iterations: Match and fit at most this often.
@@ -153,7 +153,7 @@ def icp(
         kept matches never rises; a plateau or a small RMSE is no proof of a right answer.
     """
     check_clouds(p_target, p_source)
-    match = matcher(p_target, p_source) if match is nearest else match
+    match = matcher(p_target, p_source) if match is None else match
     corners = bounding_corners(p_source)
     shortest_move = tolerance * np.linalg.norm(corners[-1] - corners[0])
     fewest = 3 if n_target is None else 6

@@ -5,7 +5,6 @@ regularized transport problems, 2019, algorithm 2 (absorption); Peyre and Cuturi
 section 4.
 """
 
-import inspect
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
@@ -13,7 +12,7 @@ from enum import Enum
 import numpy as np
 from jaxtyping import Float
 
-from workbench.watch import watched
+from workbench.watch import unwatched, watched
 
 MOST_ENTRIES = 50_000_000  # of a cost matrix: 400 MB, and the plan is as large again
 
@@ -111,8 +110,8 @@ def sinkhorn(
     cost: Float[np.ndarray, "n m"], regularisation: float, *, max_sweeps: int = 10_000, tolerance: float = 1e-9
 ) -> Blurred:
     """Return the last state of `sinkhorn_steps`; whoever watches a run that calls this goes on watching that run."""
-    steps = inspect.unwrap(sinkhorn_steps)
-    *_, last = steps(cost, regularisation, max_sweeps=max_sweeps, tolerance=tolerance)
+    with unwatched():
+        *_, last = sinkhorn_steps(cost, regularisation, max_sweeps=max_sweeps, tolerance=tolerance)
     return last
 
 

@@ -3,6 +3,7 @@
 The result is an ordinary lesson, so it is watched live, stepped back through and recorded like any other.
 """
 
+import itertools
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
@@ -22,13 +23,25 @@ DIFFERENCE = "exercise/difference"
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """One step of both runs: `theirs` is None where the student's function gave nothing, with the reason in `trouble`."""
+    """One step of both runs, drawn once: `theirs` is None where the student's function gave nothing.
+
+    Args:
+        ours: The reference's state.
+        theirs: The state of the student's run.
+        trouble: Why there is none.
+        difference: How far the two scenes are apart.
+        first: Whether this is the first step at which they differ.
+        scene: The student's scene; ours where there is none.
+        ghost: What of ours stands elsewhere, faint; empty where the two agree.
+    """
 
     ours: Any
     theirs: Any
     trouble: str
     difference: float
     first: bool
+    scene: Scene
+    ghost: Scene
 
 
 def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
@@ -37,30 +50,28 @@ def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
 
     def run(params: Any) -> Iterator[Pair]:
         ours, theirs = lesson.run(params), lesson.run(params, **slots)
-        state_ours: Any = None
-        differed = False
+        state_ours, scene_ours, differed = None, {}, False
         while True:
-            state_ours = next(ours, state_ours)
+            for state_ours in itertools.islice(ours, 1):
+                scene_ours = lesson.draw(state_ours)
             try:
                 state = next(theirs)
                 scene = lesson.draw(state)
             except StopIteration:
                 return
             except Exception as error:
-                yield Pair(state_ours, None, _trouble(error, exercise), float("nan"), not differed)
+                yield Pair(state_ours, None, _trouble(error, exercise), float("nan"), not differed, scene_ours, {})
                 return
-            difference = gap(lesson.draw(state_ours), scene)
+            difference = gap(scene_ours, scene)
             differs = not difference <= TOLERANCE
-            yield Pair(state_ours, state, "", difference, differs and not differed)
+            behind = ghost(scene_ours, scene) if differs else {}
+            yield Pair(state_ours, state, "", difference, differs and not differed, scene, behind)
             differed = differed or differs
 
     def draw(pair: Pair) -> Scene:
-        ours = lesson.draw(pair.ours)
+        scene = {**pair.scene, **pair.ghost}
         if pair.theirs is None:
-            return dict(ours) | {"caption": Caption(pair.trouble, "wrong"), DIFFERENCE: _difference(float("nan"))}
-        scene = dict(lesson.draw(pair.theirs))
-        if not pair.difference <= TOLERANCE:
-            scene |= ghost(ours, scene)
+            return scene | {"caption": Caption(pair.trouble, "wrong"), DIFFERENCE: _difference(float("nan"))}
         if pair.first:
             said = caption_of(scene).text
             scene["caption"] = Caption(
@@ -121,8 +132,10 @@ def _in_world(primitive: Points | Mesh | Segments) -> np.ndarray:
 
 
 def first_difference(steps: Iterable[Step]) -> int | None:
-    """Return the first step at which the student's run differs or fails, None where it never does."""
+    """Return the first step at which the student's run differs or fails, None where it never does or there is none."""
     for k, step in enumerate(steps):
-        if isinstance(step.state, Pair) and step.state.first:
+        if not isinstance(step.state, Pair):
+            return None
+        if step.state.first:
             return k
     return None

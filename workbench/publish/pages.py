@@ -5,7 +5,8 @@ from collections.abc import Mapping, Sequence
 from html import escape
 
 from workbench.lesson import Lesson, Question
-from workbench.session import SPEEDS, Session
+from workbench.questions import answer
+from workbench.session import SPEEDS
 from workbench.timeline import Timelines
 from workbench.typeset import inline_html, page_html
 
@@ -109,16 +110,14 @@ def _player(run: str, *, root: str, runs: str) -> str:
 
 
 def _question(lesson: Lesson, question: Question, timelines: Timelines) -> str:
-    answer = Session(lesson, timelines).answer(question, None)
-    states = timelines.get(lesson, question.params).states()
-    truth = question.answer(states)
-    right = question.choices[int(truth)] if question.choices else [truth, question.tolerance]
+    found = answer(lesson, question, None, timelines)
+    right = found.truth if question.choices else [found.value, question.tolerance]
     kept = {
-        "truth": answer.truth,
+        "truth": found.truth,
         "right": right,
-        "why": answer.why,
+        "why": found.why,
         "run": question_run(lesson, question),
-        "step": question.step if question.step is not None else len(states) - 1,
+        "step": found.step,
     }
     if question.choices:
         inputs = "".join(

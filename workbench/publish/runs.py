@@ -124,7 +124,7 @@ def files_of(out: Path, lesson: Lesson, run: Run) -> list[Path]:
 
 def run_script(lesson: Lesson, run: Run, timeline: Timeline, scene: str) -> str:
     """Return the script file of a run."""
-    first = run.first if run.first >= 0 else len(timeline) + run.first
+    first = timeline.opening(f"lesson {lesson.name}, run {run.name!r}", run.first)
     data = beside(timeline) | {"scene": scene, "first": first, "reopen": show_command(lesson, run.params)}
     return f"replay({_script(run.name)}, {_script(data)});\n"
 

@@ -7,20 +7,24 @@ updates the browser in one piece. So no callback ever waits, and the latest wish
 import asyncio
 import html
 import json
-from collections.abc import Callable, Mapping
-from contextlib import nullcontext
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, nullcontext
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import viser
 
 from workbench import links
-from workbench.errors import InputError
+from workbench.authors import Blaming
+from workbench.errors import AuthorError, InputError
 from workbench.exercise.beside import first_difference
 from workbench.exercise.watching import Watched
 from workbench.knobs import Pick, fields_of
 from workbench.lesson import Lesson, Question
 from workbench.picking import picked_params
+from workbench.questions import answer as find_answer
+from workbench.scene import Caption
 from workbench.session import SPEEDS, Look, Session
 from workbench.timeline import Timelines
 from workbench.viewer.charts import Beside
@@ -34,6 +38,7 @@ from workbench.viewer.reading import Reading
 from workbench.viewer.sink import ViserSink
 from workbench.viewer.stage import BACKDROPS, set_stage
 from workbench.viewer.style import escape
+from workbench.viewer.terminal import tell_terminal
 from workbench.viewer.transport import Transport
 
 SLICE = 0.04  # seconds of computing between two pictures
@@ -75,6 +80,8 @@ class Page:
         self._between = min(width - self._left - self._right - 28, 682)
         self._address = ""
         self._sides: list[Callable[[Look], None]] = []
+        self._say: Callable[[Look], None] = lambda look: None  # shows the caption
+        self._troubles: set[str] = set()  # what was told in a notification
         self._tasks: set[asyncio.Task] = set()
         self._do(self._work())
 
@@ -178,7 +185,8 @@ class Page:
 
     def _reset(self, lesson: Lesson) -> Session:
         self.client.gui.reset()
-        self._sides = []
+        self._sides, self._say = [], lambda look: None
+        self._troubles.clear()
         self.sink.show({})
         self.session = session = Session(lesson, self.timelines)
         set_stage(self.client, lesson.view, self._framing)
@@ -191,13 +199,15 @@ class Page:
         def predict(question: Question, given: Any) -> None:
             self._do(self._answer(session, reading, question, given))
 
-        with panel.add_tab("Lesson"):
+        with panel.add_tab("Lesson"), self._telling(lesson, "page"):
             reading = Reading(gui, lesson, predict, self.progress.answers(lesson.name))
         with panel.add_tab("Code"):
             code = CodeTab(gui)
-        self._exercise = None
-        if lesson.exercises():
-            with panel.add_tab("Exercise"):
+        self._exercise, exercises = None, ()
+        with self._telling(lesson, "exercises", lesson.exercises):
+            exercises = lesson.exercises()
+        if exercises:
+            with panel.add_tab("Exercise"), self._telling(lesson, "exercises", lesson.exercises):
                 mine = self._watched if self._watched is not None and self._watched.lesson is lesson else None
                 self._exercise = ExerciseTab(
                     gui, lesson, mine, lambda: self._wish(lambda: self._to_difference(session))
@@ -218,6 +228,7 @@ class Page:
             lambda verb: self._act(session, verb),
             lambda k: self._wish(lambda: session.seek(k)),
         )
+        self._say = transport.show
         self._sides.append(lambda look: transport.show(look, first_difference(look.timeline.known())))
 
     def _add_controls(self, lesson: Lesson, session: Session) -> KnobPanel:
@@ -295,7 +306,12 @@ class Page:
     # wishes ---------------------------------------------------------------------------------------------------------
 
     def _wish(self, verb: Callable[[], None]) -> None:
-        verb()
+        if self.session is not None:
+            try:
+                with Blaming(f"lesson {self.session.lesson.name}", self.session.lesson.run):
+                    verb()
+            except InputError as error:
+                self._trouble("That cannot be done", error)
         self._wake.set()
 
     def _act(self, session: Session, verb: str) -> None:
@@ -322,15 +338,17 @@ class Page:
     async def _answer(self, session: Session, reading: Reading, question: Question, given: Any) -> None:
         reading.say(question, "Running it …")
         try:
-            answer = await asyncio.to_thread(session.answer, question, given)
+            with Blaming(f"lesson {session.lesson.name}, question {question.name!r}", question.answer):
+                answer = await asyncio.to_thread(find_answer, session.lesson, question, given, session.timelines)
         except InputError as error:
+            tell_terminal(error)
             reading.say(question, str(error))
             return
         if given is not None:
             self.progress.answer(session.lesson.name, question.name, given)
             self._keep()
         reading.show(question, given, answer)
-        session.open(session.lesson, question.params, -1 if question.step is None else question.step)
+        session.open(session.lesson, question.params, answer.step)
         self._wake.set()
 
     async def _download(self, session: Session) -> None:
@@ -339,9 +357,11 @@ class Page:
         note = self.client.add_notification("Recording", "Writing the run …", loading=True, with_close_button=False)
         timeline = session.timeline
         try:
-            data = await asyncio.to_thread(lambda: record_bytes(timeline.complete()))
+            with Blaming(f"lesson {session.lesson.name}, recording", session.lesson.draw):
+                data = await asyncio.to_thread(lambda: record_bytes(timeline.complete()))
             self.client.send_file_download(f"{session.lesson.name}.rrd", data, save_immediately=True)
         except InputError as error:
+            tell_terminal(error)
             session.message = str(error)
             self._wake.set()
         finally:
@@ -368,12 +388,12 @@ class Page:
                 if session.pending:
                     await asyncio.to_thread(session.compute, SLICE)
                 due = session.tick(self._loop.time())
-                self._show(session)
+                with Blaming(f"lesson {session.lesson.name}", session.lesson.draw):
+                    self._show(session)
             except Exception as error:  # the page must outlive whatever a lesson does
-                session.message, due = f"{type(error).__name__}: {error}", None
+                due = None
                 session.pause()
-                if self._sides:
-                    self.client.add_notification("This step cannot be shown", session.message, color="red")
+                self._trouble("This step cannot be shown", error)
             if session.pending:
                 self._wake.set()
             elif due is not None:
@@ -383,13 +403,37 @@ class Page:
         look = session.look()
         if look is None or session is not self.session:
             return
+        if look.timeline.failure is not None:
+            tell_terminal(AuthorError(look.timeline.stopped or "", look.timeline.failure))
         with self.client.atomic():
-            self.sink.show(look.scene)
-            for side in self._sides:
-                side(look)
+            wrong = [error for show in (self._show_scene, *self._sides) if (error := _failing(show, look)) is not None]
+            if wrong:
+                self._say(replace(look, caption=Caption(str(wrong[0]), "wrong")))
+        for error in wrong:
+            self._trouble("This step cannot be shown", error)
         if self._sides and not look.playing and look.finished:
             self._remember(self._query(session))
         self.client.flush()
+
+    def _show_scene(self, look: Look) -> None:
+        self.sink.show(look.scene)
+
+    @contextmanager
+    def _telling(self, lesson: Lesson, what: str, function: object = None) -> Iterator[None]:
+        """Tell in the open container and in the terminal what goes wrong in the block; the page goes on."""
+        try:
+            with Blaming(f"lesson {lesson.name}, {what}", function or lesson.run):
+                yield
+        except InputError as error:
+            self.client.gui.add_html(f'<div class="wb-caption wrong" role="alert">{escape(str(error))}</div>')
+            tell_terminal(error)
+
+    def _trouble(self, title: str, error: Exception) -> None:
+        """Tell an error, each once: in a notification, and in the terminal with its traceback."""
+        tell_terminal(error)
+        if self._sides and str(error) not in self._troubles:
+            self._troubles.add(str(error))
+            self.client.add_notification(title, str(error), color="red")
 
     # what the browser keeps -----------------------------------------------------------------------------------------
 
@@ -416,6 +460,16 @@ class Page:
         task = self._loop.create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+
+
+def _failing(show: Callable[[Look], None], look: Look) -> InputError | None:
+    """Show a part of the page; return what went wrong, with the place in the lesson where it can be found."""
+    try:
+        with Blaming(f"lesson {look.lesson.name}", look.lesson.draw):
+            show(look)
+    except InputError as error:
+        return error
+    return None
 
 
 def _speed(steps_per_second: float) -> str:

@@ -6,7 +6,7 @@ from typing import Any
 import viser
 
 from workbench.lesson import Lesson, Question
-from workbench.session import Answer
+from workbench.questions import Answer
 from workbench.typeset import inline_html, page_html
 from workbench.viewer.style import escape
 

@@ -1,0 +1,110 @@
+"""A lesson whose own code fails, in a real browser: the page says where, and lives."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+import pytest
+
+from workbench import links
+from workbench.knobs import Knob
+from workbench.lesson import Lesson, Preset, Question
+from workbench.scene import Caption, Mesh, Points, Scene
+from workbench.viewer.app import App
+from workbench.viewer.sink import ViserSink
+
+pytestmark = pytest.mark.browser
+WAIT = 60_000
+HERE = "browser/test_author_errors.py, line "
+
+
+@dataclass(frozen=True)
+class Params:
+    fails: Annotated[Literal["nowhere", "in run", "in draw", "in the sink"], Knob("Where")] = "nowhere"
+
+
+def run(params: Params) -> Iterator[str]:
+    yield "nowhere"
+    if params.fails == "in run":
+        raise KeyError("points")
+    yield params.fails
+
+
+def draw(state: str) -> Scene:
+    if state == "in draw":
+        return {"caption": Caption("Never seen"), "cloud": Points(np.zeros((3, 2)))}
+    scene: Scene = {"cloud": Points(np.eye(3)), "caption": Caption(f"It fails {state}.")}
+    mesh = {"refused": Mesh(np.eye(3), np.array([[0, 1, 2]]))} if state == "in the sink" else {}
+    return scene | mesh
+
+
+def no_exercises() -> tuple:
+    raise ImportError("no exercise")
+
+
+def lesson(page: str) -> Lesson:
+    return Lesson(
+        name="broken", title="Broken", summary="It breaks in every place.", page=Path(page),
+        params=Params, run=run, draw=draw, order=1,
+        presets=tuple(
+            Preset(where.replace(" ", "-"), f"Fails {where}", "", Params(where), -1)  # type: ignore[arg-type]
+            for where in ("nowhere", "in run", "in draw", "in the sink")
+        ),
+        questions=(
+            Question("ratio", "How many?", lambda states: 1 / 0, lambda states: "", Params()),
+        ),
+        exercises=no_exercises,
+    )  # fmt: skip
+
+
+def test_the_page_says_where_a_lesson_fails_and_goes_on(chromium, monkeypatch, capsys):
+    shown = ViserSink.show
+
+    def refuse(self, scene) -> None:
+        if "refused" in scene:
+            raise TypeError("a Mesh of one face")
+        shown(self, scene)
+
+    monkeypatch.setattr(ViserSink, "show", refuse)
+    app = App(links.Place(lesson(__file__), Params(), None), port=0)
+    page = chromium.new_page(viewport={"width": 1100, "height": 640})
+    try:
+        page.goto(app.address)
+        caption = page.locator(".wb-caption")
+        caption.get_by_text("It fails nowhere.").wait_for(timeout=WAIT)
+        caption.get_by_text(f"lesson broken, exercises: {HERE}").wait_for(timeout=WAIT)
+        for where, words in (
+            ("in run", "KeyError: 'points' in `raise KeyError"),
+            ("in draw", "Points.p is (n, 3), not (3, 2)"),
+            ("in the sink", "TypeError: a Mesh of one face"),
+        ):
+            page.get_by_role("button", name=f"Fails {where}", exact=True).click(timeout=WAIT)
+            caption.get_by_text(words).wait_for(timeout=WAIT)
+            assert HERE in caption.get_by_text(words).inner_text()
+            page.get_by_role("button", name="Fails nowhere", exact=True).click(timeout=WAIT)
+            caption.get_by_text("It fails nowhere.").wait_for(timeout=WAIT)
+        page.get_by_role("button", name="Skip and show me").click(timeout=WAIT)
+        page.locator(".wb-result").get_by_text(f"question 'ratio': {HERE}").wait_for(timeout=WAIT)
+    finally:
+        page.close()
+        app.stop()
+    said = capsys.readouterr().err
+    assert said.count("workbench: lesson broken") == 5
+    assert said.count("KeyError: 'points'") >= 2  # the traceback, and the line
+    assert said.count("Traceback (most recent call last)") >= 5
+
+
+def test_a_page_that_cannot_be_read_is_said_in_its_place_and_the_run_plays(chromium, capsys):
+    app = App(links.Place(lesson("/nowhere/page.md"), Params(), None), port=0)
+    page = chromium.new_page(viewport={"width": 1100, "height": 640})
+    try:
+        page.goto(app.address)
+        page.locator(".wb-caption").get_by_text("It fails nowhere.").wait_for(timeout=WAIT)
+        page.locator(".wb-caption").get_by_text("lesson broken, page:").wait_for(timeout=WAIT)
+        assert "/nowhere/page.md" in page.locator(".wb-caption").get_by_text("lesson broken, page:").inner_text()
+    finally:
+        page.close()
+        app.stop()
+    assert "FileNotFoundError" in capsys.readouterr().err

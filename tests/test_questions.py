@@ -1,0 +1,43 @@
+import pytest
+
+from tests.fake import lesson
+from workbench.errors import InputError
+from workbench.questions import answer
+from workbench.timeline import Timelines
+
+NUMBER, CHOICE = lesson.questions
+KEPT = Timelines()
+
+
+@pytest.mark.parametrize(
+    ("question", "given", "right", "truth"),
+    [
+        (NUMBER, 0.005, True, "0 m"),
+        (NUMBER, "0.005", True, "0 m"),
+        (NUMBER, 0.5, False, "0 m"),
+        (NUMBER, None, False, "0 m"),
+        (NUMBER, float("nan"), False, "0 m"),
+        (CHOICE, "the second", True, "the second"),
+        (CHOICE, "the first", False, "the second"),
+        (CHOICE, None, False, "the second"),
+    ],
+)
+def test_a_prediction_is_compared_with_the_run(question, given, right, truth):
+    found = answer(lesson, question, given, KEPT)
+    assert (found.right, found.truth) == (right, truth)
+    assert found.step == 5
+    assert len(KEPT) == 1
+
+
+@pytest.mark.parametrize(
+    ("question", "given", "words"),
+    [
+        (CHOICE, "perhaps", "choose one"),
+        (CHOICE, 7, "choose one"),
+        (NUMBER, "much", "a number"),
+        (NUMBER, [], "a number"),
+    ],
+)
+def test_what_is_no_answer_to_a_question_is_refused(question, given, words):
+    with pytest.raises(InputError, match=words):
+        answer(lesson, question, given, KEPT)
