@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.numerals import brief, fixed, fixed_row
+from workbench.numerals import brief, fixed, fixed_or_power, fixed_row
 
 NUMERAL = re.compile(r"−?\d{1,3}(,\d{3})*(\.\d+)?")
 
@@ -42,6 +42,9 @@ def test_brief_is_the_number_to_its_digits(value, digits):
         (brief(1200.0), "1,200"),
         (brief(1.4), "1.4"),
         (brief(0.0), "0"),
+        (fixed_or_power(-999999.4, 1), "−999,999.4"),
+        (fixed_or_power(-3284908864.4, 1), "−3.28 × 10⁹"),
+        (fixed_or_power(1e21, 1), "1.00 × 10²¹"),
         (fixed_row([1.0, -0.0, -2.5], 1), "1.0, 0.0, −2.5"),
     ],
 )

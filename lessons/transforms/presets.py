@@ -115,7 +115,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "entries", "Blend the matrix entries", "Each entry of the matrix runs evenly to that of a rotation 170° away."
         " Is what lies between a rotation? Step on, and look at the body and its volume.",
-        ENTRIES, 1,
+        ENTRIES, 3,
     ),
     Preset(
         "screw", "Along a screw", "Exp and log on SE(3) turn about a line that stays put and slide along it: the origin"
