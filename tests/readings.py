@@ -3,6 +3,8 @@
 import re
 from decimal import Decimal
 
+import numpy as np
+
 NUMBER = r"[-−]?\d[\d,]*(?:\.\d+)?"
 
 
@@ -26,3 +28,8 @@ def says_length(text: str, metres: float) -> bool:
     if found is None:
         return False
     return says(found[1], 1000 * metres if found[2] == "mm" else metres)
+
+
+def close(value, other, atol: float = 1e-8, *, equal_nan: bool = False) -> bool:
+    """Whether two numbers or arrays are the same up to rounding."""
+    return bool(np.allclose(value, other, atol=atol, equal_nan=equal_nan))

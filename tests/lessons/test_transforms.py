@@ -427,7 +427,7 @@ def test_captions_name_the_number():
 
 def test_nothing_to_blame_is_not_blamed():
     """A wrong reading that changes nothing here is called the same, not "0.00 m off"."""
-    still = (0.0,) * 6
+    still = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for compare in ("undo by (Rᵀ, −t)", "undo all as if rigid"):
         last = timeline(Params(scale=(1, 1, 1), pose=still, compare=compare))[-1].caption
         assert last.tone == "good"

@@ -9,7 +9,7 @@ import numpy as np
 
 from lessons.pinhole import words
 from lessons.pinhole.lesson import run as follow
-from tests.readings import NUMBER, number, says
+from tests.readings import NUMBER, close, number, says
 from tests.verdicts import Claim, Run
 from workbench.data.street import BALL_CENTER, BALL_RADIUS, street
 from workbench.scene import Caption
@@ -131,7 +131,7 @@ def right(run: Run, k: int) -> bool | None:
         return True
     if k == 1:
         R, t, _ = camera(run.params)
-        return bool(np.allclose(run.states[1].now.p_camera, street().points @ R.T + t, atol=1e-9))
+        return bool(close(run.states[1].now.p_camera, street().points @ R.T + t, atol=1e-9))
     if median_off(run, k) > 0.5 or any(lost(run, k)):
         return False
     return not (k == len(STAGES) - 1 and median_back(run) > 1e-3)
@@ -164,7 +164,7 @@ def _p(run: Run) -> np.ndarray:
 def _world(run: Run, k: int, m: re.Match[str]) -> bool:
     names = {"the tower's top": (-3.7, 13.2, 5.0), "the crate's corner": (-1.4, 5.5, 1.0), "the lamp": (0.9, -5.2, 2.4),
              "the rail, 40 m along": (0.75, 40.0, 0.06)}  # fmt: skip
-    return number(m[1]) == len(street().points) and np.allclose(names[m[2]], _p(run)) and says(m[3], _p(run)[0])
+    return number(m[1]) == len(street().points) and close(names[m[2]], _p(run)) and says(m[3], _p(run)[0])
 
 
 def _camera(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -319,8 +319,8 @@ def with_(run: Run, **changes: Any) -> Run:
 
 def _doubled(run: Run, k: int, m: re.Match[str]) -> bool:
     c, half = np.array([159.5, 119.5]), with_(run, f=run.params.f / 2)
-    same = np.allclose(half.states[-1].now.xy, run.states[-1].now.xy, equal_nan=True)
-    return same and np.allclose(run.states[-1].now.uv - c, 2 * (half.states[-1].now.uv - c), equal_nan=True)
+    same = close(half.states[-1].now.xy, run.states[-1].now.xy, equal_nan=True)
+    return same and close(run.states[-1].now.uv - c, 2 * (half.states[-1].now.uv - c), equal_nan=True)
 
 
 def _one_over_the_distance(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -346,7 +346,7 @@ def _meet(run: Run, k: int, m: re.Match[str]) -> bool:
     R, _, K = camera(run.params)
     v = K @ R @ [0.0, 1.0, 0.0]
     far = pixels(run.params, np.array([[x, 1e9, z] for x in (-5.0, 0.0, 7.0) for z in (0.0, 3.0)]))
-    return np.allclose(far, v[:2] / v[2], atol=1e-5)
+    return close(far, v[:2] / v[2], atol=1e-5)
 
 
 def moves(run: Run) -> tuple[np.ndarray, np.ndarray]:
@@ -396,13 +396,13 @@ def _shifted_and_doubled(run: Run, k: int, m: re.Match[str]) -> bool:
     seen = np.isfinite(true).all(axis=1)
     A = np.column_stack([true[seen], np.ones(seen.sum())])
     fit, *_ = np.linalg.lstsq(A, got[seen])
-    return np.allclose(fit[:2], 2 * np.eye(2), atol=1e-6) and bool(np.abs(fit[2]).min() > 10)
+    return close(fit[:2], 2 * np.eye(2), atol=1e-6) and bool(np.abs(fit[2]).min() > 10)
 
 
 def _misses_alike(run: Run, k: int, m: re.Match[str]) -> bool:
     off = np.linalg.norm(run.states[-1].now.p_back - street().points, axis=1)
     t = camera(run.params)[1]
-    return np.allclose(off[np.isfinite(off)], np.linalg.norm(t - centre(run.params)))
+    return close(off[np.isfinite(off)], np.linalg.norm(t - centre(run.params)))
 
 
 def _too_far(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -418,7 +418,7 @@ def _mirrored(run: Run, k: int, m: re.Match[str]) -> bool:
     true = pixels(run.params, street().points)
     seen = np.isfinite(true).all(axis=1)
     behind = (run.states[1].now.p_camera[seen, 2] < 0).all()
-    return bool(behind) and np.allclose(_pixels_at(run)[seen], true[seen] * (-1, 1) + (319, 0))
+    return bool(behind) and close(_pixels_at(run)[seen], true[seen] * (-1, 1) + (319, 0))
 
 
 def _pixels_at(run: Run) -> np.ndarray:
@@ -428,7 +428,7 @@ def _pixels_at(run: Run) -> np.ndarray:
 LINES = {
     "dolly": (Claim("Three times as far, three times the focal length: the crate keeps its size", lambda run, k, m: bool(
         run.params.dolly == 3 and abs(height(run.params, CRATE) / height(run.params, CRATE, 1.0) - 1) < 0.01
-        and np.isclose(np.linalg.norm(centre(run.params) - run.params.target),
+        and close(np.linalg.norm(centre(run.params) - run.params.target),
                        3 * np.linalg.norm(np.subtract(run.params.camera, run.params.target))))),),
     "zoom": (Claim("Every pixel moves to twice its distance from the principal point and nothing else changes", _doubled),),
     "orthographic": (Claim("At fifty times the distance the rays are nearly parallel.*one over the distance",
@@ -448,14 +448,14 @@ LINES = {
     ),
     "opengl": (Claim("gives all that is in front a negative depth; dividing anyway gives a picture mirrored left to right",
         _mirrored),),
-    "rows": (Claim("the picture is flipped about its diagonal", lambda run, k, m: np.allclose(
+    "rows": (Claim("the picture is flipped about its diagonal", lambda run, k, m: close(
         _pixels_at(run), pixels(run.params, street().points)[:, ::-1], equal_nan=True)),),
     "lens-on-pixels": (Claim("points fly millions of pixels away", lambda run, k, m: median_off(run, 3) > 2e6),),
     "crop-wrong": (Claim("the calculation is shifted and twice as large as it should be", _shifted_and_doubled),),
     "crop-right": (
         Claim("A crop moves the principal point, away from the middle of the picture; halving halves f as well", lambda
               run, k, m: bool(np.abs(run.states[0].shot.K[:2, 2] - (64.5, 49.5)).min() > 5)
-              and np.isclose(run.states[0].shot.K[0, 0], run.params.f / 2)),
+              and close(run.states[0].shot.K[0, 0], run.params.f / 2)),
         Claim("Now all fits again", lambda run, k, m: right(run, 4) is True and right(run, 5) is True),
     ),
     "centre": (Claim("Rays that start there miss every point by the distance from t to C", _misses_alike),),

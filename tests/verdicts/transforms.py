@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from lessons.transforms.states import Built, Moved
 from lessons.transforms.words import caption_of_build, caption_of_move
-from tests.readings import NUMBER, number, says, says_length
+from tests.readings import NUMBER, close, number, says, says_length
 from tests.verdicts import Claim, Run
 from workbench.scene import Caption
 
@@ -250,7 +250,7 @@ def _sheared(run: Run, k: int, m: re.Match[str]) -> bool:
     return (
         says(m[1], float(np.abs(corner_angles(run, k) - corner_angles(run, k - 1)).max()))
         and says(m[2], float(np.linalg.det(product(run, k))))
-        and np.isclose(volume(run, k), volume(run, k - 1))
+        and close(volume(run, k), volume(run, k - 1))
     )
 
 
@@ -259,12 +259,12 @@ def _divided(run: Run, k: int, m: re.Match[str]) -> bool:
     a, b = mapped(product(run, k - 1), p)[edges_of(run)].transpose(1, 0, 2)
     ends = [mapped(run.states[k].factor.matrix, q) for q in (a, 0.3 * a + 0.7 * b, b)]
     straight = np.abs(np.cross(ends[1] - ends[0], ends[2] - ends[0])).max() < SMALL
-    return bool(straight) and says(m[1], apart(run, k)) and not np.allclose(T[3], (0, 0, 0, 1))
+    return bool(straight) and says(m[1], apart(run, k)) and not close(T[3], (0, 0, 0, 1))
 
 
 def _mirrored(run: Run, k: int, m: re.Match[str]) -> bool:
     M = run.states[k].factor.matrix[:3, :3]
-    return np.allclose(M.T @ M, np.eye(3)) and says(m[1], float(np.linalg.det(M))) and np.linalg.det(M) < 0
+    return close(M.T @ M, np.eye(3)) and says(m[1], float(np.linalg.det(M))) and np.linalg.det(M) < 0
 
 
 def _translated(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -276,13 +276,13 @@ def _turned(run: Run, k: int, m: re.Match[str]) -> bool:
     kept = np.abs(lengths(run, k) / lengths(run, k - 1) - 1).max() < SMALL
     same = np.abs(corner_angles(run, k) - corner_angles(run, k - 1)).max() < 1e-4
     M = run.states[k].factor.matrix[:3, :3]
-    is_turn = np.allclose(M.T @ M, np.eye(3), atol=1e-12) and np.isclose(np.linalg.det(M), 1)
+    is_turn = close(M.T @ M, np.eye(3), atol=1e-12) and close(np.linalg.det(M), 1)
     return bool(kept and same and is_turn) and says_length(m[2], float(moved_by(run, k)[int(m[1])]))
 
 
 def _locked(run: Run, k: int, m: re.Match[str]) -> bool:
     triple = tuple(number(part) for part in m[1].split(", "))
-    same = np.allclose(rotation_of(run.params, triple), rotation_of(run.params, run.params.angles), atol=1e-9)
+    same = close(rotation_of(run.params, triple), rotation_of(run.params, run.params.angles), atol=1e-9)
     return same and triple != run.params.angles and outer_axes_apart(run.params) < 0.01
 
 
@@ -308,8 +308,8 @@ def _front(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _off(run: Run, k: int, m: re.Match[str]) -> bool:
     state, t = run.states[k], k / (len(run.states) - 1)
-    origin = np.linalg.norm(state.T_world_body[:3, 3] - t * poses(run.params)[1][:3, 3])
-    on_path = origin < SMALL if m[2] is None else says_length(m[2], float(origin))
+    origin = float(np.linalg.norm(state.T_world_body[:3, 3] - t * poses(run.params)[1][:3, 3]))
+    on_path = origin < SMALL if m[2] is None else says_length(m[2], origin)
     off = turn_between(at_best(run, k), state.T_world_body)
     return on_path and (off < 1e-5 if m[1].startswith("on the") else says(m[1].split("°")[0], off, 2))
 
@@ -321,7 +321,7 @@ def _gone(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _volume(run: Run, k: int, m: re.Match[str]) -> bool:
     R = run.states[k].T_world_body[:3, :3]
-    return says(m[1], 100 * float(volumes(run, k)[-1]), 3) and not np.allclose(R.T @ R, np.eye(3), atol=1e-9)
+    return says(m[1], 100 * float(volumes(run, k)[-1]), 3) and not close(R.T @ R, np.eye(3), atol=1e-9)
 
 
 def _best_of_all(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -408,7 +408,7 @@ def _helix(run: Run, k: int, m: re.Match[str]) -> bool:
 def _squeezed(run: Run, k: int, m: re.Match[str]) -> bool:
     middle = run.states[(len(run.states) - 1) // 2]
     long, *short = np.linalg.svd(middle.T_world_body[:3, :3])[1]
-    return bool(np.isclose(long, 1) and max(short) < 0.1) and np.isclose(turn_between(*poses(run.params)), 170)
+    return bool(close(long, 1) and max(short) < 0.1) and close(turn_between(*poses(run.params)), 170)
 
 
 def _layers(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -428,7 +428,7 @@ def _one_point(run: Run, k: int, m: re.Match[str]) -> bool:
     t = np.array([0.0, 1.0, 2.0, 4.0])[:, None] * [0.1, 0.02, 0.2] + [0.1, 0.1, 0.0]
     ratio = [cross_ratio(points) for points in (t, mapped(run.states[1].factor.matrix, t))]
     lost = np.abs(lengths(run, 1) / lengths(run, 0) - 1).max() > 0.05 and apart(run, 1) > 5
-    return bool(at_one and lost and np.isclose(*ratio))
+    return bool(at_one and lost and close(*ratio))
 
 
 def cross_ratio(p: np.ndarray) -> float:
@@ -440,7 +440,7 @@ def cross_ratio(p: np.ndarray) -> float:
 def _grown(run: Run, k: int, m: re.Match[str]) -> bool:
     p = run.states[0].body.solid.p
     size = np.ptp(mapped(wrong_undo(run)[0], p), axis=0) / np.ptp(p, axis=0)
-    return np.allclose(size, 1.69) and run.params.scale == (1.3, 1.3, 1.3)
+    return close(size, 1.69) and run.params.scale == (1.3, 1.3, 1.3)
 
 
 def _misread(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -448,14 +448,14 @@ def _misread(run: Run, k: int, m: re.Match[str]) -> bool:
     meant, got = Rotation.from_quat([x, y, z, w]).as_rotvec(), Rotation.from_quat([w, x, y, z]).as_rotvec()
     ghost = run.states[complete_at(run)].ghosts[0].T[:3, :3]
     return (
-        np.allclose(np.degrees(meant), (0, 0, 40))
-        and np.allclose(np.degrees(got), (140, 0, 0))
-        and np.allclose(Rotation.from_matrix(ghost).as_rotvec(), got)
+        close(np.degrees(meant), (0, 0, 40))
+        and close(np.degrees(got), (140, 0, 0))
+        and close(Rotation.from_matrix(ghost).as_rotvec(), got)
     )
 
 
 def _misses_by_more(run: Run, k: int, m: re.Match[str]) -> bool:
-    t = np.linalg.norm(run.params.pose[:3])
+    t = float(np.linalg.norm(run.params.pose[:3]))
     quarter = abs(turn_between(np.eye(4), motion_of(run.params)) - 90) < SMALL
     return quarter and farthest(*wrong_undo(run), run.states[0].body.solid.p) > t
 
@@ -485,13 +485,13 @@ LINES = {
     ),
     "mirror": (
         Claim("Every length and angle survives, yet det is −1", lambda run, k, m: bool(
-            np.isclose(np.linalg.det(product(run, 1)), -1) and np.allclose(lengths(run, 1), lengths(run, 0)))),
+            close(np.linalg.det(product(run, 1)), -1) and close(lengths(run, 1), lengths(run, 0)))),
         Claim("the best of all rigid motions, by the sum of squared distances: it does not fit", lambda run, k, m: (
             _best_of_all(run, k, m) and squares(run) > 0.1)),
     ),
     "shear": (Claim("Each horizontal layer slides as it is, the higher the farther", _layers),),
     "perspective": (Claim("keeps straight lines straight.*run to one point", _one_point),),
-    "transpose": (Claim("80° from where it belongs", lambda run, k, m: np.isclose(
+    "transpose": (Claim("80° from where it belongs", lambda run, k, m: close(
         turn_between(motion_of(run.params), run.states[complete_at(run)].ghosts[0].T), 80)),),
     "inverse": (
         Claim(r"\(Rᵀ, −Rᵀt\) returns to the start", lambda run, k, m: left_after_undo(run) < SMALL),
@@ -500,15 +500,15 @@ LINES = {
     "hidden-scale": (Claim("the house ends 1.3² = 1.69 times as long, wide and high", _grown),),
     "xyzw": (Claim("a turn of 40° about z has become one of 140° about x", _misread),),
     "direction": (Claim("no longer points to the front", lambda run, k, m: (
-        np.linalg.norm(np.cross(*fronts(run, complete_at(run)))) > 0.1)),),
+        float(np.linalg.norm(np.cross(*fronts(run, complete_at(run))))) > 0.1)),),
     "minus-q": (
-        Claim("still arrives, but turns 300° where 60° would do", lambda run, k, m: met(run) and np.isclose(
-            turned(run, k).sum(), 300) and np.isclose(turn_between(*poses(run.params)), 60)),
+        Claim("still arrives, but turns 300° where 60° would do", lambda run, k, m: met(run) and close(
+            turned(run, k).sum(), 300) and close(turn_between(*poses(run.params)), 60)),
         Claim("the wrong one", lambda run, k, m: turned(run, k).sum() > turn_between(*poses(run.params)) + 1),
     ),
     "wobble": (Claim("the body leaves the shortest turn and changes its pace", _pace),),
     "average": (Claim("Two headings, 20° apart", lambda run, k, m: bool(
-        np.isclose(turn_between(*poses(run.params)), 20) and turned(run, k).sum() > 180)),),
+        close(turn_between(*poses(run.params)), 20) and turned(run, k).sum() > 180)),),
     "entries": (Claim("Each entry of the matrix runs evenly to that of a rotation 170° away", _squeezed),),
     "screw": (
         Claim("The origin follows a helix, not a straight line|the origin follows a helix, not a straight line", _helix),
@@ -534,7 +534,7 @@ def _jump(run: Run, k: int, m: re.Match[str]) -> bool:
 
 WHYS = {
     "which-order": (Claim(rf"({NUMBER}) m: turned last, .* are √2 · 1.5 m apart", lambda run, k, m: says(
-        m[1], readings(run)[0]) and np.isclose(readings(run)[0], 1.5 * np.sqrt(2))),),
+        m[1], readings(run)[0]) and close(readings(run)[0], 1.5 * np.sqrt(2))),),
     "lost-direction": (
         Claim(rf"({NUMBER}): angles 1 and 3 turn about the same line", _two_directions),
         Claim(r"needs a jump from \((.*?)\)° to \((.*?)\)°", _jump),
