@@ -100,3 +100,14 @@ class Thawed:
 def test_a_params_class_that_cannot_be_a_panel_is_refused(owner):
     with pytest.raises(TypeError, match=owner.__name__):
         fields_of(owner)
+
+
+def test_a_name_that_is_a_symbol_is_written_as_in_formulas():
+    @dataclass(frozen=True)
+    class Lens:
+        f: Annotated[float, Knob("Focal length", 1, 9)] = 1.0
+        k1: Annotated[float, Knob("Radial", -1, 1)] = 0.0
+        start_angle: Annotated[float, Knob("Turned by", 0, 9)] = 0.0
+        doffs: Annotated[float, Knob("Offset", 0, 9, label="doffs")] = 0.0
+
+    assert [field.label for field in fields_of(Lens)] == ["f", "k₁", "Start angle", "doffs"]

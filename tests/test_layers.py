@@ -21,6 +21,7 @@ ALLOWED = {
     "workbench.questions": LESSON,
     "workbench.scene": set(),
     "workbench.knobs": {"workbench.errors"},
+    "workbench.numerals": set(),
     "workbench.geometry": MATHS,
     "workbench.algorithms": MATHS | {"workbench.algorithms"},
     "workbench.data": MATHS | {"workbench.data"},
@@ -49,7 +50,7 @@ ALLOWED = {
     "workbench.__main__": None,
     "workbench": None,
     "lessons": DRAWING | {"workbench.geometry", "workbench.algorithms", "workbench.data", "workbench.lesson", "lessons",
-                          "workbench.exercise"},
+                          "workbench.exercise", "workbench.numerals"},
 }  # fmt: skip
 
 OUTSIDE = {"viser": ("workbench.viewer", "workbench.publish"), "rerun": ("workbench.recording",)}

@@ -8,6 +8,7 @@ import dataclasses
 import functools
 import json
 import math
+import re
 import types
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,6 +18,9 @@ from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 from workbench.errors import InputError
 
 P = TypeVar("P")
+
+_SYMBOL = re.compile(r"([A-Za-z])(\d*)")
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
 @dataclass(frozen=True)
@@ -80,8 +84,12 @@ class Field:
 
     @property
     def label(self) -> str:
-        """The words on the control."""
-        return self.knob.label or self.name.replace("_", " ").capitalize()
+        """The words on the control; a name like `k1` is a symbol and is written as formulas write it."""
+        if self.knob.label is not None:
+            return self.knob.label
+        if symbol := _SYMBOL.fullmatch(self.name):
+            return symbol[1] + symbol[2].translate(_SUBSCRIPTS)
+        return self.name.replace("_", " ").capitalize()
 
     @property
     def step(self) -> float:

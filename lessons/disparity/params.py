@@ -43,7 +43,10 @@ class Params:
         int, Knob("Average blocks of k × k pixels first (motorcycle and own pairs)", 1, 16, label="Shrink k times")
     ] = 4
     doffs: Annotated[
-        float, Knob("Right minus left principal point, in pixels of the files (own pairs)", -500, 500, unit="px")
+        float,
+        Knob(
+            "Right minus left principal point, in pixels of the files (own pairs)", -500, 500, unit="px", label="doffs"
+        ),
     ] = 0.0
     left: Annotated[Path | None, Knob("An own left picture, rectified; give both")] = None
     right: Annotated[Path | None, Knob("An own right picture of the same size")] = None

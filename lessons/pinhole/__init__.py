@@ -1,1 +1,1 @@
-"""Match, fit, repeat."""
+"""The pinhole camera: from a point in the world to a pixel, and back to a ray."""

@@ -35,7 +35,7 @@ class Params:
     ] = 1.0
     k1: Annotated[float, Knob("Radial: below zero barrel, above zero pincushion", -0.6, 0.6, step=0.01)] = -0.3
     k2: Annotated[float, Knob("Radial, grows further out", -0.3, 0.3, step=0.01)] = 0.06
-    p1: Annotated[float, Knob("Tangential along y: a tilted lens", -0.1, 0.1, step=0.005)] = 0.0
+    p1: Annotated[float, Knob("Tangential along y: a lens off centre", -0.1, 0.1, step=0.005)] = 0.0
     p2: Annotated[float, Knob("Tangential along x", -0.1, 0.1, step=0.005)] = 0.0
     edit: Annotated[Edit, Knob("What was done to the picture after it was taken")] = "none"
     k_follows: Annotated[bool, Knob("Change K as the picture was changed", label="K follows the edit")] = True

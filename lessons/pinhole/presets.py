@@ -10,6 +10,7 @@ from lessons.pinhole.state import State
 from workbench.geometry.cameras import camera_center, project, vanishing_points
 from workbench.geometry.motions import motion
 from workbench.lesson import Preset, Question
+from workbench.numerals import fixed, fixed_row
 
 DIVIDE, DISTORT, PIXELS, BACK = 2, 3, 4, 5
 
@@ -29,6 +30,7 @@ INVERTED = Params(mistake="pose inverted")
 OPENGL = Params(mistake="OpenGL axes")
 ROWS = Params(mistake="row before column")
 LENS_ON_PIXELS = Params(mistake="lens on pixels")
+ELSEWHERE = Params(camera=(2.0, -4.0, 2.5), target=(0.0, 8.0, 1.0))
 T_FOR_CENTRE = Params(mistake="t for the centre")
 RAY_LENGTH = Params(mistake="ray length for depth")
 CROP_WRONG = Params(edit="cropped, then half size", k_follows=False)
@@ -37,26 +39,26 @@ CROP_RIGHT = Params(edit="cropped, then half size")
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "dolly", "Dolly zoom",
-        "Three times as far, three times the focal length: the crate keeps its size and the tower behind it nearly"
-        " doubles, since size goes with f / Z.",
-        DOLLY, PIXELS,
+        "Three times as far, three times the focal length: the crate keeps its size, since size goes with f / Z. Step on"
+        " to read what the tower behind it does.",
+        DOLLY, DIVIDE,
     ),
     Preset(
         "zoom", "Only f doubles",
-        "Every pixel moves to twice its distance from the principal point and nothing else changes: zooming is cropping,"
-        " not moving.",
+        "Every pixel moves to twice its distance from the principal point and nothing else changes: zooming is cropping"
+        " and enlarging, not moving.",
         ZOOM, PIXELS,
     ),
     Preset(
         "orthographic", "Orthographic: far away, long lens",
-        "At fifty times the distance the rays are nearly parallel and depth no longer shows; the gap shrinks as one over"
+        "At fifty times the distance the rays are nearly parallel and depth hardly shows; the gap shrinks as one over"
         " the distance.",
         ORTHOGRAPHIC, PIXELS,
     ),
     Preset(
         "rails", "The rails' vanishing point",
-        "All lines of one direction d meet at K R d. Where the camera stands does not matter: the translation is not in"
-        " the formula.",
+        "The pictures of all lines of one direction d run towards one point, K R d. Look at what stands in that formula,"
+        " and what does not.",
         RAILS, PIXELS,
     ),
     Preset(
@@ -66,44 +68,44 @@ PRESETS: tuple[Preset[Params], ...] = (
         BALL, PIXELS,
     ),
     Preset(
-        "barrel", "Barrel: k1 < 0",
+        "barrel", "Barrel: k₁ < 0",
         "Points move towards the middle, the further out the more; straight edges near the rim bow outwards like a"
         " barrel's staves.",
         BARREL, DISTORT,
     ),
     Preset(
-        "pincushion", "Pincushion: k1 > 0",
+        "pincushion", "Pincushion: k₁ > 0",
         "Points move away from the middle, the further out the more, and straight edges near the rim bow inwards.",
         PINCUSHION, DISTORT,
     ),
     Preset(
-        "tangential", "A tilted lens: p1, p2",
-        "Tangential terms push every point the same way, more so away from the middle: the shift is not along the"
-        " radius.",
+        "tangential", "A lens off centre: p₁, p₂",
+        "Tangential terms push every point to within 30° of one direction, more so away from the middle: the shift is not"
+        " along the radius.",
         TANGENTIAL, DISTORT,
     ),
     Preset(
         "fold", "Where a lens model ends",
-        "k1 = -0.6 turns round at radius 0.745. Beyond it the polynomial would fold points back into the picture, so"
+        "k₁ = −0.6 turns round at radius 0.745. Beyond it the polynomial would fold points back into the picture, so"
         " they get no pixel.",
         FOLD, DISTORT,
     ),
     Preset(
         "behind", "A lamp behind the camera",
-        "Dividing by a negative depth gives a pixel in the picture that looks as valid as any: mask"
+        "The followed lamp hangs behind the camera. Step on: it is divided by its negative depth like all others. Mask"
         " before you divide.",
-        BEHIND, PIXELS,
+        BEHIND, 1,
     ),
     Preset(
         "inverted", "Camera-to-world for world-to-camera",
-        "Both are 4 × 4 and rigid, so nothing complains. Nearly every point is then behind the camera and loses its"
+        "Both are 4×4 and rigid, so nothing complains. Nearly every point is then behind the camera and loses its"
         " pixel.",
         INVERTED, 1,
     ),
     Preset(
         "opengl", "OpenGL axes",
-        "A pose for y up and z backwards makes all depths negative; dividing anyway gives a picture mirrored left to"
-        " right.",
+        "A pose for y up and z backwards gives all that is in front a negative depth; dividing anyway gives a picture"
+        " mirrored left to right.",
         OPENGL, PIXELS,
     ),
     Preset(
@@ -120,7 +122,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "crop-wrong", "Cropped, halved, K forgotten",
         "The picture lost its left and top and half its size, K knows of neither: the calculation is shifted and twice"
-        " too large.",
+        " as large as it should be.",
         CROP_WRONG, PIXELS,
     ),
     Preset(
@@ -173,8 +175,23 @@ def _behind_why(states: Sequence[State]) -> str:
     u, v = states[PIXELS].now.uv[states[0].params.point]
     z = states[1].now.p_camera[states[0].params.point, 2]
     return (
-        f"At ({u:.0f}, {v:.0f}), well inside the picture. Z = {z:.2f} m turns both signs, and a lamp above the axis"
+        f"At ({u:.0f}, {v:.0f}), well inside the picture. Z = {fixed(z, 2)} m turns both signs, and a lamp above the axis"
         " shows up below it. Only the sign of Z tells; the pixel does not."
+    )
+
+
+def _centre_answer(states: Sequence[State]) -> float:
+    T = states[-1].shot.T_camera_world
+    places = (T[:3, 3], -T[:3, 3])
+    return next((float(i) for i, p in enumerate(places) if np.linalg.norm(p - camera_center(T)) < 0.1), 2.0)
+
+
+def _centre_why(states: Sequence[State]) -> str:
+    T = states[-1].shot.T_camera_world
+    C, t = camera_center(T), T[:3, 3]
+    return (
+        f"It is at C = −Rᵀt = ({fixed_row(C, 2)}) m. t is where the camera sees the world's origin, along"
+        f" its own axes. Both are {fixed(float(np.linalg.norm(t)), 2)} m long, since R only turns."
     )
 
 
@@ -198,8 +215,9 @@ def _rails_why(states: Sequence[State]) -> str:
     stepped = motion(R, t - np.array([2.0, 0.0, 0.0]))
     moved = (project(near, stepped, shot.K) - project(near, shot.T_camera_world, shot.K))[0, 0]
     return (
-        f"It moves by {shift_of_vanishing(states):.0f} px, while a near point of the rail moves by {moved:.0f} px. A"
-        " direction has no place (w = 0), so t drops out of K [R | t] (d, 0) = K R d."
+        f"It moves by {fixed(abs(shift_of_vanishing(states)), 0)} px, while a near point of the rail moves by"
+        f" {fixed(abs(moved), 0)} px to the {'left' if moved < 0 else 'right'}. A direction has no place (w = 0),"
+        " so t drops out of K [R | t] (d, 0) = K R d."
     )
 
 
@@ -216,7 +234,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "predict-behind",
-        "A lamp hangs 2 m behind the camera, and somebody divides by Z without looking at its sign. Where is its pixel?",
+        "A lamp hangs 2.25 m behind the camera, and somebody divides by Z without looking at its sign. Where is its pixel?",
         answer=_behind_answer,
         why=_behind_why,
         params=BEHIND,
@@ -225,15 +243,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "predict-centre",
-        "T_camera_world of the default camera has t = (-0.45, 1.51, 3.11) m. How high above the ground is the camera?",
-        answer=lambda states: float(camera_center(states[-1].shot.T_camera_world)[2]),
-        why=lambda states: (
-            f"{camera_center(states[-1].shot.T_camera_world)[2]:.2f} m: C = −Rᵀt. No entry of t is a place in the"
-            " world; t is where the camera sees the world's origin."
-        ),
-        params=Params(),
-        unit="m",
-        tolerance=0.1,
+        "T_camera_world of another camera has t = (−1.32, 1.96, 4.55) m. Where in the world is that camera?",
+        answer=_centre_answer,
+        why=_centre_why,
+        params=ELSEWHERE,
+        choices=("At t", "At −t", "At neither of the two"),
         step=BACK,
     ),
     Question(

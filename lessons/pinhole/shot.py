@@ -46,11 +46,12 @@ class Shot:
         uv: Pixels of the followed points, NaN where it does not see them.
         xy: Ideal normalised coordinates of the points, NaN likewise.
         subject_depth: Depth of the target, metres: the plane whose size the dolly keeps.
-        crate, tower: Heights of an edge in the picture before the edit, pixels, without the lens.
-        tower_before: The tower's at a dolly of 1.
+        crate, tower: Heights of an edge in this picture, pixels; NaN where an end of it has no pixel.
+        crate_before, tower_before: The same at a dolly of 1.
         ball_ratio: Length over width of the ball's outline, without the lens; NaN where it is not in the picture.
         vanishing: Pixel in which the rails meet, NaN where they do not.
-        gaps: For each of FACTORS, how far the corners are from their orthographic pixels, at most.
+        gaps: For each of FACTORS, how far the corners that are in front are from their orthographic pixels, at most,
+            before the edit and without the lens.
         gap: The same at the dolly of this shot.
     """
 
@@ -64,6 +65,7 @@ class Shot:
     subject_depth: float
     crate: float
     tower: float
+    crate_before: float
     tower_before: float
     ball_ratio: float
     vanishing: np.ndarray
@@ -89,7 +91,11 @@ def _shot(
     K_near = intrinsics(f, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
     T_camera_world, K_first = dolly(T_near, K_near, distance, factor)
     photo = render(_scenery(), T_camera_world, K_first, WIDTH, HEIGHT, lens, background=(238, 243, 248))
-    picture, K = _edited(photo.colors, K_first, edit)
+    picture, K, K_before = (
+        _edited(photo.colors, edit),
+        _edited_intrinsics(K_first, edit),
+        _edited_intrinsics(K_near, edit),
+    )
     points = street().points
     return Shot(
         T_camera_world,
@@ -100,9 +106,10 @@ def _shot(
         project(points, T_camera_world, K, lens),
         normalize(project(points, T_camera_world, K), K),
         distance * factor,
-        _height(CRATE_EDGE, T_camera_world, K_first),
-        _height(TOWER_EDGE, T_camera_world, K_first),
-        _height(TOWER_EDGE, T_near, K_near),
+        _height(CRATE_EDGE, T_camera_world, K, lens),
+        _height(TOWER_EDGE, T_camera_world, K, lens),
+        _height(CRATE_EDGE, T_near, K_before, lens),
+        _height(TOWER_EDGE, T_near, K_before, lens),
         _ball_ratio(T_camera_world, K_first),
         vanishing_points(np.array([[0.0, 1.0, 0.0]]), T_camera_world, K, lens)[0],
         np.array([_gap(*dolly(T_near, K_near, distance, by), distance * by) for by in FACTORS]),
@@ -128,19 +135,25 @@ def _scenery() -> tuple[MeshItem | SegmentItem, ...]:
     return (*meshes, SegmentItem(scene.rails, steel, 2))
 
 
-def _edited(picture: np.ndarray, K: np.ndarray, edit: Edit) -> tuple[np.ndarray, np.ndarray]:
-    """Cut off columns and rows, average blocks of 2 x 2, and give K what it is due."""
+def _edited(picture: np.ndarray, edit: Edit) -> np.ndarray:
+    """Cut off columns and rows, and average blocks of 2 x 2."""
     if "cropped" in edit:
-        picture, K = picture[CROP_TOP:, CROP_LEFT:], crop_intrinsics(K, CROP_LEFT, CROP_TOP)
+        picture = picture[CROP_TOP:, CROP_LEFT:]
     if "half" in edit:
         h, w = picture.shape[0] // 2, picture.shape[1] // 2
         picture = picture.reshape(h, 2, w, 2, 3).mean(axis=(1, 3)).round().astype(np.uint8)
-        K = resize_intrinsics(K, 0.5, 0.5)
-    return np.ascontiguousarray(picture), K
+    return np.ascontiguousarray(picture)
 
 
-def _height(ends: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> float:
-    low, high = project(ends, T_camera_world, K)
+def _edited_intrinsics(K: np.ndarray, edit: Edit) -> np.ndarray:
+    """Give K what it is due when its picture is edited."""
+    if "cropped" in edit:
+        K = crop_intrinsics(K, CROP_LEFT, CROP_TOP)
+    return resize_intrinsics(K, 0.5, 0.5) if "half" in edit else K
+
+
+def _height(ends: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray, lens: Distortion) -> float:
+    low, high = project(ends, T_camera_world, K, lens)
     return float(np.linalg.norm(high - low))
 
 

@@ -4,12 +4,17 @@ import math
 
 import numpy as np
 
+from lessons.pinhole.shot import Shot
 from lessons.pinhole.state import State, name_of
 from workbench.geometry.cameras import camera_center
 from workbench.geometry.distortion import invertible_radius
+from workbench.geometry.motions import apply
+from workbench.numerals import brief, fixed, fixed_or_power
 from workbench.scene import Caption, Primitive, Table
 
-VISIBLE = 0.5  # px; and metres beyond a millimetre on the way back
+VISIBLE = 0.5  # px: a smaller median error is not blamed on anybody
+MISPLACED = 1e-3  # m, likewise on the way back
+SAME = 1e-6  # m: what rounding leaves of a way out and back
 
 
 def caption(state: State) -> Caption:
@@ -25,7 +30,10 @@ def tables(state: State) -> dict[str, Primitive]:
     rows = [("in the world", f"{_triple(now.p_world[k])} m")]
     if now.reached("camera"):
         p = now.p_camera[k]
-        rows += [("in the camera frame", f"{_triple(p)} m"), ("depth Z · ray length", f"{p[2]:.2f} · {_norm(p):.2f} m")]
+        rows += [
+            ("in the camera frame", f"{_triple(p)} m"),
+            ("depth Z · ray length", f"{_metres(p[2])} · {_metres(_norm(p))} m"),
+        ]
     if now.reached("divide"):
         rows.append(("x, y = X/Z, Y/Z", _pair(now.xy[k], 4)))
     if now.reached("distort"):
@@ -33,18 +41,19 @@ def tables(state: State) -> dict[str, Primitive]:
     if now.reached("pixels"):
         rows += [("pixel (u, v)", _pair(now.uv[k], 1)), ("true pixel", _pair(shot.uv[k], 1))]
     if now.reached("back"):
-        rows.append(("back in the world", f"{_triple(now.p_back[k])} m"))
+        rows.append(("back in the world", _triple(now.p_back[k]) + " m" * bool(np.isfinite(now.p_back[k]).all())))
     h, w = shot.picture.shape[:2]
+    ball = "the ball's outline" + ", without the lens" * any(shot.lens)
     measured = (
         ("camera centre C = −Rᵀt", f"{_triple(camera_center(shot.T_camera_world))} m"),
         ("t of T_camera_world", f"{_triple(shot.T_camera_world[:3, 3])} m"),
-        ("focal length f", f"{shot.K[0, 0]:.1f} px"),
+        ("focal length f", f"{fixed(shot.K[0, 0], 1)} px"),
         ("principal point", _pair(shot.K[:2, 2], 1)),
         ("middle of the picture", _pair(np.array([w - 1, h - 1]) / 2, 1)),
-        ("the rails meet at", _pair(shot.vanishing, 1)),
-        ("crate, 1 m high", f"{shot.crate:.1f} px"),
-        ("tower, 5 m high", f"{shot.tower:.1f} px"),
-        ("the ball's outline", _ratio(shot.ball_ratio)),
+        ("the rails run towards", _pair(shot.vanishing, 1)),
+        ("crate, 1 m high", _height(shot.crate)),
+        ("tower, 5 m high", _height(shot.tower)),
+        (ball, _ratio(shot.ball_ratio)),
     )
     return {
         "point numbers": Table("The followed point", ("stage", name_of(k)), tuple(rows)),
@@ -56,23 +65,26 @@ def blame(state: State) -> str:
     """Return what is wrong at this stage, with its size; nothing while all is right."""
     params, now = state.params, state.now
     back = back_error(state)
-    off = state.error > VISIBLE or state.missed + state.false > 0 or back > 1e-3
-    inverted = now.stage == "camera" and params.mistake in ("pose inverted", "OpenGL axes")
-    if not off and not inverted:
+    moved = now.stage == "camera" and not np.allclose(now.p_camera, apply(state.shot.T_camera_world, now.p_world))
+    if not (moved or state.error > VISIBLE or state.missed + state.false > 0 or back > MISPLACED):
         return ""
     if params.mistake != "none":
         why = MISTAKES[params.mistake]
     elif not params.k_follows and params.edit != "none":
         why = "K is still that of the full picture."
     else:
-        why = "The calculation differs from the camera."
-    if back > 1e-3 and state.error <= VISIBLE:
-        return f" {why} Half of the points come back more than {_length(back)} off."
-    parts = [f"the median point is {_count(state.error)} px off"] * (state.error > VISIBLE)
-    parts += [f"{state.missed} of {len(now.p_world)} points lose their pixel"] * (state.missed > 0)
-    parts += [f"{_many(state.false)} a pixel although the camera cannot see {'it' if state.false == 1 else 'them'}"] * (
-        state.false > 0
-    )
+        why = "The calculation differs from the true camera."
+    parts = []
+    if state.error > VISIBLE:
+        parts.append(f"the median distance from the true pixels is {_count(state.error)} px")
+    if state.missed:
+        parts.append(f"{state.missed} of {len(now.p_world)} points lose their pixel")
+    if state.false:
+        parts.append(
+            f"{_many(state.false)} a pixel that the true camera does not give {'it' if state.false == 1 else 'them'}"
+        )
+    if not parts and back > MISPLACED:
+        parts.append(f"the median distance of points that come back from where they are is {_length(back)}")
     size = "; ".join(parts)
     return f" {why}" + (f" {size[0].upper()}{size[1:]}." if size else "")
 
@@ -88,8 +100,8 @@ def back_error(state: State) -> float:
 MISTAKES = {
     "pose inverted": "The pose is inverted: camera-to-world stands where world-to-camera belongs.",
     "divides behind too": "What lies behind the camera was divided by its negative depth too.",
-    "OpenGL axes": "The pose is OpenGL's (y up, looking along −z): depths are negative, and dividing anyway mirrors the"
-    " picture.",
+    "OpenGL axes": "The pose is OpenGL's (y up, looking along −z): what is in front gets a negative depth, and dividing"
+    " anyway mirrors the picture.",
     "row before column": "(row, column) stands where (u, v) = (column, row) belongs.",
     "lens on pixels": "The lens was given pixels, not normalised coordinates: r² is f² times too large.",
     "t for the centre": "t is not where the camera is; C = −Rᵀt is.",
@@ -108,32 +120,33 @@ def _camera(state: State) -> str:
     p = state.now.p_camera[state.params.point]
     return (
         f"R p + t is the point in the camera's frame (x right, y down, z forward): {_triple(p)} m. Its depth is"
-        f" Z = {p[2]:.2f} m; along its ray it is {_norm(p):.2f} m away."
+        f" Z = {_metres(p[2])} m; along its ray it is {_metres(_norm(p))} m away."
     )
 
 
 def _divide(state: State) -> str:
     k, z = state.params.point, state.now.p_camera[state.params.point, 2]
     if not np.isfinite(state.now.xy[k]).all():
-        return f"The point lies behind the camera, Z = {z:.2f} m: no ray through the picture meets it, so it gets none."
+        where = "is not in front of" if z <= 0 else "is in front of"
+        return f"The point {where} the camera, Z = {_metres(z)} m, and gets no place on the plane one metre in front."
     return (
-        f"Divided by Z = {z:.2f} m the point is at (x, y) = {_pair(state.now.xy[k], 3)} on the plane one metre in front"
+        f"Divided by Z = {_metres(z)} m the point is at (x, y) = {_pair(state.now.xy[k], 3)} on the plane one metre in front"
         f" of the camera. {state.found} of {len(state.now.xy)} points have a place there."
     )
 
 
 def _distort(state: State) -> str:
     k, f = state.params.point, state.shot.K[0, 0]
-    if not any(state.shot.lens):
-        return "A lens without distortion: k1 = k2 = p1 = p2 = 0, and (x', y') = (x, y)."
     moved = f * np.linalg.norm(state.now.xy_bent - state.now.xy, axis=1)
+    if not any(state.shot.lens) and not (moved > VISIBLE).any():
+        return "A lens without distortion: k₁ = k₂ = p₁ = p₂ = 0, and (x′, y′) = (x, y)."
     most = f"the farthest-moved point goes {_count(np.nanmax(moved))} px" if np.isfinite(moved).any() else "nothing is"
     if not np.isfinite(moved[k]):
         return f"The followed point has no place on the lens; {most}."
-    inwards = _norm(state.now.xy_bent[k]) < _norm(state.now.xy[k])
-    where = "" if moved[k] < 0.05 else " towards the middle" if inwards else " away from the middle"
+    nearer = _norm(state.now.xy_bent[k]) < _norm(state.now.xy[k])
+    where = "" if moved[k] < 0.05 else f", {'nearer to' if nearer else 'further from'} the principal point"
     return (
-        f"The lens moves the point {_count(moved[k])} px{where}, to (x', y') = {_pair(state.now.xy_bent[k], 3)};"
+        f"The lens moves the point {_count(moved[k])} px{where}: (x′, y′) = {_pair(state.now.xy_bent[k], 3)};"
         f" {most}. It acts here, before f."
     )
 
@@ -144,17 +157,22 @@ def _pixels(state: State) -> str:
     many = f"{np.count_nonzero(inside)} of {len(state.now.uv)} points fall into the {w} × {h} picture."
     if not np.isfinite(state.now.uv[k]).all():
         return f"K makes pixels of what is left; the followed point has none. {many}"
-    u, v = state.now.uv[k]
-    return f"K makes the pixel: f x' + cx gives column u = {u:.1f}, row v = {v:.1f}. {many}"
+    u, v = (fixed_or_power(value, 1) for value in state.now.uv[k])
+    return f"K (x′, y′, 1) is the pixel: column u = {u}, row v = {v}. {many}"
 
 
 def _back(state: State) -> str:
     k, now = state.params.point, state.now
     if not np.isfinite(now.p_back[k]).all():
         return "From pixels back to rays: the followed point has no pixel, so nothing leads back to it."
+    depth = f"With its depth Z = {_metres(now.p_camera[k, 2])} m"
+    if state.params.mistake == "ray length for depth":
+        depth = f"With {_metres(_norm(now.p_camera[k]))} m for its depth"
+    miss = _norm(now.p_back[k] - now.p_world[k])
+    off = "where we began" if miss < SAME else f"{_length(miss)} from where we began"
     return (
-        f"Back from the pixel: a ray leaves the camera at {_triple(now.p_center)} m, and every point on it has this pixel."
-        f" With its depth we come out {_length(_norm(now.p_back[k] - now.p_world[k]))} from where we began."
+        f"Back from the pixel: it gives a ray from {_triple(now.p_center)} m, but not how far to go along it. {depth} we"
+        f" come out {off}."
     )
 
 
@@ -166,21 +184,30 @@ _STAGES = {
 def _remark(state: State) -> str:
     """Return one more sentence where this camera is a special one."""
     shot, params, stage = state.shot, state.params, state.now.stage
-    fold = invertible_radius(shot.lens)
+    fold, bare = invertible_radius(shot.lens), " Without the lens" if any(shot.lens) else ""
     if stage == "distort" and fold < 1.4:
-        return f" Beyond radius {fold:.2f} this model folds back; what lies there has no pixel."
+        return f" Beyond radius {fixed(fold, 3)} this model folds back; what lies there has no pixel."
     if stage == "pixels" and params.dolly >= 10 and math.isfinite(shot.gap):
-        return f" No corner is more than {shot.gap:.1f} px from its orthographic pixel."
+        start = f"{bare} no" if bare else " No"
+        return f"{start} corner in front of it is more than {_count(shot.gap)} px from its orthographic pixel."
     if stage == "pixels" and params.dolly != 1:
-        return (
-            f" The crate is {shot.crate:.0f} px high as before; the tower was {shot.tower_before:.0f} px high and is"
-            f" {shot.tower:.0f} px now."
-        )
+        return _heights(shot)
     if stage == "pixels" and params.point in (3, 4) and np.isfinite(shot.vanishing).all():
-        return f" The rails stay 1.5 m apart; their pictures meet at {_pair(shot.vanishing, 1)}."
+        return f" The rails stay 1.5 m apart; their pictures run towards {_pair(shot.vanishing, 1)}."
     if stage == "pixels" and shot.ball_ratio > 1.2:
-        return f" The ball's outline is {shot.ball_ratio:.2f} times as long as wide."
+        return f"{bare or ' Here'} the ball's outline is {fixed(shot.ball_ratio, 2)} times as long as wide."
     return ""
+
+
+def _heights(shot: Shot) -> str:
+    """Say what moving the camera did to the crate and the tower, as far as both pictures show them."""
+    heights = {"crate": (shot.crate_before, shot.crate), "tower": (shot.tower_before, shot.tower)}
+    said = [
+        f"the {name} was {_count(before)} px high and is {_count(now)} px now"
+        for name, (before, now) in heights.items()
+        if math.isfinite(before) and math.isfinite(now)
+    ]
+    return f" T{'; '.join(said)[1:]}." if said else ""
 
 
 def _many(n: int) -> str:
@@ -188,24 +215,33 @@ def _many(n: int) -> str:
 
 
 def _triple(p: np.ndarray) -> str:
-    return "(" + ", ".join(f"{value:.2f}" for value in p) + ")"
+    return f"({', '.join(fixed_or_power(value, 2) for value in p)})" if np.isfinite(p).all() else "none"
 
 
 def _pair(p: np.ndarray, digits: int) -> str:
-    return "none" if not np.isfinite(p).all() else "(" + ", ".join(f"{value:.{digits}f}" for value in p) + ")"
+    return f"({', '.join(fixed_or_power(value, digits) for value in p)})" if np.isfinite(p).all() else "none"
+
+
+def _height(pixels: float) -> str:
+    return f"{_count(pixels)} px" if math.isfinite(pixels) else "has no pixel"
 
 
 def _ratio(ratio: float) -> str:
-    return f"{ratio:.3f} × as long as wide" if math.isfinite(ratio) else "not in the picture"
+    return f"{fixed(ratio, 3)} × as long as wide" if math.isfinite(ratio) else "not in the picture"
 
 
 def _norm(v: np.ndarray) -> float:
     return float(np.linalg.norm(v))
 
 
+def _metres(metres: float) -> str:
+    """Write a number of metres, with more digits where two decimals would say nothing."""
+    return fixed_or_power(metres, 2) if abs(metres) >= 0.01 else brief(metres, 2)
+
+
 def _length(metres: float) -> str:
-    return f"{1000 * metres:.1f} mm" if metres < 0.1 else f"{metres:,.2f} m"
+    return f"{brief(1000 * metres)} mm" if metres < 0.1 else f"{fixed_or_power(metres, 2)} m"
 
 
 def _count(pixels: float) -> str:
-    return f"{pixels:.1f}" if pixels < 100 else f"{pixels:,.0f}"
+    return fixed_or_power(pixels, 1 if pixels < 100 else 0)

@@ -58,7 +58,7 @@ INVERT_MISTAKES = (
     Mistake(
         "all transposed",
         all_transposed,
-        "You transposed the whole 4x4, so that t lies in the last row. Only its 3x3 rotation is orthogonal.",
+        "You transposed the whole 4×4, so that t lies in the last row. Only its 3×3 rotation is orthogonal.",
     ),
 )
 
@@ -232,18 +232,18 @@ EULER_MISTAKES = (
         "product turned round",
         product_turned_round,
         "Your product is the wrong way round: you turn about the body's own axes for lower case, and about fixed ones for "
-        'upper case. "xyz" is Rz Ry Rx: each new turn about a fixed axis is multiplied on the left.',
+        "upper case. “xyz” is Rz Ry Rx: each new turn about a fixed axis is multiplied on the left.",
     ),
     Mistake(
         "case ignored",
         case_ignored,
         "You always turn about fixed axes. Upper case means the body's own axes, which earlier turns have carried along: "
-        '"XYZ" is Rx Ry Rz.',
+        "“XYZ” is Rx Ry Rz.",
     ),
     Mistake(
         "always carried",
         always_carried,
-        'You always turn about the body\'s own axes. Lower case means the fixed axes of the world: "xyz" is Rz Ry Rx.',
+        "You always turn about the body's own axes. Lower case means the fixed axes of the world: “xyz” is Rz Ry Rx.",
     ),
     Mistake(
         "clockwise",
@@ -255,10 +255,10 @@ EULER_MISTAKES = (
     Mistake(
         "angles of axes",
         angles_of_axes,
-        'You read the angles as those about x, y and z. They come in the order of the letters: in "zyx" the first one is '
+        "You read the angles as those about x, y and z. They come in the order of the letters: in “zyx” the first one is "
         "about z.",
     ),
-    Mistake("order ignored", order_ignored, 'You always turn about x, y, z. Read the letters: "zxz" begins with z.'),
+    Mistake("order ignored", order_ignored, "You always turn about x, y, z. Read the letters: “zxz” begins with z."),
     Mistake(
         "any order taken",
         any_order_taken,

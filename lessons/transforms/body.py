@@ -14,6 +14,7 @@ from workbench.geometry.affine import perspective, reflection, scaling, shear, t
 from workbench.geometry.invariants import Measures, measure
 from workbench.geometry.motions import exp_so3, motion
 from workbench.geometry.rotations import EulerOrder, euler_to_matrix
+from workbench.numerals import brief
 
 MOST_FACES = 50_000
 FRONT = np.array([0.0, -1.0, 0.0])
@@ -95,12 +96,18 @@ def shape_factors(params: Params) -> list[Factor]:
     factors = []
     if params.scale != (1.0, 1.0, 1.0):
         x, y, z = params.scale
-        factors.append(Factor("scale", f"x × {x:g}, y × {y:g}, z × {z:g}", scaling(np.array(params.scale, float))))
+        factors.append(
+            Factor(
+                "scale",
+                f"x × {brief(x, 6)}, y × {brief(y, 6)}, z × {brief(z, 6)}",
+                scaling(np.array(params.scale, float)),
+            )
+        )
     if params.shear:
-        factors.append(Factor("shear", f"x + {params.shear:g} z", shear("x", "z", params.shear)))
+        factors.append(Factor("shear", f"x + {brief(params.shear, 6)} z", shear("x", "z", params.shear)))
     if params.perspective:
         slope = np.array([0.0, 0.0, params.perspective])
-        factors.append(Factor("perspective", f"w = 1 + {params.perspective:g} z", perspective(slope)))
+        factors.append(Factor("perspective", f"w = 1 + {brief(params.perspective, 6)} z", perspective(slope)))
     if params.mirror != "none":
         normal = np.eye(3)["xyz".index(params.mirror)]
         factors.append(Factor("mirror", f"{params.mirror} → −{params.mirror}", reflection(normal)))
@@ -113,12 +120,12 @@ def motion_factors(params: Params, euler_to_matrix: FromEuler, rotation_from_axi
     for k, letter in enumerate(params.order):
         R = euler_to_matrix(np.where(np.arange(3) <= k, numbers.angles, 0.0), params.order)
         axis = f"the world's {letter}" if letter.islower() else f"the body's own {letter.lower()}"
-        turns.append(Factor("turn", f"{params.angles[k]:g}° about {axis}", motion(R @ R_before.T, np.zeros(3))))
+        turns.append(Factor("turn", f"{brief(params.angles[k], 6)}° about {axis}", motion(R @ R_before.T, np.zeros(3))))
         R_before = R
     angle = np.linalg.norm(numbers.turn)
     if angle > 0:
         R = rotation_from_axis_angle(numbers.turn, float(angle))
-        turns.append(Factor("handle", f"{np.degrees(angle):.0f}° about the handle's axis", motion(R, np.zeros(3))))
+        turns.append(Factor("handle", f"{brief(np.degrees(angle))}° about the handle's axis", motion(R, np.zeros(3))))
     x, y, z = params.pose[:3]
-    move = Factor("translate", f"({x:g}, {y:g}, {z:g}) m", translation(numbers.offset))
+    move = Factor("translate", f"({brief(x, 4)}, {brief(y, 4)}, {brief(z, 4)}) m", translation(numbers.offset))
     return [*turns, move] if params.first == "rotate, then translate" else [move, *turns]

@@ -21,6 +21,7 @@ from workbench.geometry.rotations import (
     other_triple,
     quaternion_from_matrix,
 )
+from workbench.numerals import brief
 from workbench.scene import Role
 
 SAME = 1e-9  # metres: what rounding leaves of two names for one motion
@@ -45,9 +46,14 @@ class Ghost:
     apart: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     @property
+    def same(self) -> bool:
+        """Whether both are one motion of this body, up to rounding."""
+        return self.distance < SAME
+
+    @property
     def color(self) -> Role:
         """Green where both are the same motion, vermillion where they differ."""
-        return "truth" if self.distance < SAME else "wrong"
+        return "truth" if self.same else "wrong"
 
 
 def ghosts_of(params: Params, body: Body, numbers: Numbers, A: np.ndarray) -> tuple[Ghost, ...]:
@@ -78,7 +84,7 @@ def undo_ghosts_of(params: Params, body: Body, T_world_body: np.ndarray, A: np.n
         T_body_wrong = motion(T_world_body[:3, :3].T, -T_world_body[:3, 3])
         return (_ghost("(Rᵀ, −t)", T_body_wrong @ T, body, transform(A, body.solid.p)),)
     if params.compare == "undo all as if rigid":
-        return (_ghost("(Aᵀ, −Aᵀt) of all factors", inverse(T) @ T, body, body.solid.p),)
+        return (_ghost("(Mᵀ, −Mᵀt), with M the 3×3 of T,", inverse(T) @ T, body, body.solid.p),)
     return ()
 
 
@@ -87,9 +93,9 @@ def _ghost(name: str, T: np.ndarray, body: Body, p_ours: np.ndarray) -> Ghost:
 
 
 def in_degrees(angles: np.ndarray) -> str:
-    """Write a triple of angles in degrees between -180 and 180."""
-    around = (np.degrees(angles) + 180.0) % 360.0 - 180.0
-    return "(" + ", ".join(f"{a:.0f}" for a in around.round() + 0.0) + ")°"
+    """Write a triple of angles in degrees between -180 and 180, to a hundredth of a degree."""
+    around = (np.degrees(angles).round(2) + 180.0) % 360.0 - 180.0
+    return "(" + ", ".join(brief(a, 5) for a in around.round(2)) + ")°"
 
 
 def _other_order(numbers: Numbers) -> list[tuple[str, np.ndarray]]:

@@ -8,7 +8,7 @@ from lessons.transforms.body import FRONT, Body
 from lessons.transforms.compare import Ghost
 from lessons.transforms.states import Built, Moved, State
 from lessons.transforms.tables import in_other_numbers, invariants, matrix, one_point
-from lessons.transforms.words import caption_of_build, caption_of_move
+from lessons.transforms.words import caption_of_build, caption_of_move, length
 from workbench.geometry.affine import transform, transform_directions, translation
 from workbench.geometry.rotations import EulerOrder, euler_axes, gimbal_margin
 from workbench.scene import Axes, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments
@@ -38,7 +38,7 @@ def _draw_build(state: Built) -> Scene:
         ),
         "matrix": matrix(T, "T, all factors so far"),
         "measured": invariants(state),
-        "numbers": in_other_numbers(T if _affine(T) else T_body, state.params.order),
+        "numbers": in_other_numbers(T, T_body, state.params.order),
         "one point": one_point(state),
         "gimbal": _gimbal_curve(state),
         "caption": caption_of_build(state),
@@ -77,7 +77,7 @@ def _draw_move(state: Moved) -> Scene:
         "volume": Scalar(100 * state.volume, "volume", "Volume", "%"),
         "matrix": matrix(state.T_world_body, f"T at t = {state.t:.2f}"),
         "measured": invariants(state),
-        "numbers": in_other_numbers(state.T_world_body, state.params.order),
+        "numbers": in_other_numbers(state.T_world_body, state.T_world_body, state.params.order),
         "turned": Curve(way.times, way.turned, state.params.method, "Turned so far", "t", "deg", marks=(state.t,)),
         "turned at best": Curve(x, state.shortest.turned, "shortest turn", "Turned so far", "t", "deg", "truth"),
         "caption": caption_of_move(state),
@@ -113,7 +113,7 @@ def _ghost(i: int, ghost: Ghost, body: Body) -> dict[str, Primitive]:
     T = translation(ghost.apart) @ ghost.T
     p = transform(T, body.solid.p)
     p_label = p[np.argmax(p[:, 2])] + [0.0, 0.0, 0.08 + (0.0 if ghost.apart.any() else 0.1 * i)]
-    ends = "ends the same" if ghost.color == "truth" else f"ends {ghost.distance:.2f} m off"
+    ends = "ends the same" if ghost.same else f"farthest vertex {length(ghost.distance)} off"
     return {
         f"ghost {i}": _lines(body, T, ghost.color, ghost.name),
         f"ghost {i} name": Label(f"{ghost.name}: {ends}", p_label, ghost.color),

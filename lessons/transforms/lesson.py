@@ -59,7 +59,7 @@ def _build(
         p_now = transform(now.T, p)
         after, trail = measure(p_now, faces), np.vstack([trail, p_now[body.point]])
         turns += now.factor.kind == "turn"
-        undone = now.factor.kind == "undo"
+        undone, complete = now.factor.kind == "undo", len(trail) == len(shape) + len(motions) + 1
         yield Built(
             params,
             body,
@@ -71,8 +71,8 @@ def _build(
             changes(before, after),
             changes(body.measures, after),
             trail,
-            len(trail) == len(shape) + len(motions) + 1,
-            undo_ghosts_of(params, body, now.T_world_body, A) if undone else ghosts,
+            complete,
+            undo_ghosts_of(params, body, now.T_world_body, A) if undone else ghosts if complete else (),
             float(np.linalg.norm(p_now - p_shaped, axis=1).max()) if undone else float("nan"),
         )
         before = after
@@ -90,7 +90,7 @@ def _move(
     T_start = motion(euler_to_matrix(numbers.angles, params.order), np.zeros(3))
     T_end = motion(R_end, numbers.offset)
     shortest = list(between.slerp_and_lerp(T_start, T_end, times, rotations.rotation_from_axis_angle))
-    shortest_way = Way(times[:0], np.empty((0, 3)), times[:0])
+    shortest_way = way = Way(times[:0], np.empty((0, 3)), times[:0], times[:0])
     for k, now in enumerate(shortest):
         shortest_way = _gone(shortest_way, now, shortest[max(k - 1, 0)], body.p_point)
     if params.method == "slerp + lerp":
@@ -105,7 +105,7 @@ def _move(
         states = between.slerp_to_minus_q(T_start, T_end, times)
     else:
         states = between.along_a_screw(T_start, T_end, times, invert_rigid)
-    way, before = Way(times[:0], np.empty((0, 3)), times[:0]), None
+    before = None
     for now, best in zip(states, shortest, strict=True):
         way = _gone(way, now, before or now, body.p_point)
         T, before = now.T_world_body, now
@@ -120,7 +120,6 @@ def _move(
             way,
             shortest_way,
             _degrees_between(best.T_world_body, T),
-            float(np.linalg.det(T[:3, :3])),
             changes(body.measures, after),
         )
 
@@ -128,7 +127,8 @@ def _move(
 def _gone(way: Way, now: between.State, before: between.State, p_point: np.ndarray) -> Way:
     turned = (way.turned[-1] if len(way.turned) else 0.0) + _degrees_between(before.T_world_body, now.T_world_body)
     path = np.vstack([way.path, apply(now.T_world_body, p_point)])
-    return Way(np.append(way.times, now.t), path, np.append(way.turned, turned))
+    volume = np.linalg.det(now.T_world_body[:3, :3])
+    return Way(np.append(way.times, now.t), path, np.append(way.turned, turned), np.append(way.volume, volume))
 
 
 def _degrees_between(T: np.ndarray, other: np.ndarray) -> float:
@@ -146,7 +146,7 @@ def exercises() -> tuple[Any, ...]:
 lesson = Lesson(
     name="transforms",
     title="Transforms",
-    summary="The same motion, many numbers: build a 4x4 factor by factor, and blend two poses in five ways.",
+    summary="The same motion, many numbers: build a 4×4 matrix factor by factor, and blend two poses in five ways.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -43,7 +43,10 @@ class Params:
     pose: Annotated[
         tuple[float, float, float, float, float, float],
         Knob(
-            "Translation (m), and one more turn as a rotation vector (rad), by numbers or handle", -4, 4, by=Gizmo(0.5)
+            "Translation (m), and one more turn as a rotation vector (radians), by numbers or handle",
+            -4,
+            4,
+            by=Gizmo(0.5),
         ),
     ] = (1.6, 0.6, 0.3, 0.0, 0.0, 0.0)
     first: Annotated[First, Knob("Which comes first")] = "rotate, then translate"

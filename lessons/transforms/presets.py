@@ -38,14 +38,14 @@ SCREW = Params(half="move between two poses", angles=NO_TURN, angles_end=(0.0, 0
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
-        "order", "Rotate, then translate", "The same two factors the other way round end 2 m away: a rotation turns about"
-        " the world's origin, so it swings along whatever was translated before.",
-        ORDER, -2,
+        "order", "Rotate, then translate", "Step on, and the same two factors the other way round appear: a rotation turns"
+        " about the world's origin, so it swings along whatever was translated before.",
+        ORDER, -3,
     ),
     Preset(
-        "gimbal", "Gimbal lock: pitch 90°", "Angles 1 and 3 turn about one axis. The pose is still reached, even by a whole"
-        " family of triples; what is lost is a direction to turn in.",
-        GIMBAL, -2,
+        "gimbal", "Gimbal lock: pitch 90°", "Step on, and look at the three lines about which the angles turn the house. The"
+        " pose is reached all the same, even by a whole family of triples (green).",
+        GIMBAL, 2,
     ),
     Preset(
         "conventions", "Three numbers, four readings", "(40, 30, 70)° are four different rotations under four conventions,"
@@ -58,18 +58,18 @@ PRESETS: tuple[Preset[Params], ...] = (
         FIXED_OWN, -2,
     ),
     Preset(
-        "mirror", "A reflection is no rotation", "Every length and angle survives, yet det is −1 and no rigid motion brings"
-        " the house nearer than the vermillion one.",
+        "mirror", "A reflection is no rotation", "Every length and angle survives, yet det is −1. The vermillion house is"
+        " the best of all rigid motions, by the sum of squared distances: it does not fit.",
         MIRROR, -2,
     ),
     Preset(
-        "shear", "Shear keeps volume", "Lengths and angles change, the volume does not: each layer slides as it is, and"
-        " det stays 1. Parallel edges stay parallel.",
-        SHEAR, 1,
+        "shear", "A shear", "Each horizontal layer slides as it is, the higher the farther. Step on, and read in the"
+        " table what survives that.",
+        SHEAR, 0,
     ),
     Preset(
-        "perspective", "Divide by w", "A projective map keeps edges straight and nothing else: vertical edges of the box"
-        " now run to one point.",
+        "perspective", "Divide by w", "A projective map keeps straight lines straight, and cross-ratios on them, but no"
+        " lengths, angles or parallels: the vertical edges of the box now run to one point.",
         PERSPECTIVE, 1,
     ),
     Preset(
@@ -78,18 +78,18 @@ PRESETS: tuple[Preset[Params], ...] = (
         TRANSPOSE, -2,
     ),
     Preset(
-        "inverse", "Undo with (Rᵀ, −t)", "The translation must be turned back too: only (Rᵀ, −Rᵀt) returns to the start."
-        " At a quarter turn the other one misses by more than |t|.",
+        "inverse", "Undo with (Rᵀ, −t)", "The translation must be turned back too: (Rᵀ, −Rᵀt) returns to the start. After"
+        " this quarter turn (Rᵀ, −t) misses it by more than |t|.",
         INVERSE, -1,
     ),
     Preset(
         "hidden-scale", "A scale hidden in R", "With a scale of 1.3 in its 3×3, the transpose is no inverse: instead of"
-        " going back to its size the house grows by 1.3² = 1.69.",
+        " going back to its size the house ends 1.3² = 1.69 times as long, wide and high.",
         HIDDEN_SCALE, -1,
     ),
     Preset(
         "xyzw", "wxyz read as xyzw", "Both are four numbers of length 1, so nothing complains: a turn of 40° about z has"
-        " become one of 140° about another axis.",
+        " become one of 140° about x.",
         XYZW, -2,
     ),
     Preset(
@@ -108,18 +108,18 @@ PRESETS: tuple[Preset[Params], ...] = (
         WOBBLE, 15,
     ),
     Preset(
-        "average", "The mean of 170° and −170°", "As numbers their mean is 0°, as directions 180°: blending the numbers"
-        " turns 340° the long way, the shortest turn is 20°.",
-        AVERAGE, 15,
+        "average", "The mean of 170° and −170°", "Two headings, 20° apart, and the number that names them is blended."
+        " Green is the shortest turn: watch where orange goes.",
+        AVERAGE, 1,
     ),
     Preset(
-        "entries", "Blend the matrix entries", "Halfway between two rotations 170° apart the average matrix is nearly flat:"
-        " it keeps less than 1 % of the volume.",
-        ENTRIES, 15,
+        "entries", "Blend the matrix entries", "Each entry of the matrix runs evenly to that of a rotation 170° away."
+        " Is what lies between a rotation? Step on, and look at the body and its volume.",
+        ENTRIES, 3,
     ),
     Preset(
-        "screw", "Along a screw", "Exp and log on SE(3) turn about one fixed line in space: the origin goes along an arc,"
-        " not straight as with slerp + lerp.",
+        "screw", "Along a screw", "Exp and log on SE(3) turn about a line that stays put and slide along it: the origin"
+        " follows a helix, not a straight line as with slerp + lerp.",
         SCREW, 15,
     ),
 )  # fmt: skip
@@ -215,7 +215,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         " volume does the house keep?",
         answer=lambda states: 100.0 * halfway(states).volume,
         why=lambda states: (
-            f"{100 * halfway(states).volume:.1f} %: across the axis every length shrinks to cos 85° = 0.09, and the volume"
+            f"{100 * halfway(states).volume:.2f} %: across the axis every length shrinks to cos 85° = 0.087, and the volume"
             " to its square."
         ),
         params=ENTRIES,

@@ -26,7 +26,7 @@ class Built:
         by_all: What all factors so far changed on the body of the start.
         trail: Where the followed vertex was after every factor so far, (k, 3).
         complete: Whether this was the last factor of the map.
-        ghosts: The second readings of the complete map; after `undo`, of its inverse.
+        ghosts: The second readings of the complete map, once it is; after `undo`, of its inverse.
         left: After `undo`: how far the farthest vertex is from where it was before the motion, metres.
     """
 
@@ -52,12 +52,14 @@ class Way:
     Attributes:
         times: 0 at the start, 1 at the end, (n,).
         path: Where the followed vertex was at these times, (n, 3).
-        turned: All turning up to these times added up, degrees, (n,).
+        turned: All turning from each time to the next added up, degrees, (n,).
+        volume: Of the body, over its volume at the start; negative where it is mirrored, (n,).
     """
 
     times: np.ndarray
     path: np.ndarray
     turned: np.ndarray
+    volume: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +73,6 @@ class Moved:
         T_world_shortest: Where slerp and lerp have it now.
         way, shortest: The way taken up to now, and all of the way of slerp and lerp.
         off: The angle to the shortest turn's body, degrees.
-        volume: Of the body, over its volume at the start.
         by_all: What differs from the body at the start.
     """
 
@@ -84,13 +85,17 @@ class Moved:
     way: Way
     shortest: Way
     off: float
-    volume: float
     by_all: tuple[Change, ...]
 
     @property
     def t(self) -> float:
         """The time now."""
         return float(self.way.times[-1])
+
+    @property
+    def volume(self) -> float:
+        """The body's volume now, over its volume at the start."""
+        return float(self.way.volume[-1])
 
 
 State = Built | Moved

@@ -1,4 +1,4 @@
-"""The numbers beside the picture: the 4x4, what survived, one point and one direction, the rotation's other names."""
+"""The numbers beside the picture: the 4×4, what survived, one point and one direction, the rotation's other names."""
 
 import numpy as np
 
@@ -12,23 +12,14 @@ from workbench.geometry.rotations import (
     matrix_to_euler,
     quaternion_from_matrix,
 )
+from workbench.numerals import TINY, brief, fixed, fixed_row
 from workbench.scene import Table
 
 
-def number(value: float) -> str:
-    """Write a number with two decimals, without a negative zero."""
-    return f"{value + 0.0 if abs(value) >= 0.005 else 0.0:.2f}"
-
-
-def row(values: np.ndarray) -> str:
-    """Write some numbers in a row."""
-    return ", ".join(number(value) for value in values)
-
-
 def matrix(T: np.ndarray, title: str) -> Table:
-    """Show a 4x4; its columns are where the axes and the origin go."""
+    """Show a 4×4; its columns are where the axes and the origin go."""
     header = ("x axis", "y axis", "z axis", "origin")
-    return Table(title, header, tuple(tuple(number(value) for value in line) for line in T))
+    return Table(title, header, tuple(tuple(fixed(value, 2) for value in line) for line in T))
 
 
 def amount(change: Change) -> str:
@@ -37,7 +28,10 @@ def amount(change: Change) -> str:
         return "kept"
     if change.name == "orientation":
         return "flipped"
-    return f"±{np.degrees(change.amount):.3g}°" if change.unit == "rad" else f"±{100 * change.amount:.3g} %"
+    if change.unit == "rad":
+        return f"up to {brief(np.degrees(change.amount))}°"
+    most = "up to " if change.name == "edge lengths" else ""  # area and volume are one number each
+    return f"{most}{brief(100 * change.amount)} %"
 
 
 def invariants(state: State) -> Table:
@@ -62,26 +56,29 @@ def one_point(state: Built) -> Table:
     return Table(
         "A point and a direction",
         ("", f"vertex {state.body.point}", "T · vertex", "front", "T · front"),
-        tuple((name, *(number(value) for value in values)) for name, *values in lines),
+        tuple((name, *(fixed(value, 2) for value in values)) for name, *values in lines),
     )
 
 
-def in_other_numbers(T: np.ndarray, order: EulerOrder) -> Table:
-    """Show the rotation in a 4x4 under its other names; what stretches or mirrors is split off first."""
-    parts = decompose(T)
+def in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder) -> Table:
+    """Show the rotation in a 4×4 under its other names; what stretches or mirrors is split off first.
+
+    A projective map has no such parts: then the rotation is that of its rigid factors alone.
+    """
+    affine = np.array_equal(T[3], (0, 0, 0, 1))
+    parts = decompose(T if affine else T_world_body)
     R = parts.rotation
     axis, angle = axis_angle_from_rotation(R)
-    q = quaternion_from_matrix(R)
-    stretches = np.linalg.eigvalsh(parts.stretch)[::-1]
-    return Table(
-        "The rotation, in other numbers",
-        ("name", "numbers"),
-        (
-            (f"Euler {order}", ", ".join(f"{a + 0.0:.1f}°" for a in np.degrees(matrix_to_euler(R, order)).round(1))),
-            ("axis", row(axis)),
-            ("angle", f"{np.degrees(angle):.1f}°"),
-            ("quaternion w, x, y, z", row(q)),
-            ("stretch", row(stretches)),
-            ("det T", number(float(np.linalg.det(T[:3, :3])))),
-        ),
-    )
+    rows = [
+        (f"Euler {order}", ", ".join(f"{fixed(a, 1)}°" for a in np.degrees(matrix_to_euler(R, order)))),
+        ("axis", fixed_row(axis, 2) if angle > TINY else "any"),
+        ("angle", f"{fixed(np.degrees(angle), 1)}°"),
+        ("quaternion w, x, y, z", fixed_row(quaternion_from_matrix(R), 2)),
+    ]
+    if affine:
+        stretches = fixed_row(np.linalg.eigvalsh(parts.stretch)[::-1], 2)
+        rows += [
+            ("stretch" + ", mirrored at the origin" * (parts.mirror < 0), stretches),
+            ("det T", fixed(float(np.linalg.det(T[:3, :3])), 2)),
+        ]
+    return Table("The rotation, in other numbers", ("name", "numbers"), tuple(rows))

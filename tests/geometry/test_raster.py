@@ -290,7 +290,7 @@ def test_the_street_is_drawn_whole_and_its_camera_sees_its_parts():
             depths(p, T_camera_world)[0], rel=0.1
         )
     assert np.isnan(project(scene.points[5:6], T_camera_world, K_street)).all()
-    assert scene.names[5] == "a lamp behind the camera"
+    assert scene.names[5] == "the lamp"
 
 
 def test_the_solids_of_the_street_are_closed_and_face_outwards():

@@ -51,6 +51,18 @@ def opened(name: str):
     return timeline(shown.params)[shown.step]
 
 
+def opened_at(params: Params, step: int):
+    return timeline(params)[step]
+
+
+def exp_axis(start: Moved, end: Moved) -> tuple[np.ndarray, np.ndarray]:
+    """A point and the direction of the line about which a motion turns, by solving for what the turn leaves alone."""
+    T = end.T_world_body @ np.linalg.inv(start.T_world_body)
+    n = axis_angle_from_rotation(T[:3, :3])[0]
+    along = n * (n @ T[:3, 3])
+    return np.linalg.lstsq(np.eye(3) - T[:3, :3], T[:3, 3] - along)[0], n
+
+
 def survivors(state: Built) -> set[str]:
     return {change.name for change in state.by_factor if change.kept}
 
@@ -109,7 +121,12 @@ def test_gimbal_lock_loses_a_direction_and_no_pose():
     R = euler_to_matrix(triple, params.order) @ numbers.rotation().T
     assert np.degrees(rotation_angle(R)) == pytest.approx(1.0)
     assert np.degrees(change(triple, numbers.angles)) > 80
-    assert "axes 0.0° apart" in opened("gimbal").caption.text
+    locked = opened_at(params, -2).caption.text
+    assert "Gimbal lock: angles 1 and 3 turn about one axis; (70, 90, 90)° is the same" in locked
+    R_named = euler_to_matrix(np.radians([70.0, 90.0, 90.0]), params.order)
+    np.testing.assert_allclose(R_named, numbers.rotation(), atol=1e-15)
+    near = opened_at(dataclasses.replace(params, angles=(30.0, 88.0, 50.0)), -2)
+    assert "Nearly gimbal lock: angles 1 and 3 turn about axes 2° apart." in near.caption.text
     assert directions_left(timeline(dataclasses.replace(params, angles=(30.0, 80.0, 50.0))).states()) == 3
 
 
@@ -146,7 +163,7 @@ def test_a_reflection_is_no_rotation():
 
 
 def test_shear_keeps_volume_and_parallels():
-    state = opened("shear").state
+    state = opened_at(preset("shear"), 1).state
     assert state.factor.kind == "shear"
     assert survivors(state) == {"volume", "parallel edges", "orientation"}
 
@@ -270,7 +287,7 @@ def test_averaged_matrices_are_flat():
     assert middle.volume == pytest.approx(np.cos(np.radians(85)) ** 2)
     assert middle.volume < 0.01
     assert kind_of(middle.T_world_body) is Kind.AFFINE
-    assert opened("entries").caption.tone == "wrong"
+    assert opened_at(preset("entries"), 15).caption.tone == "wrong"
 
 
 def test_a_screw_takes_the_origin_along_an_arc():
@@ -278,9 +295,12 @@ def test_a_screw_takes_the_origin_along_an_arc():
     origins = np.array([state.T_world_body[:3, 3] for state in states])
     straight = np.linspace(origins[0], origins[-1], len(origins))
     assert np.linalg.norm(origins - straight, axis=1).max() > 0.3
-    assert (
-        f"{np.linalg.norm(origins - straight, axis=1)[15]:.2f} m off the straight line" in opened("screw").caption.text
-    )
+    aside = np.linalg.norm(origins - straight, axis=1)
+    assert f"its origin {aside[15]:.2f} m from where lerp has it" in opened("screw").caption.text
+    line = exp_axis(states[0], states[-1])
+    from_line = np.linalg.norm(np.cross(origins - line[0], line[1]), axis=1)
+    np.testing.assert_allclose(from_line, from_line[0])  # a helix: at one distance from the line that it goes along
+    assert (origins[-1] - origins[0]) @ line[1] == pytest.approx(0.3)
     lerp = np.array([s.T_world_body[:3, 3] for s in moved(dataclasses.replace(preset("screw"), method="slerp + lerp"))])
     np.testing.assert_allclose(lerp, straight, atol=1e-12)
     steps = [b.T_world_body @ inverse(a.T_world_body) for a, b in itertools.pairwise(states)]
@@ -378,7 +398,8 @@ def test_the_table_shows_the_matrix():
     step = timeline(Params())[lesson.first_step]
     table = step.scene["matrix"]
     assert isinstance(table, Table)
-    np.testing.assert_allclose(np.array(table.rows, float), step.state.T, atol=0.005)
+    shown = [[float(cell.replace("−", "-")) for cell in row] for row in table.rows]
+    np.testing.assert_allclose(shown, step.state.T, atol=0.005)
 
 
 def test_a_mirrored_body_is_not_drawn_inside_out():
@@ -402,6 +423,52 @@ def test_captions_name_the_number():
         for step in timeline(p.params).known():
             assert isinstance(step.caption, Caption)
             assert any(character.isdigit() for character in step.caption.text), step.caption.text
+
+
+def test_nothing_to_blame_is_not_blamed():
+    """A wrong reading that changes nothing here is called the same, not "0.00 m off"."""
+    still = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    for compare in ("undo by (Rᵀ, −t)", "undo all as if rigid"):
+        last = timeline(Params(scale=(1, 1, 1), pose=still, compare=compare))[-1].caption
+        assert last.tone == "good"
+        assert "does the same" in last.text
+    front = opened_at(Params(pose=still, compare="direction with w = 1"), -2).caption
+    assert front.tone == "info"
+    assert "is the same here" in front.text
+    one_turn = Params(scale=(1, 1, 1), angles=(0.0, 0.0, 40.0), compare="four conventions")
+    assert "3 of 4 the same, the other: farthest vertex" in opened_at(one_turn, -2).caption.text  # ZYX turns about x
+    still_turns = opened_at(Params(angles=(30.0, 0.0, 0.0), scale=(1, 1, 1)), 2).caption.text
+    assert still_turns == "Turned 0° about the world's y, that is not at all: nothing moved."
+
+
+def test_a_students_wrong_function_is_not_said_to_be_right():
+    def shrinking(angles, order):
+        return 0.9 * euler_to_matrix(angles, order)
+
+    turned = list(lesson.run(Params(scale=(1, 1, 1)), euler_to_matrix=shrinking))[1]
+    caption = caption_of(lesson.draw(turned))
+    assert caption.tone == "wrong"
+    assert "edge lengths" in caption.text
+    backwards = last_moved(MOVE, rotation_from_axis_angle=lambda axis, angle: rotation_from_axis_angle(axis, -angle))
+    end = caption_of(lesson.draw(backwards))
+    assert end.tone == "wrong"
+    assert "The end is missed" in end.text
+
+
+def test_a_blend_that_was_no_rotation_does_not_end_well():
+    caption = timeline(preset("entries"))[-1].caption
+    assert caption.tone == "info"
+    assert "the volume fell to 0.76 %" in caption.text
+    assert timeline(MOVE)[-1].caption.tone == "good"
+
+
+def test_a_projective_map_is_not_said_to_have_a_stretch():
+    table = opened("perspective").scene["numbers"]
+    assert isinstance(table, Table)
+    assert not {"stretch", "det T"} & {row[0] for row in table.rows}
+    mirrored = opened("mirror").scene["numbers"]
+    assert isinstance(mirrored, Table)
+    assert ("det T", "−1.00") in mirrored.rows
 
 
 def test_compose_undoes_only_the_motion():

@@ -64,9 +64,9 @@ def street() -> Street:
         "the roof's ridge": roof[0][4],
         "the crate's corner": crate[0][5],
         "the tower's top": tower[0][5],
-        "a near point of the rail": rails[1, 0] + np.array([0.0, 2.0, 0.0]),
-        "a far point of the rail": rails[1, 0] + np.array([0.0, 40.0, 0.0]),
-        "a lamp behind the camera": np.array([0.9, -5.2, 2.4]),
+        "the rail, 2 m along": rails[1, 0] + np.array([0.0, 2.0, 0.0]),
+        "the rail, 40 m along": rails[1, 0] + np.array([0.0, 40.0, 0.0]),
+        "the lamp": np.array([0.9, -5.2, 2.4]),
     }
     along = np.array([[x, y, 0.06] for x in (-RAIL_HALF_GAUGE, RAIL_HALF_GAUGE) for y in np.arange(3.0, 36.0, 3.0)])
     balls = [solids[name].p_world[::40] for name in ("ball", "far ball")]
