@@ -19,7 +19,7 @@ Cloud = Float[np.ndarray, "n 3"]
 FEW_COPIES = 250
 MOST_UNEQUAL = 250_000  # entries of the cost where the counts differ: a linear programme, a few seconds
 
-_BLURS = ((0.05, 6), (0.01, 12), (0.003, 20), (0.001, 8))  # share of the median cost, sweeps
+_BLURS = ((0.05, 5), (0.01, 10), (0.002, 25))  # share of the median cost, sweeps
 _RELAXATION = 1.6  # exponent of a sweep's scalings, 1 to below 2: at 1 the solver takes up to four times as long
 _FEWEST = 250  # rows from which potentials gain more than they cost,
 _CONTESTED = 0.35  # where at least this share of the columns is cheapest to no row, since rows contend for the others
