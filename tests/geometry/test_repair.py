@@ -98,6 +98,7 @@ def test_a_moebius_strip_is_left_and_refused():
     faces = np.concatenate([np.stack([i, j, j + 8], 1), np.stack([i, j + 8, i + 8], 1), [[7, 8, 0], [7, 0, 15]]])
     assert len(edges(faces)) == 32
     np.testing.assert_array_equal(oriented(faces), faces)
+    np.testing.assert_array_equal(split_where_sheets_touch(p, faces)[1], faces)
     with pytest.raises(InputError, match="which side is outside"):
         check_mesh(p, oriented(faces))
 

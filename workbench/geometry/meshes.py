@@ -255,10 +255,11 @@ def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " 
     order = np.argsort(keys, kind="stable")
     first = np.flatnonzero(np.diff(keys[order]) == 0)
     one, two = order[first], order[first + 1]
-    # Half-edge k*f + i leaves corner k+1 of face i for corner k+2; its twin runs the other way.
+    # Half-edge k*f + i leaves corner k+1 of face i for corner k+2; its twin runs the other way if the two faces agree.
     leaves, arrives = (lambda h: (h // f + 1) % 3 * f + h % f), (lambda h: (h // f + 2) % 3 * f + h % f)
+    agree = half[one, 0] != half[two, 0]
     a = np.concatenate([leaves(one), arrives(one)])
-    b = np.concatenate([arrives(two), leaves(two)])
+    b = np.concatenate([np.where(agree, arrives(two), leaves(two)), np.where(agree, leaves(two), arrives(two))])
     links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(3 * f, 3 * f))
     count, fan = scipy.sparse.csgraph.connected_components(links, directed=False)
     fan_vertex = np.zeros(count, dtype=np.int64)
