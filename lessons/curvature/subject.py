@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from lessons.curvature.params import MOST_OWN, Params, Up
+from lessons.curvature.params import MOST_OWN, Params, Shape, Up
 from workbench.data.files import read_mesh
 from workbench.data.surfaces import SURFACES, Surface, inside_out, scaled, with_noise
 from workbench.errors import InputError
@@ -64,8 +64,14 @@ def subject_of(params: Params) -> Subject:
     if params.mesh is not None:
         stamp = params.mesh.stat().st_mtime_ns if params.mesh.is_file() else 0
         return _own(params.mesh, stamp, params.size, params.inside_out, params.up)
-    shape = params.surface, params.vertices, params.jitter, params.noise, params.size, params.inside_out, params.seed
-    return _built_in(*shape)
+    name, *rest = shape_of(params)
+    return _built_in(name, params.vertices, *rest)
+
+
+def shape_of(params: Params) -> tuple[Shape, float, float, float, bool, int]:
+    """Return what a built-in surface is made of beside the number of its vertices; its seed is 0 where nothing strays."""
+    seed = params.seed if params.jitter or params.noise else 0
+    return params.surface, params.jitter, params.noise, params.size, params.inside_out, seed
 
 
 @functools.lru_cache(maxsize=16)

@@ -140,7 +140,7 @@ def _total(state: State) -> Caption:
         return Caption(text + " Gauss-Bonnet: no noise or resolution changes this sum, only handles, pieces and borders do.",
                        "good")  # fmt: skip
     halves = (now.total - expected) / np.pi
-    text += f" {short(now.total - expected)} rad too much"
+    text += f" The sum is {short(now.total - expected)} rad too large"
     if state.params.mistake == "2 pi on the border":
         return Caption(f"{text}: π for each of the {halves:.0f} border vertices.", "wrong")
     return Caption(f"{text}: some defects are wrong.", "wrong")
@@ -149,20 +149,23 @@ def _total(state: State) -> Caption:
 def _finer(state: State) -> Caption:
     study = state.study
     assert study is not None
-    text = f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from angles goes from"
+    text = f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from angles (RMS) goes from"
     text += f" {_percent(100 * study.K[0])} to {_percent(100 * study.K[-1])}, by quadric fit from"
     text += f" {_percent(100 * study.K_fit[0])} to {_percent(100 * study.K_fit[-1])}."
-    if state.params.mistake == "defect taken for K":
-        return Caption(text + " No mesh is fine enough to mend a missing division.", "wrong")
-    settled = study.K[-1] < 1e-6
-    if study.K[-1] > 2 * study.K[0] and not settled:
-        return Caption(text + " Finer is worse: the same noise bends smaller triangles more.", "wrong")
-    if study.K[-1] > study.K[0] / 4 and not settled:
+    missing = {"defect taken for K": "division by the area", "H without the half": "½ in H"}.get(state.params.mistake)
+    if missing:
+        return Caption(f"{text} No mesh is fine enough to mend a missing {missing}.", "wrong")
+    if study.K.max() < 1e-8:
+        return Caption(text + " On such a mesh angles are exact.", "good")
+    if study.K[-1] > 2 * study.K[0]:
+        why = ": the same noise bends smaller triangles more." if state.params.noise else "."
+        return Caption(f"{text} Finer is worse{why}", "wrong")
+    if study.K[-1] > study.K[0] / 4:
         return Caption(
-            text + " On such a mesh the quotient defect / area does not converge to K, though the defects' sum is exact.",
+            text + " On such meshes the quotient defect / area does not converge to K; the defects' sum stays exact.",
             "wrong",
         )
-    return Caption(text + " On such a mesh angles converge.", "good")
+    return Caption(text + " On such meshes angles converge.", "good")
 
 
 _CAPTIONS = {
