@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.curvature.state import State, surface_variation
+from lessons.curvature.words import short
 from workbench.scene import Curve, Primitive, Role, Scalar, Table
 
 SAMPLES = 300
@@ -42,7 +43,7 @@ def _against(state: State, letter: str, name: str, estimate: np.ndarray, which: 
         return {}
     surface, fits = state.subject.truth, state.now.quadrics
     if surface is None:
-        values = np.clip(estimate[rows], *np.percentile(estimate[rows], [2, 98]))
+        values = _rounded(np.clip(estimate[rows], *np.percentile(estimate[rows], [2, 98])))
         heights, ends = np.histogram(values, bins=40)
         middles = (ends[1:] + ends[:-1]) / 2
         return {f"histogram {letter}": Curve(middles, heights.astype(float), f"vertices with this {letter}",
@@ -113,8 +114,8 @@ def vertex_table(state: State) -> Table:
         length = np.linalg.norm(now.normals_2H, axis=1)
         rows.append(("length of 2 H n (m⁻¹)", _number(float(length[v])), _number(2 * abs(state.true("mean")))))
     add("H", now.H, "m⁻¹", "mean")
-    add("k1", now.k1, "m⁻¹", "k1")
-    add("k2", now.k2, "m⁻¹", "k2")
+    add("k₁", now.k1, "m⁻¹", "k1")
+    add("k₂", now.k2, "m⁻¹", "k2")
     if now.quadrics is not None:
         K, H = now.quadrics.curvatures()
         add("K by fit", K, "m⁻²", "gaussian")
@@ -126,7 +127,7 @@ def vertex_table(state: State) -> Table:
 def _number(value: float) -> str:
     if not np.isfinite(value):
         return "–"
-    return "0" if abs(value) < 1e-9 else f"{value:.4g}"
+    return short(value, 4)
 
 
 def _rounded(values: np.ndarray) -> np.ndarray:

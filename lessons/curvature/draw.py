@@ -4,13 +4,11 @@ import numpy as np
 
 from lessons.curvature import ring
 from lessons.curvature.charts import beside
+from lessons.curvature.scales import DEFECT_SCALE, ERROR_SCALE, H_SCALE, K_SCALE, arrow, reach, share_within
 from lessons.curvature.state import State
-from lessons.curvature.words import caption
+from lessons.curvature.words import caption, short
 from workbench.scene import Color, Field, Mesh, Points, Primitive, Role, Scene, Segments
 
-# Fixed, so that the same colour means the same curvature in every run.
-K_SCALE, H_SCALE, DEFECT_SCALE, ERROR_SCALE = 5.0, 2.5, 0.2, 1.0
-ARROW = 0.06  # metres of arrow per m⁻¹
 MOST_EDGES, MOST_ARROWS, MOST_CROSSES = 6000, 3000, 1500
 
 
@@ -37,7 +35,7 @@ def draw(state: State) -> Scene:
     elif stage == "gaussian":
         scene |= ring.cell(now)
     elif stage == "normal":
-        scene |= {"mean normals": _arrows(state)} | ring.pulls(now, ARROW)
+        scene |= {"mean normals": _arrows(state)} | ring.pushes(now, arrow(state))
     elif stage == "principal":
         scene |= _crosses(state) | ring.circles(now)
     elif stage == "quadric":
@@ -48,20 +46,22 @@ def draw(state: State) -> Scene:
 def _color(state: State) -> Color:
     now, stage, truth = state.now, state.stage, state.subject.truth
     if stage == "gaussian":
-        return _signed(now.K, K_SCALE, "Gaussian curvature K", "m⁻²")
+        return _signed(state, now.K, K_SCALE, "Gaussian curvature K", "m⁻²")
     if stage in ("mean", "principal"):
-        return _signed(now.H, H_SCALE, "mean curvature H", "m⁻¹")
+        return _signed(state, now.H, H_SCALE, "mean curvature H", "m⁻¹")
     if stage in ("defect", "total"):
-        return _signed(now.defects, DEFECT_SCALE, "angle defect", "rad")
+        return _signed(state, now.defects, DEFECT_SCALE, "angle defect", "rad")
     if stage == "quadric" and now.quadrics is not None:
-        return _signed(now.quadrics.curvatures()[0], K_SCALE, "K by quadric fit", "m⁻²")
+        return _signed(state, now.quadrics.curvatures()[0], K_SCALE, "K by quadric fit", "m⁻²")
     if stage == "finer" and truth is not None:
         error = np.where(state.subject.border, np.nan, now.K - truth.gaussian)
-        return _signed(error, ERROR_SCALE, "error of K from angles", "m⁻²")
+        return _signed(state, error, ERROR_SCALE, "error of K from angles", "m⁻²")
     return "neutral"
 
 
-def _signed(values: np.ndarray, scale: float, title: str, unit: str) -> Field:
+def _signed(state: State, values: np.ndarray, fixed: float, title: str, unit: str) -> Field:
+    scale = reach(state, values, fixed)
+    title = title if state.subject.truth is not None else f"{title}, {share_within(values, scale)} of the vertices within"
     return Field(values, -scale, scale, title, unit, "diverging")
 
 
@@ -70,8 +70,9 @@ def _arrows(state: State) -> Segments:
     v = state.now.normals_2H
     rows = np.flatnonzero(np.isfinite(v).all(axis=1))
     rows = rows[:: max(1, -(-len(rows) // MOST_ARROWS))]
-    p = state.now.p[rows]
-    return Segments(np.stack([p, p + ARROW * v[rows]], axis=1), "source", 1.5, name="2 H n (6 cm for m⁻¹)")
+    p, metres = state.now.p[rows], arrow(state)
+    name = f"2 H n ({short(100 * metres)} cm for 1 m⁻¹)"
+    return Segments(np.stack([p, p + metres * v[rows]], axis=1), "source", 1.5, name=name)
 
 
 def _crosses(state: State) -> dict[str, Primitive]:
@@ -82,10 +83,10 @@ def _crosses(state: State) -> dict[str, Primitive]:
     half = 0.3 * np.median(np.linalg.norm(np.diff(now.p[state.subject.edges], axis=1)[:, 0], axis=1))
     scene: dict[str, Primitive] = {}
     both: tuple[tuple[str, Role, np.ndarray], ...] = (
-        ("along k1", "source", now.along_k1),
-        ("along k2", "other", now.along_k2),
+        ("k₁", "source", now.along_k1),
+        ("k₂", "other", now.along_k2),
     )
     for name, role, v in both:
         ends = np.stack([p - half * v[::every], p + half * v[::every]], axis=1) + 0.05 * half * n[:, None]
-        scene[name] = Segments(ends, role, 2, name=f"direction of {name[-2:]}")
+        scene[f"along {name}"] = Segments(ends, role, 2, name=f"direction of {name}")
     return scene

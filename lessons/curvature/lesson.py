@@ -93,7 +93,7 @@ def exercises() -> tuple[Any, ...]:
 lesson = Lesson(
     name="curvature",
     title="Curvature of a mesh",
-    summary="Angles that miss a full turn, cotangents that point outward, and a sum that counts holes.",
+    summary="Angles that miss a full turn, a normal made of cotangents, and a sum that counts holes.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -9,6 +9,7 @@ from workbench.knobs import Knob, Pick
 
 Shape = Literal["torus", "sphere", "cylinder", "saddle", "catenoid", "plane"]
 Mistake = Literal["none", "2 pi on the border", "defect taken for K", "H without the half"]
+Up = Literal["auto", "x", "y", "-y", "z"]
 
 MOST_OWN = 200_000
 
@@ -30,4 +31,5 @@ class Params:
         int, Knob("The vertex that is looked at: click one; -1 faces you", -1, MOST_OWN - 1, by=Pick("surface"))
     ] = -1
     mesh: Annotated[Path | None, Knob("Own mesh instead: off, obj, ply, stl, glb")] = None
+    up: Annotated[Up, Knob("Which axis of an own mesh points up; auto guesses")] = "auto"
     seed: Annotated[int, Knob("Which way the vertices stray", 0, 99)] = 0

@@ -28,39 +28,36 @@ TORUS_SUM = Params(vertices=1000, jitter=0.25, noise=0.01)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
-        "cylinder", "Cylinder: K = 0, H = 1/2r",
-        "A tube is bent, H = 1 for r = 0.5 m, yet its triangles unroll flat without a gap: K = 0. Gaussian curvature is"
-        " not the mean.",
+        "cylinder", "A rolled sheet",
+        "A tube of radius r = 0.5 m, as rolled from paper; H is 1/2r = 1 m⁻¹. Go one stage back and ask the angles.",
         CYLINDER, MEAN,
     ),
     Preset(
         "catenoid", "Catenoid: H = 0, K < 0",
-        "It bends as much to one side as to the other: the two cancel in H = (k1 + k2) / 2 and not in K = k1 k2, negative"
+        "It bends as much to one side as to the other: the two cancel in H = (k₁ + k₂)/2 and not in K = k₁ k₂, negative"
         " everywhere.",
         CATENOID, PRINCIPAL,
     ),
     Preset(
         "double", "Twice as large",
-        "K falls to a quarter and H to a half, while angles, defects and surface variation stay: these three have no"
-        " unit and are no curvature.",
+        "Every length is doubled. Which numbers follow, and which have no unit and stay? Compare with the default run.",
         DOUBLE, GAUSSIAN,
     ),
     Preset(
         "inside-out", "Inside out",
-        "With the normals turned round H, k1 and k2 change sign. K = k1 k2 does not: the sign of K is no matter of"
-        " sides.",
+        "All triangles are turned round, and the normals with them. Compare the colours of K and of H with the default run.",
         INSIDE_OUT, MEAN,
     ),
     Preset(
         "no-area", "A defect is no curvature",
-        "Taken for K, the defect is over 50 times too small here, and four times smaller still on a mesh four times as"
-        " fine.",
+        "Taken for K, the defect is over 50 times too small here, and about four times smaller still on a mesh four times"
+        " as fine.",
         NO_AREA, GAUSSIAN,
     ),
     Preset(
         "no-half", "The forgotten half",
-        "The cotangent sum over area gives 2 H n. Without the half the unit sphere has H = 2, and H² − K = 3 tears k1"
-        " and k2 apart.",
+        "The cotangent sum over area gives 2 H n. Without the half the unit sphere has H = 2 m⁻¹, and H² − K = 3 tears k₁"
+        " and k₂ apart.",
         NO_HALF, MEAN,
     ),
     Preset(
@@ -75,34 +72,35 @@ PRESETS: tuple[Preset[Params], ...] = (
         BORDER_2_PI, TOTAL,
     ),
     Preset(
-        "coarse", "Coarse", "With 60 vertices K errs by about 10 %: seven vertices have to tell how the tube bends.",
+        "coarse", "Coarse", "With 60 vertices the relative error of K is about 10 % (RMS): few triangles have to tell how the"
+        " tube bends.",
         COARSE, GAUSSIAN,
     ),
     Preset(
-        "fine", "Fine", "With 6,000 well-spread vertices K errs by less than 0.2 %: on a regular mesh the error falls"
-        " with the square of the edges.",
+        "fine", "Fine", "With 6,000 well-spread vertices the relative error of K is under 0.2 % (RMS): on a regular mesh it"
+        " falls with the square of the edges.",
         FINE, GAUSSIAN,
     ),
     Preset(
         "noise", "Noise, amplified",
-        "3 mm off a tube of 40 cm, hardly visible, and K is off by more than its own size. A finer mesh makes it worse:"
-        " last step.",
+        "3 mm (sigma) off a tube of 40 cm, hardly visible, and K is off by more than its own size (RMS). A finer mesh makes"
+        " it worse: last step.",
         NOISE, GAUSSIAN,
     ),
     Preset(
-        "irregular", "Irregular: finer does not help",
-        "Vertices stray along the surface, never off it. Angles and cotangents stay about 8 % off at any size; the"
-        " quadric fit converges.",
-        IRREGULAR, -1,
+        "irregular", "Irregular triangles",
+        "Vertices stray along the surface, never off it: no two triangles are alike. Will a finer mesh help the angles? The"
+        " fit? See the last step.",
+        IRREGULAR, GAUSSIAN,
     ),
     Preset(
-        "sphere-sum", "A dented sphere: 4π",
-        "Noise and jitter make K useless at every vertex. The sum does not care: still 4π, because it is a sphere.",
-        SPHERE_SUM, TOTAL,
+        "sphere-sum", "A bumpy sphere",
+        "Noise and jitter put K off by more than its own size (RMS). What do the defects still add up to?",
+        SPHERE_SUM, GAUSSIAN,
     ),
     Preset(
-        "torus-sum", "A dented torus: 0",
-        "The same damage on a torus: gaps and overlaps cancel to the last digit. One handle takes 4π away.",
+        "torus-sum", "A bumpy torus",
+        "The same noise and jitter on a surface with a handle: gaps and overlaps cancel to the last digit.",
         TORUS_SUM, TOTAL,
     ),
 )  # fmt: skip
@@ -162,8 +160,8 @@ def _why_finer(states: Sequence[State]) -> str:
     study = at_stage(states, "finer").study
     assert study is not None
     return (
-        f"It goes from {100 * study.K[0]:.1f} % to {100 * study.K[-1]:.1f} %. The triangles shrink but keep their odd"
-        f" shapes, and so does their error; the quadric fit falls to {100 * study.K_fit[-1]:.1f} %."
+        f"It goes from {100 * study.K[0]:.1f} % to {100 * study.K[-1]:.1f} % (RMS). The triangles shrink but keep their odd"
+        f" shapes, and so does the error of defect / area; that of the quadric fit falls to {100 * study.K_fit[-1]:.1f} %."
     )
 
 
@@ -194,7 +192,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "All triangles are turned round, so that inside is outside. Which of K and H changes its sign?",
         _sign_choice,
         lambda states: (
-            "H turns with the normal. K is the product of k1 and k2, which both turn: minus times minus leaves it."
+            "H turns with the normal. K is the product of k₁ and k₂, which both turn: minus times minus leaves it."
         ),
         INSIDE_OUT,
         choices=("K", "H", "both", "neither"),
@@ -211,10 +209,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "which-sum",
-        "A sphere, dented by noise until K is wrong everywhere. To how many π do its angle defects add up?",
+        "A sphere, roughened by noise until K is off by more than its own size. To how many π do its angle defects add up?",
         lambda states: round(at_stage(states, "total").now.total / np.pi, 6),
         lambda states: (
-            f"V − E + F = {at_stage(states, 'total').now.chi}, and 2π times that is 4π. No dent changes how the"
+            f"V − E + F = {at_stage(states, 'total').now.chi}, and 2π times that is 4π. No bump changes how the"
             " triangles hang together."
         ),
         SPHERE_SUM,

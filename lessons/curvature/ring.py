@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.curvature.state import State, two_rings
+from lessons.curvature.words import short
 from workbench.algorithms.curvature import Measured
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
 
@@ -94,27 +95,27 @@ def cell(now: Measured) -> dict[str, Primitive]:
     return {
         "cell": Mesh(p, faces, "highlight", opacity=0.6, flat=True, name="its area"),
         "cell rim": Segments(rim, "highlight", 3, name="rim of its area"),
-        "cell label": Label(f"A = {now.areas[now.vertex]:.3g} m²", _lifted(now, 0.5), "highlight"),
+        "cell label": Label(f"A = {short(now.areas[now.vertex])} m²", _lifted(now, 0.5), "highlight"),
     }
 
 
-def pulls(now: Measured, scale: float) -> dict[str, Primitive]:
+def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
     """Return what each neighbour adds to the mean-curvature normal of the vertex, and their sum."""
     start, total = _lifted(now), now.normals_2H[now.vertex]
     scene: dict[str, Primitive] = {}
     if np.isfinite(total).all():
-        parts = scale * _pulls(now)
+        parts = scale * _pushes(now)
         chain = np.cumsum(np.vstack([np.zeros(3), parts]), axis=0) + start
-        scene["pulls"] = Segments(_path(chain), "other", 3, name="cotangent × edge, neighbour after neighbour")
+        scene["pushes"] = Segments(_path(chain), "other", 3, name="cotangent × edge, neighbour after neighbour")
         scene["mean normal"] = Segments(
             np.array([[start, start + scale * total]]), "highlight", 6, name="their sum: 2 H n"
         )
         tip = start + scale * total
-        scene["mean label"] = Label(f"|2 H n| = {np.linalg.norm(total):.3g} m⁻¹", tip, "highlight")
+        scene["mean label"] = Label(f"|2 H n| = {short(float(np.linalg.norm(total)))} m⁻¹", tip, "highlight")
     return scene
 
 
-def _pulls(now: Measured) -> np.ndarray:
+def _pushes(now: Measured) -> np.ndarray:
     """Return each neighbour's (cot a + cot b) (p_i - p_j) / 2 A, Meyer (8), in the order of the ring."""
     ring, here = now.p[now.ring], now.p[now.vertex]
     weight = np.zeros(len(ring))
@@ -129,8 +130,8 @@ def circles(now: Measured) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {}
     here, n = now.p[now.vertex], now.normals[now.vertex]
     both: tuple[tuple[str, Role, np.ndarray, np.ndarray], ...] = (
-        ("k1", "source", now.k1, now.along_k1),
-        ("k2", "other", now.k2, now.along_k2),
+        ("k₁", "source", now.k1, now.along_k1),
+        ("k₂", "other", now.k2, now.along_k2),
     )
     for name, role, k, along in both:
         k, t = float(k[now.vertex]), along[now.vertex]
@@ -142,9 +143,9 @@ def circles(now: Measured) -> dict[str, Primitive]:
             path = here + np.sin(s)[:, None] / k * t - (1 - np.cos(s))[:, None] / k * n
         else:
             path = here + 1.25 * (CIRCLE / np.pi - 1)[:, None] * t
-        radius = f"radius {1 / abs(k):.3g} m" if abs(k) > 1e-3 else "straight"
+        radius = f"radius {short(1 / abs(k))} m" if abs(k) > 1e-3 else "straight"
         scene[f"circle {name}"] = Segments(_path(path), role, 4, name=f"bends as {name}")
-        scene[f"label {name}"] = Label(f"{name} = {k:.3g} m⁻¹, {radius}", path[30 if name == "k1" else 66], role)
+        scene[f"label {name}"] = Label(f"{name} = {short(k)} m⁻¹, {radius}", path[30 if name == "k₁" else 66], role)
     return scene
 
 

@@ -1,12 +1,13 @@
 """How wrong the estimates are, and whether a finer mesh makes them better."""
 
+import functools
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from lessons.curvature.params import Params
-from lessons.curvature.subject import surface_of
+from lessons.curvature.subject import shape_of, surface_of
 from workbench.algorithms.curvature import Gaussian, MeanNormals
 from workbench.data.surfaces import Surface
 from workbench.geometry.curvature import mean_from_normals
@@ -37,22 +38,37 @@ class Study:
 def study_of(params: Params, gaussian_curvature: Gaussian, mean_curvature_normals: MeanNormals) -> Study:
     """Measure a built-in surface on four meshes, the last with edges four times shorter than the first."""
     rows = []
-    for count in COUNTS:
-        surface = surface_of(
-            params.surface, count, params.jitter, params.noise, params.size, params.inside_out, params.seed
-        )
-        p, faces = surface.p, surface.faces
-        inside = ~on_boundary(faces, len(p))
-        K_fit, H_fit = fit_quadrics(p, faces).curvatures()
-        H = mean_from_normals(mean_curvature_normals(p, faces), vertex_normals(p, faces))
+    for made in _meshes(*shape_of(params)):
+        p, faces, inside = made.surface.p, made.surface.faces, made.inside
+        H = mean_from_normals(mean_curvature_normals(p, faces), made.normals)
         estimates: tuple[tuple[np.ndarray, Letter], ...] = (
             (gaussian_curvature(p, faces), "gaussian"),
             (H, "mean"),
-            (K_fit, "gaussian"),
-            (H_fit, "mean"),
+            (made.K_fit, "gaussian"),
+            (made.H_fit, "mean"),
         )
-        rows.append((len(p), *(error_of(surface, inside, name, estimate) for estimate, name in estimates)))
+        rows.append((len(p), *(error_of(made.surface, inside, name, estimate) for estimate, name in estimates)))
     return Study(*np.array(rows, dtype=float).T)
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """One of the four meshes, and what does not depend on the functions in the slots."""
+
+    surface: Surface
+    inside: np.ndarray
+    normals: np.ndarray
+    K_fit: np.ndarray
+    H_fit: np.ndarray
+
+
+@functools.lru_cache(maxsize=8)
+def _meshes(name: str, *rest: Any) -> tuple[_Made, ...]:
+    surfaces = [surface_of(name, count, *rest) for count in COUNTS]
+    return tuple(
+        _Made(s, ~on_boundary(s.faces, len(s.p)), vertex_normals(s.p, s.faces), *fit_quadrics(s.p, s.faces).curvatures())
+        for s in surfaces
+    )
 
 
 def error_of(surface: Surface, inside: np.ndarray, name: Letter, estimate: np.ndarray) -> float:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from lessons.curvature.scales import H_SCALE, K_SCALE, reach, share_within
 from lessons.curvature.state import State
 from workbench.scene import Caption
 
@@ -20,7 +21,8 @@ def _mesh(state: State) -> Caption:
     border = int(np.count_nonzero(subject.border))
     text += f", {border} vertices on the border." if border else ", no border."
     if subject.truth is None:
-        text += f" It is shown {subject.enlarged:.3g} times as large as in its file, and so are all lengths here."
+        text += f" A length of 1 in its file is {short(subject.enlarged)} m here; its {subject.up} axis points up."
+        text += "".join(f" Mended: {', '.join(subject.mended)}." for _ in subject.mended[:1])
     elif params.jitter or params.noise:
         ways = [f"up to {params.jitter:g} cells along it"] * bool(params.jitter)
         ways += [f"{1000 * params.noise:g} mm (sigma) off it"] * bool(params.noise)
@@ -64,12 +66,12 @@ def _gaussian(state: State) -> Caption:
     now = state.now
     v, true = now.vertex, state.true("gaussian")
     if state.on_border:
-        return Caption(NOWHERE.format("K") + _error(state, "K"))
+        return Caption(NOWHERE.format("K") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²"))
     if state.params.mistake == "defect taken for K":
-        text = f"Without the division by the area, K at vertex {v:,} would be {_short(now.K[v])}"
+        text = f"Without the division by the area, K at vertex {v:,} would be {short(now.K[v])}"
         return Caption(text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}", "wrong")
-    text = f"K = defect / area = {_short(now.defects[v])} rad / {_short(now.areas[v])} m² = {_short(now.K[v])} m⁻²"
-    return Caption(text + _truth(true, "m⁻²") + _error(state, "K"))
+    text = f"K = defect / area = {short(now.defects[v])} rad / {short(now.areas[v])} m² = {short(now.K[v])} m⁻²"
+    return Caption(text + _truth(true, "m⁻²") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²"))
 
 
 def _normal(state: State) -> Caption:
@@ -79,10 +81,11 @@ def _normal(state: State) -> Caption:
     v = now.normals_2H[now.vertex]
     side = "outward" if v @ now.normals[now.vertex] > 0 else "inward"
     if np.linalg.norm(v) < 1e-6:
-        return Caption(f"At vertex {now.vertex:,} the neighbours' pulls, weighted by cotangents, cancel: 2 H n = 0.")
+        return Caption(f"At vertex {now.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H n = 0.")
     return Caption(
-        f"Each neighbour pulls with the cotangents opposite its edge; the pulls at vertex {now.vertex:,} add up to"
-        f" 2 H n, {_short(float(np.linalg.norm(v)))} m⁻¹ long and pointing {side}."
+        f"Each neighbour pushes the vertex away from itself, weighted by the cotangents opposite their edge; over twice the"
+        f" area the pushes at vertex {now.vertex:,} add up to 2 H n, {short(float(np.linalg.norm(v)))} m⁻¹ long and"
+        f" pointing {side}."
     )
 
 
@@ -92,10 +95,10 @@ def _mean(state: State) -> Caption:
         return Caption(NOWHERE.format("H") + _error(state, "H"))
     H, true = float(now.H[now.vertex]), state.true("mean")
     if state.params.mistake == "H without the half":
-        text = f"Taken whole, the normal's length gives H = {_short(H)} m⁻¹"
+        text = f"Taken whole, the normal's length gives H = {short(H)} m⁻¹"
         return Caption(text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), "wrong")
-    text = f"H is half the normal's length, positive where it points outward: {_short(H)} m⁻¹"
-    return Caption(text + _truth(true, "m⁻¹") + _error(state, "H"))
+    text = f"H is half the normal's length, positive where it points outward: {short(H)} m⁻¹"
+    return Caption(text + _truth(true, "m⁻¹") + _error(state, "H") + _colors(state, now.H, H_SCALE, "m⁻¹"))
 
 
 def _principal(state: State) -> Caption:
@@ -103,12 +106,12 @@ def _principal(state: State) -> Caption:
     k1, k2 = float(now.k1[now.vertex]), float(now.k2[now.vertex])
     if not np.isfinite([k1, k2]).all():
         return Caption(NOWHERE.format("K or H"))
-    text = f"H ± √(H² − K) gives k1 = {_short(k1)} and k2 = {_short(k2)} m⁻¹"
+    text = f"H ± √(H² − K) gives k₁ = {short(k1)} and k₂ = {short(k2)} m⁻¹"
     if np.isfinite(state.true("k1")):
-        text += f" (truth {_short(state.true('k1'))}, {_short(state.true('k2'))})"
-    kind = "to both sides: a saddle" if k1 * k2 < -1e-6 else "to one side" if k1 * k2 > 1e-6 else "one way only"
+        text += f" (truth {short(state.true('k1'))}, {short(state.true('k2'))})"
+    kind = "to both sides, as on a saddle" if k1 * k2 < -1e-6 else "to one side" if k1 * k2 > 1e-6 else "one way only"
     kind = kind if max(abs(k1), abs(k2)) > 1e-6 else "not at all"
-    return Caption(f"{text}. The two circles bend as the surface does, {kind}.")
+    return Caption(f"{text}. The two circles have these curvatures: they bend {kind}.")
 
 
 def _quadric(state: State) -> Caption:
@@ -118,11 +121,11 @@ def _quadric(state: State) -> Caption:
     n = int(quadrics.neighbours[v])
     if not np.isfinite(K):
         return Caption(f"Another way, a quadric through two rings, needs six vertices in reach; here are {n}.")
-    text = f"Another way: a quadric fitted to {n} vertices bends by K = {_short(K)} m⁻², H = {_short(H)} m⁻¹."
+    text = f"Another way: a quadric fitted to {n} vertices bends by K = {short(K)} m⁻², H = {short(H)} m⁻¹."
     if state.errors:
         e = state.errors
         text += (
-            f" Over all vertices K errs by {_percent(e['K by fit'])} (angles {_percent(e['K'])}), H by"
+            f" Relative errors (RMS over all vertices): K {_percent(e['K by fit'])} (angles {_percent(e['K'])}), H"
             f" {_percent(e['H by fit'])} (cotangents {_percent(e['H'])})."
         )
     return Caption(text)
@@ -131,13 +134,13 @@ def _quadric(state: State) -> Caption:
 def _total(state: State) -> Caption:
     now = state.now
     expected = 2 * np.pi * now.chi
-    text = f"All {len(now.p):,} defects add up to {_short(now.total)} rad = {_short(now.total / np.pi)} π;"
-    text += f" V − E + F = {_short(now.chi)} promises {_short(2 * now.chi)} π."
+    text = f"All {len(now.p):,} defects add up to {short(now.total)} rad = {short(now.total / np.pi)} π;"
+    text += f" V − E + F = {short(now.chi)} promises {short(2 * now.chi)} π."
     if abs(now.total - expected) < 1e-6:
         return Caption(text + " Gauss-Bonnet: no noise or resolution changes this sum, only handles, pieces and borders do.",
                        "good")  # fmt: skip
     halves = (now.total - expected) / np.pi
-    text += f" {_short(now.total - expected)} rad too much"
+    text += f" The sum is {short(now.total - expected)} rad too large"
     if state.params.mistake == "2 pi on the border":
         return Caption(f"{text}: π for each of the {halves:.0f} border vertices.", "wrong")
     return Caption(f"{text}: some defects are wrong.", "wrong")
@@ -146,17 +149,23 @@ def _total(state: State) -> Caption:
 def _finer(state: State) -> Caption:
     study = state.study
     assert study is not None
-    text = f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from angles goes from"
+    text = f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from angles (RMS) goes from"
     text += f" {_percent(100 * study.K[0])} to {_percent(100 * study.K[-1])}, by quadric fit from"
     text += f" {_percent(100 * study.K_fit[0])} to {_percent(100 * study.K_fit[-1])}."
-    if state.params.mistake == "defect taken for K":
-        return Caption(text + " No mesh is fine enough to mend a missing division.", "wrong")
-    settled = study.K[-1] < 1e-6
-    if study.K[-1] > 2 * study.K[0] and not settled:
-        return Caption(text + " Finer is worse: the same noise bends smaller triangles more.", "wrong")
-    if study.K[-1] > study.K[0] / 4 and not settled:
-        return Caption(text + " However fine the mesh, angles stay wrong, and so do cotangents.", "wrong")
-    return Caption(text + " On such a mesh both converge.", "good")
+    missing = {"defect taken for K": "division by the area", "H without the half": "½ in H"}.get(state.params.mistake)
+    if missing:
+        return Caption(f"{text} No mesh is fine enough to mend a missing {missing}.", "wrong")
+    if study.K.max() < 1e-8:
+        return Caption(text + " On such a mesh angles are exact.", "good")
+    if study.K[-1] > 2 * study.K[0]:
+        why = ": the same noise bends smaller triangles more." if state.params.noise else "."
+        return Caption(f"{text} Finer is worse{why}", "wrong")
+    if study.K[-1] > study.K[0] / 4:
+        return Caption(
+            text + " On such meshes the quotient defect / area does not converge to K; the defects' sum stays exact.",
+            "wrong",
+        )
+    return Caption(text + " On such meshes angles converge.", "good")
 
 
 _CAPTIONS = {
@@ -174,11 +183,22 @@ _CAPTIONS = {
 
 
 def _truth(true: float, unit: str) -> str:
-    return f"; the truth is {_short(true)}{' ' if unit else ''}{unit}." if np.isfinite(true) else "."
+    return f"; the truth is {short(true)}{' ' if unit else ''}{unit}." if np.isfinite(true) else "."
 
 
 def _error(state: State, name: str) -> str:
-    return f" Over all vertices it errs by {_percent(state.errors[name])}." if name in state.errors else ""
+    if name not in state.errors:
+        return ""
+    which = "the vertices inside" if state.subject.border.any() else "all vertices"
+    return f" Relative error (RMS over {which}): {_percent(state.errors[name])}."
+
+
+def _colors(state: State, values: np.ndarray, fixed: float, unit: str) -> str:
+    """Return how far the colours of an own mesh reach."""
+    if state.subject.truth is not None:
+        return ""
+    limit = reach(state, values, fixed)
+    return f" The colours reach to ±{short(limit)} {unit}; {share_within(values, limit)} of the vertices lie within."
 
 
 def _percent(percent: float) -> str:
@@ -187,5 +207,10 @@ def _percent(percent: float) -> str:
     return f"{percent:.2g} %" if percent < 99.5 else f"{percent:,.0f} %"
 
 
-def _short(value: float) -> str:
-    return "0" if abs(value) < 1e-9 else f"{value:.3g}".replace("-", "−")
+def short(value: float, digits: int = 3) -> str:
+    """Return a number with so many digits that count, never with an exponent; what is below 1e-9 is rounding, thus 0."""
+    if abs(value) < 1e-9:
+        return "0"
+    rounded = float(f"{value:.{digits}g}")
+    text = f"{rounded:,.0f}" if abs(rounded) >= 10 ** (digits - 1) else np.format_float_positional(rounded, trim="-")
+    return text.replace("-", "−")

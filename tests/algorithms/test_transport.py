@@ -73,7 +73,29 @@ def test_subtracted_potentials_leave_the_optimum_exact(made, n):
     assert earth_movers(p_a, p_b) == pytest.approx(optimum(p_a, p_b), rel=1e-12)
 
 
-def test_the_potentials_are_near_optimal():
+@pytest.mark.parametrize("relaxation", [1.0, 1.99])
+def test_scalings_that_run_away_leave_the_optimum_exact(monkeypatch, relaxation):
+    monkeypatch.setattr("workbench.algorithms.transport._RELAXATION", relaxation)
+    p_a, p_b = np.random.default_rng(10).normal(size=(2, 400, 3)) + np.array([0.0, 0.3])[:, None, None]
+    assert np.isfinite(blurred_potentials(scipy.spatial.distance.cdist(p_a, p_b))).all()
+    assert earth_movers(p_a, p_b) == pytest.approx(optimum(p_a, p_b), rel=1e-12)
+
+
+def test_potentials_are_computed_only_where_they_pay(monkeypatch):
+    computed = []
+    monkeypatch.setattr(
+        "workbench.algorithms.transport.blurred_potentials", lambda cost: computed.append(len(cost)) or np.zeros(len(cost))
+    )
+    rng = np.random.default_rng(0)
+    p = rng.normal(size=(300, 3))
+    near = (p + 0.02 * rng.normal(size=p.shape))[rng.permutation(len(p))]
+    for p_a, p_b, pays in ((p, near, False), (p, p + 0.5, True), (p[:200], p[:200] + 0.5, False)):
+        computed.clear()
+        assert earth_movers(p_a, p_b) == pytest.approx(optimum(p_a, p_b), rel=1e-12)
+        assert bool(computed) is pays
+
+
+def test_few_sweeps_are_enough_for_near_optimal_potentials():
     p_a, p_b = sphere_and_blob(np.random.default_rng(0), 300)
     D = scipy.spatial.distance.cdist(p_a, p_b)
     g = blurred_potentials(D)

@@ -161,13 +161,13 @@ def _angle_defects(measured: Corners, border: Bool[np.ndarray, " v"]) -> PerVert
 
 
 def _mean_curvature_normals(measured: Corners, areas: PerVertex, border: Bool[np.ndarray, " v"]) -> Points:
-    # Every edge pulls its two ends apart by its cotangent: at each corner the edge that ends there, less the one that
+    # Every edge pushes its two ends apart by its cotangent: at each corner the edge that ends there, less the one that
     # leaves.
     total = np.empty((3, len(areas)))
     cotangents = measured.cotangents
     for x in range(3):
-        pull = measured.edges[x] * cotangents
-        total[x] = measured.sums(pull[[1, 2, 0]] - pull[[2, 0, 1]])
+        push = measured.edges[x] * cotangents
+        total[x] = measured.sums(push[[1, 2, 0]] - push[[2, 0, 1]])
     return _per_area(total, 2 * areas, border).T
 
 

@@ -114,13 +114,13 @@ def normals_at_vertices(measured: Corners) -> Float[np.ndarray, "v 3"]:
 
 def edges(faces: Faces) -> Int[np.ndarray, "e 2"]:
     """Return every undirected edge once, its smaller vertex first, in ascending order."""
-    return _split(np.unique(_edge_keys(_half_edges(faces))))
+    return _split(np.unique(edge_keys(half_edges(faces))))
 
 
 def boundary_edges(faces: Faces) -> Int[np.ndarray, "b 2"]:
     """Return the edges that have a face on one side only, in the direction in which that face goes round."""
-    half = _half_edges(faces)
-    _, first, times = np.unique(_edge_keys(half), return_index=True, return_counts=True)
+    half = half_edges(faces)
+    _, first, times = np.unique(edge_keys(half), return_index=True, return_counts=True)
     return half[np.sort(first[times == 1])]
 
 
@@ -214,8 +214,8 @@ def _check_faces(p: Points, faces: Faces) -> None:
 
 
 def _check_edges(faces: Faces) -> None:
-    half = _half_edges(faces)
-    keys, times = np.unique(_edge_keys(half), return_counts=True)
+    half = half_edges(faces)
+    keys, times = np.unique(edge_keys(half), return_counts=True)
     if (times > 2).any():
         a, b = _split(keys[times > 2])[0]
         raise InputError(
@@ -236,21 +236,8 @@ def _check_vertices(p: Points, faces: Faces) -> None:
     used[faces] = True
     if not used.all():
         raise InputError(f"{int((~used).sum())} vertices belong to no face (the first is {int(np.argmin(used))})")
-    # A fan is a set of corners at one vertex, each sharing an edge with the next. One vertex, one fan.
-    half, f = _half_edges(faces), len(faces)
-    keys = _edge_keys(half)
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.diff(keys[order]) == 0)
-    one, two = order[first], order[first + 1]
-    # Half-edge k*f + i leaves corner k+1 of face i for corner k+2; its twin runs the other way.
-    leaves, arrives = (lambda h: (h // f + 1) % 3 * f + h % f), (lambda h: (h // f + 2) % 3 * f + h % f)
-    a = np.concatenate([leaves(one), arrives(one)])
-    b = np.concatenate([arrives(two), leaves(two)])
-    links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(3 * f, 3 * f))
-    fans, fan = scipy.sparse.csgraph.connected_components(links, directed=False)
-    if fans > len(p):
-        fan_vertex = np.zeros(fans, dtype=int)
-        fan_vertex[fan] = faces.T.ravel()
+    fan_vertex, _ = corner_fans(faces)
+    if len(fan_vertex) > len(p):
         touching = np.flatnonzero(np.bincount(fan_vertex, minlength=len(p)) > 1)
         raise InputError(
             f"the mesh is not a surface: at {len(touching)} vertices sheets only touch (the first is vertex "
@@ -258,12 +245,34 @@ def _check_vertices(p: Points, faces: Faces) -> None:
         )
 
 
-def _half_edges(faces: Faces) -> Int[np.ndarray, "h 2"]:
+def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " c"]]:
+    """Return the vertex of every fan, and the fan of every corner: corner 0 of all faces, then corner 1, then corner 2.
+
+    A fan is a set of corners at one vertex, each sharing an edge with the next. On a surface each vertex has one fan.
+    """
+    half, f = half_edges(faces), len(faces)
+    keys = edge_keys(half)
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.diff(keys[order]) == 0)
+    one, two = order[first], order[first + 1]
+    # Half-edge k*f + i leaves corner k+1 of face i for corner k+2; its twin runs the other way if the two faces agree.
+    leaves, arrives = (lambda h: (h // f + 1) % 3 * f + h % f), (lambda h: (h // f + 2) % 3 * f + h % f)
+    agree = half[one, 0] != half[two, 0]
+    a = np.concatenate([leaves(one), arrives(one)])
+    b = np.concatenate([np.where(agree, arrives(two), leaves(two)), np.where(agree, leaves(two), arrives(two))])
+    links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(3 * f, 3 * f))
+    count, fan = scipy.sparse.csgraph.connected_components(links, directed=False)
+    fan_vertex = np.zeros(count, dtype=np.int64)
+    fan_vertex[fan] = faces.T.ravel()
+    return fan_vertex, fan
+
+
+def half_edges(faces: Faces) -> Int[np.ndarray, "h 2"]:
     """Edge 0 of all faces, then edge 1, then edge 2, each in the direction of its face."""
     return np.concatenate([faces[:, [1, 2]], faces[:, [2, 0]], faces[:, [0, 1]]])
 
 
-def _edge_keys(half: Int[np.ndarray, "h 2"]) -> Int[np.ndarray, " h"]:
+def edge_keys(half: Int[np.ndarray, "h 2"]) -> Int[np.ndarray, " h"]:
     """One whole number per undirected edge: sorting numbers is much faster than sorting rows."""
     return half.min(axis=1).astype(np.int64) << 32 | half.max(axis=1).astype(np.int64)
 

@@ -1,0 +1,374 @@
+"""Decides what the curvature lesson says: by brute force over the triangles, and against the analytic surface."""
+
+import functools
+import re
+
+import numpy as np
+
+from lessons.curvature.lesson import run as run_of
+from lessons.curvature.params import Params
+from lessons.curvature.words import caption as caption
+from tests.verdicts import Claim, Run
+
+DIGITS = 0.006  # relative: what three digits that count may hide
+NUMBER = r"(−?[\d,]+(?:\.\d+)?)"
+
+
+@functools.lru_cache(maxsize=8)
+def _facts(p_bytes: bytes, faces_bytes: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
+    """Return angle sums, mixed areas, which vertices lie on the border, and V - E + F, face by face."""
+    p, faces = np.frombuffer(p_bytes).reshape(-1, 3), np.frombuffer(faces_bytes, dtype=np.int64).reshape(-1, 3)
+    angles, areas = np.zeros(len(p)), np.zeros(len(p))
+    a, b, c = p[faces].swapaxes(0, 1)
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    corner = []
+    for here, one, two in ((a, b, c), (b, c, a), (c, a, b)):
+        u, v = one - here, two - here
+        cosine = np.einsum("fx,fx->f", u, v) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)
+        corner.append(np.arccos(np.clip(cosine, -1, 1)))
+    obtuse = np.max(corner, axis=0) > np.pi / 2
+    for k, (here, one, two) in enumerate(((a, b, c), (b, c, a), (c, a, b))):
+        # The cell ends at the bisectors of the two edges: their halves, times the cotangent of the angle across.
+        across = [np.sum((one - here) ** 2, axis=1) / np.tan(corner[(k + 2) % 3]),
+                  np.sum((two - here) ** 2, axis=1) / np.tan(corner[(k + 1) % 3])]  # fmt: skip
+        share = np.where(obtuse, np.where(corner[k] > np.pi / 2, area / 2, area / 4), (across[0] + across[1]) / 8)
+        angles += np.bincount(faces[:, k], corner[k], len(p))
+        areas += np.bincount(faces[:, k], share, len(p))
+    ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges, times = np.unique(ends[:, 0] * len(p) + ends[:, 1], return_counts=True)
+    border = np.zeros(len(p), dtype=bool)
+    border[edges[times == 1] // len(p)] = border[edges[times == 1] % len(p)] = True
+    return angles, areas, border, len(np.unique(faces)) - len(edges) + len(faces)
+
+
+def facts(state):
+    p, faces = state.subject.p, state.subject.faces
+    return _facts(np.ascontiguousarray(p).tobytes(), np.ascontiguousarray(faces, dtype=np.int64).tobytes())
+
+
+def defects(state) -> np.ndarray:
+    angles, _, border, _ = facts(state)
+    return np.where(border, np.pi, 2 * np.pi) - angles
+
+
+def angle_K(state) -> np.ndarray:
+    _, areas, border, _ = facts(state)
+    return np.where(border, np.nan, defects(state) / areas)
+
+
+def rms(estimate: np.ndarray, true: np.ndarray, inside: np.ndarray) -> float:
+    return float(np.sqrt(np.mean((estimate - true)[inside] ** 2) / np.mean(true[inside] ** 2)))
+
+
+def at(run: Run, stage: str):
+    return next(s for s in run.states if s.stage == stage)
+
+
+def study(run: Run):
+    return run.states[-1].study
+
+
+def slope(errors: np.ndarray, counts: np.ndarray) -> float:
+    """Return the power of the number of vertices with which errors go."""
+    return float(np.polyfit(np.log(counts), np.log(np.maximum(errors, 1e-12)), 1)[0])
+
+
+def number(text: str) -> float:
+    return float(text.replace(",", "").replace("−", "-"))
+
+
+def near(said: str, value: float, relative: float = DIGITS) -> bool:
+    return abs(number(said) - value) <= relative * abs(value) + 1e-8
+
+
+def percent(said: str, share: float) -> bool:
+    """Whether a percentage is said with its two digits that count."""
+    if said.startswith("under"):
+        return share < 1e-4
+    return abs(number(said) - 100 * share) <= 0.051 * abs(100 * share) + 1e-5
+
+
+def right(run: Run, k: int) -> bool | None:
+    state = run.states[k]
+    v = state.now.vertex
+    if state.stage == "total":
+        total, promised = float(state.now.defects.sum()), 2 * np.pi * facts(state)[3]
+        return abs(total - promised) < 1e-6
+    if state.stage == "defect":
+        return bool(abs(state.now.defects[v] - defects(state)[v]) < 1e-6)
+    if state.stage in ("gaussian", "mean"):
+        estimate = state.now.K if state.stage == "gaussian" else state.now.H
+        true = getattr(state.subject.truth, state.stage)[v]
+        return bool(abs(estimate[v] - true) < 0.5 * abs(true))
+    if state.stage == "finer":
+        s = study(run)
+        return bool((s.K.max() < 1e-8 or slope(s.K, s.counts) < -0.5) and s.H[-1] < 0.5)
+    return None
+
+
+def _truth(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    name = {"gaussian": "gaussian", "mean": "mean"}[state.stage]
+    return near(m[1], getattr(state.subject.truth, name)[state.now.vertex])
+
+
+def _k_is(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    v = state.now.vertex
+    return (
+        near(m[1], defects(state)[v]) and near(m[2], facts(state)[1][v]) and near(m[3], angle_K(state)[v], 2 * DIGITS)
+    )
+
+
+def _relative_error(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    truth, inside = state.subject.truth, ~facts(state)[2]
+    name = "gaussian" if state.stage == "gaussian" else "mean"
+    estimate = state.now.K if name == "gaussian" else state.now.H
+    true = getattr(truth, name)
+    if (m[1] == "all vertices") is not bool(inside.all()):
+        return False
+    if np.abs(true[inside]).max() < 1e-6:  # the truth is 0 everywhere: of the larger principal curvature, or of a sphere of 1 m
+        larger = np.maximum(np.abs(truth.k1), np.abs(truth.k2)) ** (2 if name == "gaussian" else 1)
+        of = np.sqrt(np.mean(larger[inside] ** 2)) or 1.0
+        return percent(m[2], float(np.sqrt(np.mean((estimate - true)[inside] ** 2)) / of))
+    return percent(m[2], rms(estimate, true, inside))
+
+
+def _ring(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    v = state.now.vertex
+    count = int((state.subject.faces == v).any(axis=1).sum())
+    return int(m[1]) == count and abs(number(m[3]) - np.degrees(facts(state)[0][v])) < 0.0051
+
+
+def _gap(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    here = np.degrees(defects(state)[state.now.vertex])
+    return (here > 0) == ("gap" in m[0]) and abs(number(m[1]) - abs(here)) < 0.0051
+
+
+def _pointing(run: Run, k: int, m: re.Match[str]) -> bool:
+    """The pushes are (cot a + cot b)(p_i - p_j) / 2 A, added up face by face."""
+    state = run.states[k]
+    p, v, total = state.subject.p, state.now.vertex, np.zeros(3)
+    for face in state.subject.faces[(state.subject.faces == v).any(axis=1)]:
+        i = int(np.flatnonzero(face == v)[0])
+        here, one, two = p[face[i]], p[face[(i + 1) % 3]], p[face[(i + 2) % 3]]
+        for neighbour, across in ((one, two), (two, one)):
+            u, w = here - across, neighbour - across
+            total += u @ w / np.linalg.norm(np.cross(u, w)) * (here - neighbour)
+    total /= 2 * facts(state)[1][v]
+    surface = state.subject.truth
+    factor = 2.0 if state.params.mistake == "H without the half" else 1.0
+    outward = total @ state.now.normals[v] > 0
+    agrees = surface.mean[v] == 0 or (surface.mean[v] > 0) == outward or state.params.noise > 0
+    return near(m[1], factor * float(np.linalg.norm(total))) and (m[2] == "outward") == outward and bool(agrees)
+
+
+def _principal(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    v, surface = state.now.vertex, state.subject.truth
+    K, H = angle_K(state)[v], at(run, "mean").now.H[v]
+    if state.params.mistake == "defect taken for K":
+        K = defects(state)[v]
+    roots = np.sort(np.roots([1.0, -2 * H, K]).real)  # k1 and k2 solve x^2 - 2 H x + K = 0
+    said = number(m[1]), number(m[2])
+    same = np.allclose(said, roots[::-1], rtol=2 * DIGITS, atol=2e-3 * (1 + abs(H)))
+    return bool(same) and near(m[3], surface.k1[v]) and near(m[4], surface.k2[v])
+
+
+def _bends(run: Run, k: int, m: re.Match[str]) -> bool:
+    k1, k2 = run.states[k].now.k1[run.states[k].now.vertex], run.states[k].now.k2[run.states[k].now.vertex]
+    signs = {np.sign(x) for x in (k1, k2) if abs(x) > 1e-5}
+    return {
+        "to both sides, as on a saddle": signs == {-1.0, 1.0}, "to one side": len(signs) == 1 and min(abs(k1), abs(k2)) > 0,
+        "one way only": len(signs) <= 1, "not at all": not signs,
+    }[m[1]]  # fmt: skip
+
+
+def _fit_errors(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    return all(
+        percent(said, state.errors[name] / 100)
+        for said, name in zip(m.groups(), ("K by fit", "K", "H by fit", "H"), strict=True)
+    )
+
+
+def _sum(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    total, chi = float(state.now.defects.sum()), facts(state)[3]
+    same = number(m[1]) == len(state.subject.p) and near(m[2], total) and near(m[3], total / np.pi)
+    return same and number(m[4]) == chi and number(m[5]) == 2 * chi
+
+
+def _study_numbers(run: Run, k: int, m: re.Match[str]) -> bool:
+    s = study(run)
+    ends = [s.K[0], s.K[-1], s.K_fit[0], s.K_fit[-1]]
+    return (number(m[1]), number(m[2])) == (s.counts[0], s.counts[-1]) and all(
+        percent(said, value) for said, value in zip(m.groups()[2:], ends, strict=True)
+    )
+
+
+def _exact_sum(run: Run, *_) -> bool:
+    return abs(float(defects(run.states[-1]).sum()) - 2 * np.pi * facts(run.states[-1])[3]) < 1e-6
+
+
+def _defect_sum_of_all(run: Run, *_) -> bool:
+    return abs(float(at(run, "total").now.defects.sum()) - 2 * np.pi * facts(run.states[-1])[3]) < 1e-6
+
+
+PERCENT = r"(under 0\.01|[\d,.]+) %"
+
+CAPTIONS = [
+    Claim(r"([\d,]+) vertices, ([\d,]+) triangles", lambda run, k, m: (number(m[1]), number(m[2])) == (len(run.states[k].subject.p), len(run.states[k].subject.faces))),
+    Claim(r"(\d+) vertices on the border", lambda run, k, m: int(m[1]) == facts(run.states[k])[2].sum()),
+    Claim(r"no border\.", lambda run, k, m: not facts(run.states[k])[2].any()),
+    Claim(r"(\d+) triangles meet at vertex ([\d,]+); their angles add up to ([\d.]+)°", _ring),
+    Claim(r"It lies on the border", lambda run, k, m: bool(facts(run.states[k])[2][run.states[k].now.vertex])),
+    Claim(r"In a plane they would", lambda run, k, m: not facts(run.states[k])[2][run.states[k].now.vertex]),
+    Claim(r"(?:leaves a gap of|it overlaps by) ([\d.]+)°", _gap),
+    Claim(r"the ring closes: angle defect 0", lambda run, k, m: abs(defects(run.states[k])[run.states[k].now.vertex]) < 1e-7),
+    Claim(rf"a border vertex misses {NUMBER}°", lambda run, k, m: near(m[1], np.degrees(defects(run.states[k])[run.states[k].now.vertex] + np.pi))),
+    Claim(rf"from 180°: {NUMBER}° is how", lambda run, k, m: abs(number(m[1]) - np.degrees(defects(run.states[k])[run.states[k].now.vertex])) < 0.0051),
+    Claim(rf"K = defect / area = {NUMBER} rad / {NUMBER} m² = {NUMBER} m⁻²", _k_is),
+    Claim(rf"K at vertex [\d,]+ would be {NUMBER}(?=[;.])", lambda run, k, m: near(m[1], defects(run.states[k])[run.states[k].now.vertex])),
+    Claim(rf"the truth is {NUMBER}(?=[ .])", _truth),
+    Claim(rf"Relative error \(RMS over ([\w ]+)\): {PERCENT}", _relative_error),
+    Claim(rf"2 H n, {NUMBER} m⁻¹ long and pointing (outward|inward)", _pointing),
+    Claim(r"pushes, weighted by cotangents, cancel", lambda run, k, m: float(np.linalg.norm(run.states[k].now.normals_2H[run.states[k].now.vertex])) < 1e-6),
+    Claim(rf"gives k₁ = {NUMBER} and k₂ = {NUMBER} m⁻¹ \(truth {NUMBER}, {NUMBER}\)", _principal),
+    Claim(r"they bend (to both sides, as on a saddle|to one side|one way only|not at all)", _bends),
+    Claim(rf"Relative errors \(RMS over all vertices\): K {PERCENT} \(angles {PERCENT}\), H {PERCENT} \(cotangents {PERCENT}\)", _fit_errors),
+    Claim(rf"All ([\d,]+) defects add up to {NUMBER} rad = {NUMBER} π; V − E \+ F = {NUMBER} promises {NUMBER} π", _sum),
+    Claim(r"Gauss-Bonnet: no noise or resolution changes this sum", _defect_sum_of_all),
+    Claim(rf"The sum is {NUMBER} rad too large: π for each of the (\d+) border vertices", lambda run, k, m: int(m[2]) == facts(run.states[k])[2].sum() and near(m[1], np.pi * int(m[2]))),
+    Claim(r"too large: some defects are wrong", lambda run, k, m: not _defect_sum_of_all(run)),
+    Claim(rf"From ([\d,]+) to ([\d,]+) vertices the error of K from angles \(RMS\) goes from {PERCENT} to {PERCENT}, by quadric fit from {PERCENT} to {PERCENT}", _study_numbers),
+    Claim(r"No mesh is fine enough to mend a missing division", lambda run, k, m: study(run).K.min() > 0.9),
+    Claim(r"No mesh is fine enough to mend a missing ½", lambda run, k, m: study(run).H.min() > 0.9),
+    Claim(r"angles are exact", lambda run, k, m: study(run).K.max() < 1e-8),
+    Claim(r"Finer is worse: the same noise", lambda run, k, m: run.params.noise > 0 and slope(study(run).K, study(run).counts) > 0.2),
+    Claim(r"does not converge to K; the defects' sum stays exact", lambda run, k, m: slope(study(run).K, study(run).counts) > -0.5 and _exact_sum(run)),
+    Claim(r"On such meshes angles converge", lambda run, k, m: slope(study(run).K, study(run).counts) < -0.8),
+]  # fmt: skip
+
+
+def _inside(run: Run, stage: str, name: str) -> np.ndarray:
+    state = at(run, stage)
+    return getattr(state.now, name)[~facts(state)[2]]
+
+
+def _too_small(run: Run, *_) -> bool:
+    state = at(run, "gaussian")
+    v = state.now.vertex
+    finer = angle_free_defect(Params(vertices=4 * 1600, mistake="none"))
+    coarse = float(np.median(np.abs(defects(state))))
+    return state.subject.truth.gaussian[v] / state.now.K[v] > 50 and 3.4 < coarse / finer < 4.6
+
+
+@functools.cache
+def angle_free_defect(params: Params) -> float:
+    """Return the typical defect of a mesh."""
+    return float(np.median(np.abs(defects(next(iter(run_of(params)))))))
+
+
+def _off_by_more_than_itself(run: Run, *_) -> bool:
+    state = at(run, "gaussian")
+    return rms(angle_K(state), state.subject.truth.gaussian, ~facts(state)[2]) > 1
+
+
+def _on_the_torus(run: Run, *_) -> bool:
+    p = run.states[0].subject.p
+    return bool(np.allclose(np.hypot(np.hypot(p[:, 0], p[:, 1]) - 1, p[:, 2]), 0.4))
+
+
+def _regular(run: Run, *_) -> bool:
+    state, s = at(run, "gaussian"), study(run)
+    error = rms(angle_K(state), state.subject.truth.gaussian, ~facts(state)[2])
+    return error < 0.002 and -1.15 < slope(s.K, s.counts) < -0.85  # edges go with the root of the vertices
+
+
+LINES = {
+    "cylinder": [
+        Claim(r"H is 1/2r = 1 m⁻¹", lambda run, k, m: bool(np.allclose(_inside(run, "mean", "H"), 1, rtol=2e-3))),
+    ],
+    "catenoid": [
+        Claim(r"Catenoid: H = 0, K < 0", lambda run, k, m: bool((_inside(run, "gaussian", "K") < 0).all()) and np.abs(_inside(run, "mean", "H")).max() < 0.02),
+        Claim(r"negative everywhere", lambda run, k, m: bool((_inside(run, "gaussian", "K") < 0).all())),
+    ],
+    "double": [
+        Claim(r"Every length is doubled", lambda run, k, m: np.ptp(run.states[0].subject.p) == 2 * np.ptp(next(iter(run_of(Params()))).subject.p)),
+    ],
+    "no-area": [
+        Claim(r"over 50 times too small here, and about four times smaller still on a mesh four times as fine", _too_small),
+    ],
+    "no-half": [
+        Claim(r"H = 2 m⁻¹, and H² − K = 3", lambda run, k, m: bool(np.allclose(_inside(run, "mean", "H"), 2, rtol=1e-2)) and bool(np.allclose(_inside(run, "mean", "H") ** 2 - angle_K(at(run, "mean")), 3, atol=0.15))),
+    ],
+    "border": [
+        Claim(r"K and H are left open \(grey\) there", lambda run, k, m: bool(facts(run.states[0])[2][run.states[0].now.vertex]) and bool((np.isnan(at(run, "mean").now.H) == facts(run.states[0])[2]).all())),
+    ],
+    "border-2pi": [
+        Claim(r"should add up to 2π", lambda run, k, m: abs(defects(run.states[0]).sum() - 2 * np.pi) < 1e-9),
+        Claim(r"each border vertex adds π that is not there, and the sum is far off", lambda run, k, m: abs(at(run, "total").now.total - 2 * np.pi - np.pi * facts(run.states[0])[2].sum()) < 1e-6),
+    ],
+    "coarse": [
+        Claim(r"With 60 vertices the relative error of K is about 10 %", lambda run, k, m: 0.09 < rms(angle_K(at(run, "gaussian")), at(run, "gaussian").subject.truth.gaussian, ~facts(run.states[0])[2]) < 0.11),
+    ],
+    "fine": [Claim(r"under 0\.2 % \(RMS\): on a regular mesh it falls with the square of the edges", _regular)],
+    "noise": [
+        Claim(r"K is off by more than its own size", _off_by_more_than_itself),
+        Claim(r"A finer mesh makes it worse", lambda run, k, m: bool((np.diff(study(run).K) > 0).all())),
+    ],
+    "irregular": [Claim(r"along the surface, never off it", _on_the_torus)],
+    "sphere-sum": [Claim(r"off by more than its own size", _off_by_more_than_itself)],
+    "torus-sum": [
+        Claim(r"cancel to the last digit", lambda run, k, m: abs(at(run, "total").now.defects.sum()) < 1e-9),
+        Claim(r"a handle", lambda run, k, m: facts(run.states[0])[3] == 0),
+    ],
+}  # fmt: skip
+
+WHYS = {
+    "which-rolled": [
+        Claim(rf"K = {NUMBER} m⁻² and H = {NUMBER} m⁻¹", lambda run, k, m: abs(number(m[1]) - 0) < 5e-4 and abs(number(m[2]) - 1 / (2 * 0.5)) < 2e-3),
+        Claim(r"no angle changes", lambda run, k, m: bool(np.abs(defects(run.states[0])[~facts(run.states[0])[2]]).max() < 1e-9)),
+    ],
+    "which-double": [
+        Claim(r"It is ([\d.]+) times what it was: the angles stay, and each vertex has four times the area\. H would be halved", lambda run, k, m: number(m[1]) == 0.25 and _scaled_by_two(run)),
+    ],
+    "which-sides": [
+        Claim(r"H turns with the normal\. K is the product", lambda run, k, m: bool(np.allclose(angle_K(run.states[-1]), angle_K(_turned(run)))) and bool(np.allclose(at(run, "mean").now.H, -_mean_of(_params(run, inside_out=False))))),
+    ],
+    "which-finer": [
+        Claim(r"from ([\d.]+) % to ([\d.]+) % \(RMS\)", lambda run, k, m: percent(m[1], study(run).K[0]) and percent(m[2], study(run).K[-1])),
+        Claim(r"so does the error of defect / area; that of the quadric fit falls to ([\d.]+) %", lambda run, k, m: abs(slope(study(run).K, study(run).counts)) < 0.15 and study(run).K_fit[-1] < study(run).K_fit[0] / 5 and percent(m[1], study(run).K_fit[-1])),
+    ],
+    "which-sum": [
+        Claim(r"V − E \+ F = (\d+), and 2π times that is 4π", lambda run, k, m: int(m[1]) == facts(run.states[0])[3] == 2 and _exact_sum(run)),
+    ],
+}  # fmt: skip
+
+
+def _params(run: Run, **changes) -> Params:
+    return Params(**({name: getattr(run.params, name) for name in ("surface", "vertices", "seed")} | changes))
+
+
+@functools.cache
+def _mean_of(params: Params) -> np.ndarray:
+    return next(s for s in run_of(params) if s.stage == "mean").now.H
+
+
+def _turned(run: Run):
+    return next(iter(run_of(_params(run, inside_out=False))))
+
+
+def _scaled_by_two(run: Run) -> bool:
+    one = next(iter(run_of(Params())))
+    two = run.states[0]
+    H = at(run, "mean").now.H
+    return (
+        bool(np.allclose(defects(one), defects(two)))
+        and bool(np.allclose(4 * facts(one)[1], facts(two)[1]))
+        and bool(np.allclose(H, _mean_of(Params()) / 2))
+    )
