@@ -117,11 +117,14 @@ def is_new_best(run: Run, k: int, found: re.Match[str]) -> bool:
 
 
 def enough_for(share: float, size: int, confidence: float) -> float:
-    """Return the fewest draws of which one is clean with this confidence, by trying."""
-    clean, draws = share**size, 1
-    while 1.0 - (1.0 - clean) ** draws < confidence:
-        draws += 1
-    return draws
+    """Return the fewest draws of which one is clean with this confidence, by doubling and halving."""
+    clean, low, high = share**size, 0, 1
+    while 1.0 - (1.0 - clean) ** high < confidence:
+        low, high = high, 2 * high
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if 1.0 - (1.0 - clean) ** middle >= confidence else (middle, high)
+    return high
 
 
 def draws_needed(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -383,7 +386,10 @@ LINES = {
         Claim("the next step counts who is near it", lambda run, k, _: run.states[2].now.phase == "inliers"),
     ),
     "rivals": (Claim("RANSAC's and the truth", None),),
-    "local": (Claim("gathers its inliers sooner, and with them the end", sooner),),
+    "local": (
+        Claim("gathers its inliers sooner, and with them the end", sooner),
+        Claim("Refit every new best|each new best", None),
+    ),
     "prosac": (Claim("a few dozen samples bring it near its end, where chance mostly needs hundreds", few_dozens),),
     "epipolar": (
         Claim("seven at once must be free of outliers", lambda run, k, _: len(run.states[0].now.sample) in (0, 7)),
