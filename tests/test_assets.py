@@ -41,6 +41,6 @@ def test_the_mesh_is_a_torus():
 
 
 def test_the_pair_of_pictures_has_depth():
-    timeline = run("disparity", left="left.png", right="right.png", baseline=0.1, focal_length=150.0, shrink=1)
+    timeline = run("disparity", left="left.png", right="right.png", own_baseline=0.1, own_focal_length=150.0, shrink=1)
     known = timeline[-1].state.depth[np.isfinite(timeline[-1].state.depth)]
     assert 0.5 < np.median(known) < 5

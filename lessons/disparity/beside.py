@@ -61,14 +61,14 @@ def _curves(state: State) -> dict[str, Primitive]:
         true = setup.pair.disparity[v, u : u + 1]
         at = np.interp(true, x, state.costs)
         shown["costs/truth"] = Curve(true, at, "truth", chart, "disparity in px", "cost", "truth", "dots")
-    if state.stage is None:
+    if state.stage is None and setup.metric:
         d = x[x + camera.doffs >= max(camera.f * camera.baseline / setup.far, 0.5)]
         if len(d):
             depth = setup.f * camera.baseline / (d + camera.doffs)
             shown["law"] = Curve(
                 d, depth, "Z = f B / d", "Depth over disparity", "disparity in px", "m", "source", marks=marks
             )
-    if state.uncertainty is not None:
+    if state.uncertainty is not None and setup.metric:
         shown |= _error_curves(state)
     return shown
 
@@ -105,8 +105,8 @@ def _table(state: State) -> Table:
     setup = state.setup
     camera, (u, v) = setup.pair.camera, setup.pixel
     depth = float(state.depth[v, u])
-    rows = [("disparity", _px(state.chosen)), ("depth", _m(depth))]
-    if 0 < depth < math.inf:
+    rows = [("disparity", _px(state.chosen)), ("depth", _m(depth) if setup.metric else "f and baseline are not known")]
+    if setup.metric and 0 < depth < math.inf:
         error = state.disparity_error or 1.0
         d = np.array([setup.f * camera.baseline / depth])
         near, far = (float(z[0]) for z in depth_interval(d, setup.f, camera.baseline, error))

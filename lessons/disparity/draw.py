@@ -21,6 +21,7 @@ T_WORLD_LEFT = motion(R_WORLD_CAMERA, np.zeros(3))
 MOST_POINTS = 25_000
 DESK = 0.84
 BARS = 150
+CLOUD_BY_ERROR = "depth cloud by its error"
 
 
 def draw(state: State) -> Scene:
@@ -83,6 +84,7 @@ def _cloud(state: State) -> dict[str, Primitive]:
         return {}
     radius = 0.6 * stride * float(np.median(p_camera[:, 2])) / setup.pair.camera.f
     color, name = _cloud_color(state, seen)
+    name = name if setup.metric else f"{name}; its size is made up"
     scene: dict[str, Primitive] = {
         "cloud": Points(p_camera.astype(np.float32), color, radius, T_WORLD_LEFT, name=name),
     }
@@ -95,13 +97,18 @@ def _cloud_color(state: State, seen: np.ndarray) -> tuple[Color, str]:
     truth, camera = state.setup.pair.disparity, state.setup.pair.camera
     if state.uncertainty is None:
         return state.setup.pair.left[seen], "points so far"
+    if not state.setup.metric:
+        off = 100.0 * state.uncertainty[seen] / state.depth[seen]
+        return Field(
+            off, 0.0, max(float(np.nanpercentile(off, 95)), 1e-6), "Depth error, of the depth", "%"
+        ), CLOUD_BY_ERROR
     if truth is None:
         off, title = state.uncertainty[seen], f"Depth error of {state.disparity_error:g} px"
     else:
         true_depth = camera.f * camera.baseline / np.maximum(truth + camera.doffs, 1e-9)
         off, title = np.abs(state.depth - true_depth)[seen], "Depth error"
     top = float(np.nanpercentile(off, 95)) if np.isfinite(off).any() else 1.0
-    return Field(off, 0.0, max(top, 1e-6), title, "m"), "depth cloud by its error"
+    return Field(off, 0.0, max(top, 1e-6), title, "m"), CLOUD_BY_ERROR
 
 
 def _bars(state: State, seen: np.ndarray) -> Segments:
@@ -148,7 +155,10 @@ def _followed(state: State) -> dict[str, Primitive]:
         p = points_on_ray((u, v), np.array([chosen]), camera)
         scene["chosen"] = Points(p, "highlight", 2.2 * size, T_WORLD_LEFT, name="chosen")
         scene["label/chosen"] = Label(
-            f"d = {state.chosen:.3g} px: {chosen:.3g} m", p[0] + (0, -4 * size, 0), "highlight", T_WORLD_LEFT
+            f"d = {state.chosen:.3g} px{_metres(setup, chosen, '.3g')}",
+            p[0] + (0, -4 * size, 0),
+            "highlight",
+            T_WORLD_LEFT,
         )
         eye = np.array([camera.baseline, 0.0, 0.0])
         scene["partner ray"] = Segments(np.array([[eye, p[0]]]), "source", 1.5, T_WORLD_LEFT, name="ray of its partner")
@@ -177,8 +187,14 @@ def _swept(state: State) -> dict[str, Primitive]:
     ends = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     return {
         "swept": Segments(ends, "other", 2.0, T_WORLD_LEFT, name="everything of this disparity"),
-        "label/swept": Label(f"d = {state.done - 1} px: {depth:.2f} m", corners[1], "other", T_WORLD_LEFT),
+        "label/swept": Label(
+            f"d = {state.done - 1} px{_metres(setup, depth, '.2f')}", corners[1], "other", T_WORLD_LEFT
+        ),
     }
+
+
+def _metres(setup: Setup, depth: float, digits: str) -> str:
+    return f": {depth:{digits}} m" if setup.metric else ""
 
 
 def _depth(state: State, d: np.ndarray) -> np.ndarray:

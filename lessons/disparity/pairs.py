@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from lessons.disparity.params import Params
+from workbench.algorithms.cost_volume import census_cost_volume
+from workbench.algorithms.disparity_map import agree, seen_from_right, winner_takes_all
 from workbench.data.stereo import StereoPair, grey, motorcycle_pair, read_pair, shrunk, synthetic_pair
 from workbench.errors import InputError
 from workbench.geometry.stereo import StereoCamera
@@ -15,6 +17,7 @@ SIZE = (160, 120)
 MOST_CELLS = 5_000_000
 ROWS_OFF = 2
 DARKER = 0.7
+MADE_UP_BASELINE = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +32,7 @@ class Setup:
         pixel: The pixel (u, v) that is followed, inside the picture.
         max_disparity: The largest that is tried: below the width of the pictures.
         far: Depth up to which things are drawn, metres.
+        metric: Whether the cameras are known. Where they are not, the pair's camera is made up: nothing is in metres.
     """
 
     params: Params
@@ -39,6 +43,28 @@ class Setup:
     pixel: tuple[int, int]
     max_disparity: int
     far: float
+    metric: bool = True
+
+    @functools.cached_property
+    def agreeing(self) -> tuple[float, float]:
+        """The share of left pixels whose partners choose them back; and the same with the pictures exchanged.
+
+        By census, on one row in four.
+        """
+        pictures = self.left[::4], self.right[::4]
+        return _agreeing(*pictures, self.max_disparity), _agreeing(*pictures[::-1], self.max_disparity)
+
+    @property
+    def seem_exchanged(self) -> bool:
+        """Whether clearly more pixels find each other with left and right exchanged."""
+        as_given, exchanged = self.agreeing
+        return exchanged > as_given + 0.07
+
+
+def _agreeing(left: np.ndarray, right: np.ndarray, max_disparity: int) -> float:
+    cost = census_cost_volume(left, right, max_disparity, 3)
+    winner, back = (winner_takes_all(volume).astype(int) for volume in (cost, seen_from_right(cost)))
+    return float(agree(winner, back).mean())
 
 
 def setup_of(params: Params) -> Setup:
@@ -47,10 +73,12 @@ def setup_of(params: Params) -> Setup:
     Raises:
         InputError: If own files are no pair, or the cost volume would be too large.
     """
+    metric = True
     if params.left is not None and params.right is not None:
         stamps = tuple(_stamp(path) for path in (params.left, params.right))
-        size = (params.focal_length, params.baseline, params.doffs)
-        pair, shrink = _own(params.left, params.right, stamps, size, params.shrink), params.shrink
+        metric = params.own_focal_length > 0 and params.own_baseline > 0
+        cameras = (params.own_focal_length, params.own_baseline) if metric else None
+        pair, shrink = _own(params.left, params.right, stamps, cameras, params.doffs, params.shrink), params.shrink
     elif params.scene == "Motorcycle":
         pair, shrink = _motorcycle(params.shrink), params.shrink
     else:
@@ -74,6 +102,7 @@ def setup_of(params: Params) -> Setup:
         pixel=(min(params.pixel[0], w - 1), min(params.pixel[1], h - 1)),
         max_disparity=max_disparity,
         far=_far(pair, max_disparity) * times,
+        metric=metric,
     )
 
 
@@ -106,8 +135,14 @@ def _motorcycle(shrink: int) -> StereoPair:
 
 
 @functools.lru_cache(maxsize=2)
-def _own(left: Path, right: Path, _stamps: tuple, camera: tuple[float, float, float], shrink: int) -> StereoPair:
-    return shrunk(read_pair(left, right, *camera), shrink)
+def _own(
+    left: Path, right: Path, _stamps: tuple, cameras: tuple[float, float] | None, doffs: float, shrink: int
+) -> StereoPair:
+    """Return an own pair; where its cameras are not known they are made up: as wide as usual, and a hand apart."""
+    pair = read_pair(left, right, *(cameras or (1.0, MADE_UP_BASELINE)), doffs)
+    if cameras is None:
+        pair = replace(pair, camera=replace(pair.camera, f=float(pair.left.shape[1])))
+    return shrunk(pair, shrink)
 
 
 def _stamp(path: Path) -> tuple[int, int]:

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from workbench.errors import InputError
 from workbench.knobs import Knob, Pick
 
-Scene = Literal["spheres", "planes", "posts", "plain wall", "repeated pattern", "boards at 1, 5, 20 m", "Motorcycle"]
+Scene = Literal["spheres", "planes", "posts", "plain wall", "repeated pattern", "boards at three depths", "Motorcycle"]
 Cost = Literal["SAD", "SSD", "census", "NCC"]
 Mistake = Literal["none", "pictures exchanged", "rows off by 2 px", "right picture darker", "f not rescaled"]
 
@@ -24,12 +24,10 @@ class Params:
         Knob("What a jump between neighbours costs, in usual matching costs; 0 leaves the paths out", 0, 4, step=0.1),
     ] = 1.0
     max_disparity: Annotated[int, Knob("Largest shift that is tried", 3, 127, unit="px")] = 31
-    baseline: Annotated[
-        float, Knob("Distance between the cameras (made scenes and own pairs)", 0.02, 0.5, unit="m", step=0.01)
-    ] = 0.1
-    focal_length: Annotated[
-        float, Knob("Focal length in pixels of the files (made scenes and own pairs)", 50, 8000, unit="px", step=10)
-    ] = 150.0
+    baseline: Annotated[float, Knob("Distance between the cameras (made scenes)", 0.02, 0.5, unit="m", step=0.005)] = (
+        0.1
+    )
+    focal_length: Annotated[float, Knob("Focal length (made scenes)", 50, 8000, unit="px", step=10)] = 150.0
     noise: Annotated[float, Knob("Noise of both sensors, in grey levels of 255 (made scenes)", 0, 40, step=0.5)] = 4.0
     disparity_error: Annotated[
         float, Knob("Added to every disparity before it becomes a depth", -3, 3, unit="px", step=0.25)
@@ -47,6 +45,14 @@ class Params:
         Knob(
             "Right minus left principal point, in pixels of the files (own pairs)", -500, 500, unit="px", label="doffs"
         ),
+    ] = 0.0
+    own_focal_length: Annotated[
+        float,
+        Knob("Focal length of an own pair, in pixels of its files; 0: not known, so no metres", 0, 20000, unit="px"),
+    ] = 0.0
+    own_baseline: Annotated[
+        float,
+        Knob("Distance between the cameras of an own pair; 0: not known, so no metres", 0, 100, unit="m", step=0.001),
     ] = 0.0
     left: Annotated[Path | None, Knob("An own left picture, rectified; give both")] = None
     right: Annotated[Path | None, Knob("An own right picture of the same size")] = None

@@ -80,7 +80,18 @@ def _checked(state: State) -> str:
     if visible is not None and truth is not None and (np.isfinite(truth) & ~visible).any():
         hidden = np.isnan(state.disparity[np.isfinite(truth) & ~visible]).mean()
         text += f", {100 * hidden:.0f} % of what the right camera cannot see"
-    return f"{text}{_change(state, '; wrong pixels {} → {} %')}."
+    return f"{text}{_change(state, '; wrong pixels {} → {} %')}.{_exchanged(state)}"
+
+
+def _exchanged(state: State) -> str:
+    """Say so where the pictures seem to have changed places."""
+    if not state.setup.seem_exchanged:
+        return ""
+    as_given, exchanged = state.setup.agreeing
+    return (
+        f" With the pictures exchanged more pixels find each other, {100 * exchanged:.0f} % instead of"
+        f" {100 * as_given:.0f} %: is the left one the right one?"
+    )
 
 
 def _refined(state: State) -> str:
@@ -100,6 +111,8 @@ def _smoothed(state: State) -> str:
 def _of_depth(state: State) -> Caption:
     setup = state.setup
     camera, (u, v) = setup.pair.camera, setup.pixel
+    if not setup.metric:
+        return _of_unknown_cameras(state)
     depth = float(state.depth[v, u])
     d = "d" if camera.doffs == 0 else f"(d + {camera.doffs:.3g})"
     law = f"Z = f B / {d} with f = {setup.f:.4g} px, B = {camera.baseline:.3g} m"
@@ -120,7 +133,31 @@ def _of_depth(state: State) -> Caption:
     return Caption(f"{law}: {here}.{more}{extra}", _tone(state))
 
 
+def _of_unknown_cameras(state: State) -> Caption:
+    u, v = state.setup.pixel
+    here = "is unknown" if math.isnan(state.chosen) else f"has d = {state.chosen:.2f} px"
+    return Caption(
+        f"Left pixel ({u}, {v}) {here}. Z = f B / d needs f and the baseline B of these cameras, which are not known: give"
+        " own_focal_length and own_baseline for metres. The cloud only shows what is nearer than what; its size is made up."
+        f"{_exchanged(state)}"
+    )
+
+
+def _of_relative_error(state: State) -> Caption:
+    """Say by which part of itself a depth moves, for which no camera has to be known."""
+    e, known = state.disparity_error, state.disparity[np.isfinite(state.disparity) & (state.disparity > 0)]
+    if not len(known):
+        return Caption("No pixel has a disparity above 0, so there is no error to show.", "wrong")
+    at = [float(d) + state.setup.pair.camera.doffs for d in np.percentile(known, [98, 50])]
+    moved = ", ".join(f"at {d:.3g} px by {100 * e / d:.2g} %" for d in at if d > 0)
+    return Caption(
+        f"To first order {e:g} px of error moves a depth by {e:g} px / d of itself, whatever the cameras: {moved}."
+    )
+
+
 def _of_error(state: State) -> Caption:
+    if not state.setup.metric:
+        return _of_relative_error(state)
     known = np.isfinite(state.depth) & (state.depth <= state.setup.far)
     if not known.any():
         return Caption("No pixel has a depth, so there is no error to show.", "wrong")

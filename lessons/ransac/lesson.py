@@ -53,7 +53,7 @@ def run(
         model = replace(PLANE, solve=from_points(checked(plane_from_points)))
         judge = counting(judge, count_inliers, decides=params.score == "count")
     chosen = chosen_sample(params, subject)
-    rivals, before = rivals_of(subject, distance), None
+    rivals, before, degenerate = rivals_of(subject, distance), None, 0
     for now in ransac(
         subject.p,
         model,
@@ -64,11 +64,12 @@ def run(
         max_iterations=params.most_samples,
         local_refit=params.local_refit,
     ):
+        degenerate += now.phase == "degenerate"
         if shown(params, now.phase, now.iteration):
             own = bool(chosen) and now.iteration == 1
             best = now.best.estimate if now.best else None
             errors = error_of(subject, now.estimate), error_of(subject, best)
-            yield State(params, subject, now, distance, *errors, own, rivals, before)
+            yield State(params, subject, now, distance, *errors, own, rivals, before, degenerate)
         before = now.best
 
 
@@ -144,7 +145,10 @@ def rivals_of(subject: Subject, corner: float) -> tuple[Rival, ...]:
     """Return least squares over all rows, and Huber's fit with its corner at the inlier distance."""
     if len(subject.p) < subject.model.fewest:
         return ()
-    first, *_, last = huber_fit(subject.p, subject.model, corner=corner, max_iterations=30)
+    with np.errstate(
+        over="ignore", invalid="ignore"
+    ):  # rows that determine nothing: what is not finite is left out below
+        first, *_, last = huber_fit(subject.p, subject.model, corner=corner, max_iterations=30)
     found = (("least squares", first.estimate), ("Huber", last.estimate))
     return tuple(
         Rival(name, estimate, error_of(subject, estimate)) for name, estimate in found if np.isfinite(estimate).all()

@@ -12,6 +12,7 @@ ScoreName = Literal["count", "MSAC", "MLESAC"]
 SamplerName = Literal["uniform", "PROSAC"]
 Steps = Literal["every part", "every sample", "improvements"]
 Up = Literal["z", "y", "-y"]
+CloudUnit = Literal["mm", "cm", "m", "km"]
 
 MOST_POINTS = 5000
 
@@ -30,8 +31,10 @@ class Params:
     ] = 0.03
     noise_pixels: Annotated[float, Knob("Noise of each pixel of a match (sigma)", 0, 5, unit="px", step=0.1)] = 1.0
     inlier_pixels: Annotated[
-        float, Knob("Matches this near to a model are its inliers", 0.1, 30, unit="px", step=0.1)
-    ] = 2.5
+        float,
+        Knob("Matches this near to a model are its inliers; 95 % lie within 3.46 sigma for a homography, within 1.96 sigma"
+             " for a fundamental matrix", 0.1, 30, unit="px", step=0.1),
+    ] = 3.5  # fmt: skip
     score: Annotated[ScoreName, Knob("How good a candidate is, from the distances of all points")] = "count"
     sampler: Annotated[SamplerName, Knob("By chance alone, or the most trusted points first")] = "uniform"
     confidence: Annotated[
@@ -45,9 +48,8 @@ class Params:
         Knob("Your own first sample: click points; the last clicks count, -1 is none", -1, MOST_POINTS - 1,
              by=Pick("points")),
     ] = (-1, -1, -1, -1)  # fmt: skip
-    cloud: Annotated[Path | None, Knob("Own cloud for a plane or a sphere: ply, pcd, obj, xyz, csv, npz; metres")] = (
-        None
-    )
+    cloud: Annotated[Path | None, Knob("Own cloud for a plane or a sphere: ply, pcd, obj, xyz, csv, npz")] = None
+    cloud_unit: Annotated[CloudUnit, Knob("In which unit the numbers of an own cloud are")] = "m"
     up: Annotated[Up, Knob("Which axis of an own cloud points up")] = "z"
     matches: Annotated[Path | None, Knob("Own matches: npz (x1, x2; F or H if known) or lines of u v u' v'")] = None
     first_image: Annotated[Path | None, Knob("The first image of own matches, to be shown")] = None

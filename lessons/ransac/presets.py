@@ -18,42 +18,42 @@ WALL = Params(table="beside a wall")
 WIRE = Params(table="with a wire", sample=(-1, 0, 1, 2))
 NEAR = Params(sample=(-1, 482, 510, 3))
 LOCAL = Params(outliers=0.6, local_refit=True, seed=7)
-PROSAC = Params(model="homography", outliers=0.6, points=400, inlier_pixels=3.5, sampler="PROSAC")
-MATCHES = Params(model="fundamental matrix", outliers=0.3, points=200, steps="improvements")
+PROSAC = Params(model="homography", outliers=0.6, points=400, sampler="PROSAC")
+MATCHES = Params(model="fundamental matrix", outliers=0.3, points=200, inlier_pixels=2.0, steps="improvements")
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
-        "thirty", "30 % outliers: a dozen samples",
-        "A third of all samples is clean, so a dozen is enough; least squares is dragged 15 cm off by the same points.",
+        "thirty", "30 % outliers: a dozen or two",
+        "A third of all samples is clean, so a dozen or two are enough; the same outliers drag least squares 15 cm off.",
         THIRTY, 2,
     ),
     Preset(
         "seventy", "70 % outliers: over a hundred",
-        "Only one sample in 37 is clean, so over a hundred are drawn; the answer is as good. Half is no limit here.",
+        "Only one sample in 37 is clean, so over a hundred are drawn; the plane is still within 3 mm. Half is no limit.",
         SEVENTY, 2,
     ),
     Preset(
         "tight", "Inlier distance too small",
-        "4 mm is a quarter of the noise: three in four true points are refused, the samples never suffice, and the"
-        " answer rests on few.",
+        "4 mm is a quarter of the noise: three in four true points are refused, 500 samples do not suffice, and the"
+        " answer rests on the few that are left.",
         TIGHT, -1,
     ),
     Preset(
         "loose", "Inlier distance too large",
-        "0.3 m is 20 sigma: clutter votes too, 13 samples satisfy the formula, and the plane is tilted by 4 cm.",
+        "0.3 m is 20 sigma: clutter votes too, a dozen samples satisfy the formula, and the plane ends 4 cm off.",
         LOOSE, -1,
     ),
     Preset(
         "msac", "Too large, but nearness counts",
-        "A count cannot tell 1 mm from 149 mm. MSAC can: from the same draws it keeps a sample ten times nearer the"
-        " truth.",
+        "A count cannot tell 1 mm from 149 mm. MSAC can: from the same draws it keeps a sample that is no farther from the"
+        " truth, with seed 0 ten times nearer.",
         MSAC, 0,
     ),
     Preset(
-        "two-planes", "Two planes: the largest wins",
-        "The table is what we want, the wall has twice its points. RANSAC finds the largest, not the right one, and only"
-        " one of them.",
-        WALL, -1,
+        "two-planes", "Two planes",
+        "A table beside a wall with twice as many points: the table is what we want. Watch on which of the two each new best"
+        " lies.",
+        WALL, 2,
     ),
     Preset(
         "collinear", "Three points on one line",
@@ -62,33 +62,33 @@ PRESETS: tuple[Preset[Params], ...] = (
         WIRE, 1,
     ),
     Preset(
-        "near-sample", "Three inliers, bad plane",
-        "All three are inliers, but close together: their noise tilts the plane, and it reaches hardly any of the"
-        " others. Spread matters.",
-        NEAR, 2,
+        "near-sample", "Three inliers, close together",
+        "You picked three points that truly belong to the plane, close together. This is the plane through them: the next"
+        " step counts who is near it.",
+        NEAR, 1,
     ),
     Preset(
         "rivals", "Least squares and Huber beside it",
-        "Squares listen most to the farthest points. Huber's loss bounds each pull but does not end it, so it ends in"
-        " between.",
-        THIRTY, -1,
+        "Squares listen most to the farthest points. Huber's loss bounds each pull but does not end it. Compare both planes"
+        " with RANSAC's and the truth, then take the last step for the numbers.",
+        THIRTY, -2,
     ),
     Preset(
         "local", "Refit every new best",
-        "A sample carries the noise of three points; refitting each new best at once finds its inliers, and with them"
-        " the end, sooner.",
+        "A sample carries the noise of three points; refitting each new best at once gathers its inliers sooner, and with"
+        " them the end.",
         LOCAL, 0,
     ),
     Preset(
         "prosac", "The most trusted first",
-        "Matches have a quality. PROSAC tries the best ones first: within two dozen samples it has what chance needs"
-        " hundreds for.",
+        "Matches have a quality, and PROSAC tries the most trusted first: a few dozen samples bring it near its end, where"
+        " chance mostly needs hundreds.",
         PROSAC, 0,
     ),
     Preset(
         "epipolar", "Two views: a fundamental matrix",
-        "A match has only to lie near a line, not at a point, but seven at once must be right: over fifty samples even at"
-        " 30 %.",
+        "A match has only to lie near a line, not at a point, but seven at once must be free of outliers. Look what that"
+        " takes even at 30 %.",
         MATCHES, -1,
     ),
 )  # fmt: skip
@@ -141,8 +141,9 @@ def _size_answer(states: Sequence[State]) -> float:
 def _size_why(states: Sequence[State]) -> str:
     four, seven = needed(end(states), 4), needed(end(states), 7)
     return (
-        f"At this share of inliers four matches need {four:.0f} samples and seven need {seven:.0f}: every further point"
-        " is one more chance to be wrong. Draw as few as determine the model, and use many only in the refit."
+        f"At this share of inliers samples of four need {four:.0f} draws, samples of seven {seven:.0f}: every further match"
+        f" is one more chance to draw an outlier. This run drew {end(states).now.iteration:,}. Draw as few as determine the"
+        " model, and use many only in the refit."
     )
 
 
@@ -154,7 +155,7 @@ def _near_answer(states: Sequence[State]) -> float:
 def _near_why(states: Sequence[State]) -> str:
     state = first(states, "inliers")
     return (
-        f"It reaches {100 * share_reached(state):.0f} % of them. The three lie so close together that a noise of"
+        f"It reaches {100 * share_reached(state):.0f} % of them (blue). The three lie so close together that a noise of"
         f" {length(state.params.noise, 'm')} tilts their plane freely. The formula for N promises a clean sample, not a good"
         " model."
     )
@@ -173,9 +174,9 @@ def _planes_why(states: Sequence[State]) -> str:
     last = end(states)
     assert last.now.best is not None
     return (
-        f"Its best has {last.now.best.count} points of the wall, and the table is {length(last.best_error, 'm')} from it. A"
-        " score knows numbers, not wishes. For the table, take the wall's points away and run again, or say that you"
-        " want a level plane."
+        f"Its plane has {last.now.best.count} points near it and stands upright: the wall. The points of the table are"
+        f" {length(last.best_error, 'm')} from it (RMS). A score knows numbers, not wishes. For the table, take the wall's"
+        " points away and run again, or say that you want a level plane."
     )
 
 
@@ -189,8 +190,9 @@ def _huber_why(states: Sequence[State]) -> str:
     last = end(states)
     squares, huber = (length(rival.error, "m") for rival in last.rivals)
     return (
-        f"RANSAC {length(last.best_error, 'm')}, Huber {huber}, least squares {squares}. An outlier pulls on Huber's fit"
-        " with the force of a point at the corner of its loss, however far it is; here all of them pull upwards."
+        f"RANSAC {length(last.best_error, 'm')}, Huber {huber}, least squares {squares} off (RMS). An outlier pulls on"
+        " Huber's fit with the force of a point at the corner of its loss, however far it is; here nearly all of them pull"
+        " upwards."
     )
 
 

@@ -39,6 +39,7 @@ class State:
         chosen: Whether the sample was picked by the person.
         rivals: Least squares and Huber, over all rows.
         before: The best one step earlier, if any: what a new best or a refit replaced.
+        degenerate: How many samples determined no model so far.
     """
 
     params: Params
@@ -50,6 +51,7 @@ class State:
     chosen: bool
     rivals: tuple[Rival, ...]
     before: ransac.Fit | None
+    degenerate: int
 
 
 def error_of(subject: Subject, estimate: np.ndarray | None) -> float:

@@ -16,6 +16,7 @@ from workbench.data.robust import RobustScene
 from workbench.errors import InputError
 
 PIXEL = 1.0 / 500.0  # metres of the picture per pixel of the built-in images
+METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "km": 1000.0}
 FLOOR = -0.35  # height of the picture's ground
 GAP = 0.12
 UPRIGHT = {
@@ -122,7 +123,7 @@ def _built_in(params: Params) -> Subject:
 
 def _own_cloud(params: Params, model: Model) -> Subject:
     assert params.cloud is not None
-    p = read_cloud(params.cloud, fewest=model.sample_size)
+    p = METRES[params.cloud_unit] * read_cloud(params.cloud, fewest=model.sample_size)
     if len(p) > MOST_POINTS:
         p = p[np.random.default_rng(params.scene_seed).choice(len(p), MOST_POINTS, replace=False)]
     low, high = p.min(axis=0), p.max(axis=0)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.ransac.state import State
+from workbench.algorithms.ransac import Stop
 from workbench.scene import Caption
 
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven")
@@ -22,26 +23,30 @@ def caption_of(state: State) -> Caption:
 
 
 def length(value: float, unit: str) -> str:
-    """Return a distance in the unit that suits it."""
-    if unit == "px":
-        return f"{value:.3g} px"
-    return f"{value:.3g} m" if value >= 0.1 or value == 0.0 else f"{1000.0 * value:.3g} mm"
+    """Return a distance in the unit that suits it; what only rounding left of it is 0."""
+    if unit == "m" and value < 0.1:
+        value, unit = 1000.0 * value, "mm"
+    if value < 5e-4:
+        return f"0 {unit}"
+    return f"{value:,.0f} {unit}" if value >= 1000.0 else f"{value:.3g} {unit}"
 
 
 def _sample(state: State) -> Caption:
     now, noun = state.now, state.subject.noun
     how = "you picked" if state.chosen else "drawn by chance" if state.params.sampler == "uniform" else "drawn by trust"
-    return Caption(f"Sample {now.iteration}: {COUNTS[len(now.sample)]} {noun}, {how}.{_in_truth(state)}")
+    proportion = _proportion(state) if now.iteration == 1 else ""
+    return Caption(f"Sample {now.iteration}: {COUNTS[len(now.sample)]} {noun}, {how}.{_in_truth(state)}{proportion}")
 
 
 def _in_truth(state: State) -> str:
-    known = state.subject.is_inlier
+    """Say how many rows of the sample are outliers in truth; the sentence can stand anywhere."""
+    known, size = state.subject.is_inlier, len(state.now.sample)
     if known is None:
         return ""
     wrong = int(np.count_nonzero(~known[state.now.sample]))
-    if wrong == 0:
-        return " In truth all of them are inliers."
-    return f" In truth {COUNTS[wrong]} of them {'is an outlier' if wrong == 1 else 'are outliers'}."
+    which = "none" if wrong == 0 else "all" if wrong == size else COUNTS[wrong]
+    are = "is an outlier" if wrong == 1 else "are outliers"
+    return f" Of its {COUNTS[size]} {state.subject.noun} {which} {are} in truth."
 
 
 def _degenerate(state: State) -> Caption:
@@ -53,8 +58,8 @@ def _degenerate(state: State) -> Caption:
 def _model(state: State) -> Caption:
     now, model, noun = state.now, state.subject.model, state.subject.noun
     return Caption(
-        f"Sample {now.iteration} gives a {model.name} through its {COUNTS[len(now.sample)]} {noun} (purple). Now every"
-        f" other one of the {len(state.subject.p):,} {noun} may vote."
+        f"Sample {now.iteration} gives a {model.name} through its {COUNTS[len(now.sample)]} {noun} (purple). Now all"
+        f" {len(state.subject.p):,} {noun} vote: yes from those within {_limit(state)} of it."
     )
 
 
@@ -73,14 +78,15 @@ def _best(state: State) -> Caption:
     now, best = state.now, state.now.best
     assert best is not None
     share = best.count / len(best.inliers)
-    text = f"New best after {now.iteration} samples: {_points(state, best)}, {100.0 * share:.0f} % of all. "
-    asked = f"{100.0 * state.params.confidence:g} % confidence"
+    text = f"New best after {_samples(now.iteration)}: {_points(state, best)}, {100.0 * share:.0f} % of all."
+    asked = f"{100.0 * state.params.confidence:g} % confidence that one of them is free of outliers"
     if now.needed >= state.params.most_samples:
-        text += f"{asked} would ask for more than the {state.params.most_samples:,} samples allowed"
+        text += f" If that is the share of inliers, the {_samples(state.params.most_samples)} allowed give no {asked}."
     else:
-        text += f"If that is the share of inliers, {now.needed:,.0f} samples give {asked}"
-    text += _error(state, ", ") + "."
-    return Caption(text, "good")
+        text += f" If that is the share of inliers, {_samples(round(now.needed))} give {asked}."
+    if np.isfinite(state.best_error):
+        text += f" RMS error to the truth {length(state.best_error, state.subject.model.unit)}."
+    return Caption(text)
 
 
 def _refit(state: State) -> Caption:
@@ -91,25 +97,50 @@ def _refit(state: State) -> Caption:
         text += f"least squares on the {before.count:,} inliers, then counted anew: {before.count:,} → {best.count:,}"
         if len(state.subject.p_true):
             old = np.sqrt(np.square(model.distances(before.estimate, state.subject.p_true)).mean())
-            text += f"; error to the truth {length(float(old), model.unit)} → {length(state.best_error, model.unit)}"
-    return Caption(text + ".", "good")
+            text += (
+                f"; RMS error to the truth {length(float(old), model.unit)} → {length(state.best_error, model.unit)}"
+            )
+    return Caption(text + ".")
 
 
 def _stop(state: State) -> Caption:
     now, unit = state.now, state.subject.model.unit
     assert now.stop is not None
-    text = f"Stop after {now.iteration:,} samples: {now.stop.message}. "
+    text = f"Stop after {_samples(now.iteration)}: {now.stop.message}. "
     if now.best is None:
-        return Caption(text + "A larger inlier distance or more samples may help.", "wrong")
-    text += f"{now.best.count:,} of {len(now.best.inliers):,} {state.subject.noun} are inliers"
-    text += f", {length(now.best.rms, unit)} off"
+        return Caption(text + _why_none(state), "wrong")
+    text += f"{now.best.count:,} of {len(now.best.inliers):,} {state.subject.noun} are within {_limit(state)}"
+    text += f" of the {state.subject.model.name}, RMS distance {length(now.best.rms, unit)}."
     if not np.isfinite(state.best_error):
-        return Caption(text + ".")
-    text += f". Error to the truth: RANSAC {length(state.best_error, unit)}"
-    text += "".join(f", {rival.name} {length(rival.error, unit)}" for rival in state.rivals)
+        return Caption(text + _proportion(state))
+    text += f" RMS error to the truth: RANSAC {length(state.best_error, unit)}"
+    text += "".join(f", {rival.name} {length(rival.error, unit)}" for rival in state.rivals) + "."
     if is_right(state):
-        return Caption(text + ".", "good")
-    return Caption(text + ". It looks settled, and it is wrong.", "wrong")
+        return Caption(text, "good")
+    return Caption(
+        text + (" It looks settled, and it is wrong." if now.stop is Stop.ENOUGH else " It is wrong."), "wrong"
+    )
+
+
+def _why_none(state: State) -> str:
+    model = state.subject.model
+    if state.degenerate == state.now.iteration:
+        return f"Every sample was degenerate ({model.degenerate_when}): such {state.subject.noun} determine no {model.name}."
+    return "A larger inlier distance or more samples may help."
+
+
+def _proportion(state: State) -> str:
+    """Warn where the inlier distance and the size of somebody's own rows hardly belong together."""
+    params, limit, unit = state.params, state.inlier_distance, state.subject.model.unit
+    size = float(np.linalg.norm(np.ptp(state.subject.p, axis=0)))
+    if (params.cloud is None and params.matches is None) or size == 0.0 or size / 5000.0 <= limit <= size / 10.0:
+        return ""
+    few = "few" if limit < size / 10.0 else "nearly all"
+    unsure = "Are the matches in pixels?" if unit == "px" else f"Is the cloud in {params.cloud_unit} (cloud_unit)?"
+    return (
+        f" Mind: the {state.subject.noun} extend over {length(size, unit)}, so {few} of them can be expected within"
+        f" {_limit(state)} of any {state.subject.model.name}. {unsure}"
+    )
 
 
 def is_right(state: State) -> bool:
@@ -131,7 +162,5 @@ def _score(state: State, score: float) -> str:
     return "" if state.params.score == "count" else f" ({state.params.score} score {score:,.0f})"
 
 
-def _error(state: State, joint: str) -> str:
-    if not np.isfinite(state.best_error):
-        return ""
-    return f"{joint}error to the truth {length(state.best_error, state.subject.model.unit)}"
+def _samples(count: int) -> str:
+    return f"{count:,} sample" if count == 1 else f"{count:,} samples"

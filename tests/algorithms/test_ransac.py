@@ -9,6 +9,7 @@ from workbench.algorithms.models import CIRCLE, FUNDAMENTAL, HOMOGRAPHY, LINE, M
 from workbench.algorithms.ransac import Fit, Judge, Stop, iterations_needed, polished, ransac, refit_rounds
 from workbench.algorithms.samplers import prosac_samples, uniform_samples
 from workbench.algorithms.scores import count_score, msac_score
+from workbench.data.files import read_cloud
 from workbench.data.robust import (
     circle_scene,
     line_scene,
@@ -18,6 +19,7 @@ from workbench.data.robust import (
     two_planes_scene,
     wire_scene,
 )
+from workbench.geometry.lines_planes import angle_between_planes
 from workbench.watch import listening
 
 SCENES = {
@@ -38,10 +40,13 @@ def found(state) -> Fit:
 
 
 def run_of(model, scene, seed=0, score=count_score, distance=None, **options):
+    return run_on(scene.p, model, seed, score, distance, **options)
+
+
+def run_on(p, model, seed=0, score=count_score, distance=None, **options):
     rng = np.random.default_rng(seed)
-    judge = Judge(scene.p, model, distance or WITHIN[model.unit], score)
-    samples = uniform_samples(len(scene.p), model.sample_size, rng)
-    return list(ransac(scene.p, model, samples, judge, **options))
+    judge = Judge(p, model, distance or WITHIN[model.unit], score)
+    return list(ransac(p, model, uniform_samples(len(p), model.sample_size, rng), judge, **options))
 
 
 @pytest.mark.parametrize(("ratio", "needed"), [(0.5, 35), (0.3, 169), (0.2, 574)])
@@ -255,3 +260,58 @@ def test_its_lines_can_be_watched():
             line = lines[now.line - first]
             assert f'"{state.phase}"' in line
     assert {CIRCLE.sample_size, SPHERE.sample_size, FUNDAMENTAL.sample_size} == {3, 4, 7}
+
+
+def test_far_from_the_origin_the_inliers_are_the_same():
+    scene = plane_scene(np.random.default_rng(0), count=500, outlier_ratio=0.5, sigma=0.01)
+    near, far = (found(run_on(scene.p + shift, PLANE)[-1]) for shift in (0.0, 1e6))
+    np.testing.assert_array_equal(far.inliers, near.inliers)
+
+
+def test_repeated_rows_are_survived_and_nothing_is_nothing():
+    scene = match_scene(np.random.default_rng(0), count=40, outlier_ratio=0.3, sigma=0.5, flat=True)
+    assert run_on(np.repeat(scene.p, 10, axis=0), HOMOGRAPHY)[-1].best is not None
+    for model in MODELS.values():
+        last = run_on(np.ones((20, model.columns)), model, max_iterations=20)[-1]
+        assert last.best is None
+        assert last.stop is Stop.NO_MODEL
+
+
+@pytest.mark.parametrize(("model", "bound"), [(HOMOGRAPHY, 1.25), (FUNDAMENTAL, 1.5)])
+def test_it_comes_close_to_a_fit_that_knows_the_inliers(model, bound):
+    """On 300 matches, a third of them wrong, noise 1 px, with the inlier distance that keeps 95 % of the others."""
+    ratios, flat = [], model is HOMOGRAPHY
+    for seed in range(6):
+        scene = match_scene(np.random.default_rng(seed), count=300, outlier_ratio=0.33, sigma=1.0, flat=flat)
+        last = run_of(model, scene, seed, msac_score, 3.46 if flat else 1.96)[-1]
+        oracle = model.refit(scene.p[scene.is_inlier], start=scene.truth)
+        errors = [rms_distance(model, estimate, scene.p_true) for estimate in (found(last).estimate, oracle)]
+        ratios.append(errors[0] / errors[1])
+    assert np.median(ratios) < bound
+
+
+def test_the_photographs_give_back_their_true_matches(shared_data):
+    """At least 95 % of the matches whose true Sampson error is below 1 px."""
+    pair = np.load(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
+    matches = np.concatenate([pair["x1"], pair["x2"]], axis=1).astype(float)
+    true = FUNDAMENTAL.distances(pair["F"], matches) < 1.0
+    for seed in range(3):
+        best = found(run_on(matches, FUNDAMENTAL, seed, msac_score, 1.0)[-1])
+        assert best.inliers[true].mean() >= 0.95
+        assert rms_distance(FUNDAMENTAL, best.estimate, matches[true]) < 0.35
+
+
+def test_floor_and_wall_of_a_real_room_meet_at_a_right_angle(shared_data):
+    """The wall is farther away and four times as noisy as the floor: it is refitted with an inlier distance of its own."""
+    p = read_cloud(shared_data / "ransac" / "capture0001.pcd")[::6]
+    rest, fits = p, []
+    while len(fits) < 4:
+        fits.append(found(run_on(rest, PLANE, 0, msac_score, 0.02)[-1]))
+        rest = rest[fits[-1].distances > 0.04]
+    assert fits[0].count / len(p) == pytest.approx(0.27, abs=0.02)
+    floor = max((fit.estimate for fit in fits), key=lambda plane: abs(plane[1]))  # the camera's y axis points down
+    wide = Judge(p, PLANE, 0.06, msac_score)
+    wall = polished(p, PLANE, wide(fits[0].estimate), wide).estimate
+    on_floor = PLANE.distances(floor, p)
+    assert 0.004 < np.sqrt(np.mean(on_floor[on_floor < 0.02] ** 2)) < 0.007
+    assert 89.0 <= np.degrees(angle_between_planes(wall, floor)) <= 90.5

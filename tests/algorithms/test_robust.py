@@ -4,10 +4,9 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.models import HOMOGRAPHY, LINE, PLANE, rms_distance
-from workbench.algorithms.robust import Settled, huber_fit, huber_loss, huber_weights, mixture_fit
-from workbench.algorithms.scores import inlier_distance_for
-from workbench.data.robust import line_scene, match_scene, plane_scene
+from workbench.algorithms.models import LINE, PLANE, rms_distance
+from workbench.algorithms.robust import Settled, huber_fit, huber_loss, huber_weights
+from workbench.data.robust import line_scene, plane_scene
 
 
 @settings(max_examples=50, deadline=None)
@@ -66,33 +65,3 @@ def test_one_round_only_says_so():
     scene = plane_scene(np.random.default_rng(0), count=200, outlier_ratio=0.5, sigma=0.01)
     *_, end = huber_fit(scene.p, PLANE, corner=0.02, max_iterations=1)
     assert end.stop is Settled.MAX_ITERATIONS
-
-
-def test_the_mixture_does_not_depend_on_the_inlier_distance():
-    errors = {0.7: [], 1.0: [], 2.0: []}
-    for seed in range(8):
-        scene = match_scene(np.random.default_rng(seed), count=400, outlier_ratio=0.5, sigma=1.0, flat=True)
-        oracle = HOMOGRAPHY.refit(scene.p[scene.is_inlier], start=scene.truth)
-        best = rms_distance(HOMOGRAPHY, oracle, scene.p_true)
-        for factor in errors:
-            distance = factor * inlier_distance_for(np.sqrt(2.0), directions=2)
-            found = mixture_fit(scene.p, HOMOGRAPHY, scene.truth, inlier_distance=distance, rounds=10)
-            errors[factor].append(rms_distance(HOMOGRAPHY, found, scene.p_true) / best)
-    for factor in errors:
-        assert np.median(errors[factor]) < 1.1
-
-
-def test_the_mixture_leaves_alone_what_it_cannot_better():
-    p = np.random.default_rng(0).normal(size=(20, 3)) + np.array([0.0, 0.0, 100.0])
-    floor = np.array([0.0, 0.0, 1.0, 0.0])
-    np.testing.assert_array_equal(mixture_fit(p, PLANE, floor, inlier_distance=0.1), floor)
-
-
-def test_a_second_plane_nearby_does_not_pull():
-    rng = np.random.default_rng(0)
-    floor = np.column_stack([rng.uniform(-1, 1, (300, 2)), 0.01 * rng.normal(size=300)])
-    shelf = np.column_stack([rng.uniform(-1, 1, (150, 2)), 0.15 + 0.01 * rng.normal(size=150)])
-    found = mixture_fit(
-        np.concatenate([floor, shelf]), PLANE, np.array([0.0, 0.0, 1.0, 0.0]), inlier_distance=0.03, rounds=10
-    )
-    assert PLANE.distances(found, np.zeros((1, 3)))[0] < 0.002

@@ -4,7 +4,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.scores import count_score, inlier_distance_for, mlesac_score, msac_score
+from workbench.algorithms.scores import count_score, mlesac_score, msac_score
 
 distances = st.lists(st.floats(0, 10), min_size=1, max_size=30).map(np.array)
 
@@ -55,9 +55,3 @@ def test_a_point_at_infinity_is_an_outlier():
     assert count_score(d, 1.0) == 1
     assert msac_score(d, 1.0) == 1
     assert np.isfinite(mlesac_score(d, 1.0, span=10.0))
-
-
-@pytest.mark.parametrize(("directions", "squared"), [(1, 3.84), (2, 5.99)])
-def test_the_inlier_distances_of_the_book(directions, squared):
-    """Hartley and Zisserman, table 4.2."""
-    assert inlier_distance_for(2.0, directions=directions) ** 2 == pytest.approx(4 * squared, abs=0.01)

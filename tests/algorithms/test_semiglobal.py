@@ -14,7 +14,6 @@ from workbench.algorithms.semiglobal import (
     path_costs,
     prepare,
     semi_global,
-    semi_global_total,
 )
 
 
@@ -34,6 +33,11 @@ def slowly(cost, direction, P1, P2):
     return L
 
 
+def total_of(cost: np.ndarray, P1: float, P2: float) -> np.ndarray:
+    """Return the sum over all eight directions."""
+    return list(semi_global(cost, P1, P2))[-1].total
+
+
 def volume(seed: int, shape=(5, 6, 7), dtype: type = np.uint8, top: int = 25) -> np.ndarray:
     return np.random.default_rng(seed).integers(0, top, shape).astype(dtype)
 
@@ -51,11 +55,10 @@ def test_a_path_follows_the_recursion(direction, dtype):
 @given(
     st.integers(0, 10**6), st.tuples(*[st.integers(1, 7)] * 3), st.integers(0, 10), st.integers(0, 60), st.booleans()
 )
-def test_all_at_once_is_the_sum_of_the_steps(seed, shape, P1, more, whole):
+def test_the_total_is_the_sum_of_the_steps(seed, shape, P1, more, whole):
     cost = volume(seed, shape, np.uint8 if whole else float)
     states = list(semi_global(cost, P1, P1 + more))
     assert [state.direction for state in states] == list(DIRECTIONS)
-    assert np.array_equal(semi_global_total(cost, P1, P1 + more), states[-1].total)
     assert np.array_equal(sum(state.path.astype(float) for state in states), states[-1].total)
 
 
@@ -71,16 +74,16 @@ def test_a_state_is_not_changed_by_the_next():
 @given(st.integers(0, 10**6))
 def test_without_penalties_nothing_is_smoothed(seed):
     cost = volume(seed)
-    assert np.array_equal(semi_global_total(cost, 0, 0), 8 * cost.astype(int))
+    assert np.array_equal(total_of(cost, 0, 0), 8 * cost.astype(int))
 
 
 @settings(max_examples=20, deadline=None)
 @given(st.integers(0, 10**6))
 def test_turning_the_picture_turns_the_answer(seed):
     cost = volume(seed)
-    total = semi_global_total(cost, 4, 11)
+    total = total_of(cost, 4, 11)
     for flip in (lambda a: a[:, ::-1], lambda a: a[:, :, ::-1], lambda a: a.transpose(0, 2, 1), lambda a: a[::-1]):
-        assert np.array_equal(semi_global_total(np.ascontiguousarray(flip(cost)), 4, 11), flip(total))
+        assert np.array_equal(total_of(np.ascontiguousarray(flip(cost)), 4, 11), flip(total))
 
 
 @pytest.mark.parametrize(
@@ -88,7 +91,7 @@ def test_turning_the_picture_turns_the_answer(seed):
 )
 def test_narrow_numbers_do_not_overflow(top, P2, dtype):
     cost = volume(1, (6, 9, 9), dtype, top)
-    assert np.array_equal(semi_global_total(cost, P2 // 3, P2), semi_global_total(cost.astype(float), P2 // 3, P2))
+    assert np.array_equal(total_of(cost, P2 // 3, P2), total_of(cost.astype(float), P2 // 3, P2))
     path, jumps = prepare(cost, P2 // 3, P2)
     for direction in DIRECTIONS:
         assert (path_costs(path, direction, jumps) <= cost.astype(float) + P2).all()
@@ -110,7 +113,7 @@ def test_smoothing_lowers_the_energy_and_the_error_of_a_noisy_step():
     truth = np.where(np.arange(40) < 20, 2, 7)[None].repeat(30, 0)
     cost = rng.integers(0, 20, (10, 30, 40)).astype(np.uint8)
     np.put_along_axis(cost, truth[None], rng.integers(0, 6, (1, 30, 40)).astype(np.uint8), 0)
-    raw, smooth = winner_takes_all(cost), winner_takes_all(semi_global_total(cost, 6, 20))
+    raw, smooth = winner_takes_all(cost), winner_takes_all(total_of(cost, 6, 20))
     assert energy(cost, smooth.astype(float), 6, 20) < 0.5 * energy(cost, raw.astype(float), 6, 20)
     assert (raw != truth).mean() > 0.3
     assert (smooth != truth).mean() < 0.02
@@ -131,12 +134,12 @@ def test_energy_is_what_it_says():
 @pytest.mark.parametrize(("P1", "P2"), [(5, 4), (-1, 3), (np.nan, 3)])
 def test_penalties_out_of_order_are_refused(P1, P2):
     with pytest.raises(ValueError, match="P1 <= P2"):
-        semi_global_total(volume(0), P1, P2)
+        total_of(volume(0), P1, P2)
 
 
 def test_infinite_cells_never_poison_a_path():
     cost = volume(3, dtype=float)
     cost[3:, :, :3] = np.inf
-    total = semi_global_total(cost, 2, 6)
+    total = total_of(cost, 2, 6)
     assert np.isfinite(total).all()
-    assert np.array_equal(total, semi_global_total(np.minimum(cost, cost[np.isfinite(cost)].max()), 2, 6))
+    assert np.array_equal(total, total_of(np.minimum(cost, cost[np.isfinite(cost)].max()), 2, 6))

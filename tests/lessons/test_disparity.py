@@ -1,5 +1,6 @@
 """The disparity lesson: what its page, presets and questions claim, in numbers; own pairs; slots that drive the run."""
 
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -22,6 +23,7 @@ from lessons.disparity.presets import (
     LAST,
     LAST_CHOICE,
     MOTORCYCLE,
+    ONE_PIXEL,
     PLANES,
     POSTS,
     STRIPES,
@@ -163,17 +165,26 @@ class TestPresets:
     def test_one_pixel(self):
         last = preset("one-pixel")[LAST]
         assert last.disparity_error == 1.0
-        for depth, moved in ((1.0, 0.012), (5.0, 0.30), (20.0, 4.8)):
+        for depth, moved in ((1.0, 0.0125), (5.0, 0.3125), (20.0, 5.0)):
             here = np.abs(last.setup.f * last.setup.pair.camera.baseline - truth_of(last) * depth) < 1e-6
             assert here.sum() > 1500
-            uncertain = depth * depth / (700 * 0.12)
-            assert uncertain == pytest.approx(moved, rel=0.02)
+            assert depth * depth / (640 * 0.125) == pytest.approx(moved)
         found = boards(last)
-        assert 1 - found[1] == pytest.approx(0.012, abs=0.002)
-        assert 5 - found[5] == pytest.approx(0.3, abs=0.04)
-        assert 3.0 < 20 - found[20] < 4.2  # less than the tangent says
-        for words in ("1 m by 1.2 cm", "5 m by 29.8 cm", "20 m by 4.76 m"):
-            assert words in timeline(lesson.preset("one-pixel").params)[LAST].caption.text
+        for d, depth in ((80, 1), (16, 5), (4, 20)):  # Z = f B / d with one pixel more
+            assert depth - found[depth] == pytest.approx(depth - 80 / (d + 1), rel=0.01)
+        fewer = boards(states(replace(ONE_PIXEL, disparity_error=-1.0))[LAST])
+        assert fewer[20] - 20 == pytest.approx(80 / 3 - 20, rel=0.02)
+        shown = timeline(lesson.preset("one-pixel").params)[LAST].caption.text
+        assert "1 m by 1.2 cm, 5 m by 31.2 cm, 20 m by 5.00 m. Measured: 1.2 cm, 29." in shown
+
+    def test_the_boards_are_found_where_they_stand_whatever_the_seed(self):
+        for seed in (1, 5, 9):
+            found = boards(states(replace(BOARDS, seed=seed))[DEPTH])
+            assert found == {
+                1: pytest.approx(1, rel=0.002),
+                5: pytest.approx(5, rel=0.002),
+                20: pytest.approx(20, rel=0.002),
+            }
 
     def test_sky(self):
         state = preset("sky")[DEPTH]
@@ -224,10 +235,18 @@ class TestQuestions:
         assert abs(self.answer("quarter") - 5 / 4) > 10  # what Z proportional to d would say
 
     def test_nearer(self):
+        question = next(question for question in lesson.questions if question.name == "nearer")
         answer = self.answer("nearer")
-        assert 3.0 < answer < 4.2
-        assert abs(answer - 20 * 0.012) > 1.0  # linear growth is no right answer
-        assert abs(answer - 4.76) > 1.0 or next(q for q in lesson.questions if q.name == "nearer").tolerance >= 1.0
+        assert answer == pytest.approx(20 - 80 / 5, abs=0.03)
+        for right in (20 - 80 / 5, 20**2 / 80):  # exactly, and by the formula of the page
+            assert abs(right - answer) <= question.tolerance
+        for wrong in (20 * 0.0125, 20.0, 80 / 3 - 20, 1.0, 16.0):  # linear growth, the wrong side, other numbers
+            assert abs(wrong - answer) > question.tolerance
+        why = question.why(states(question.params))
+        assert "80 / 5 = 16 m: it came 4.0" in why
+        assert "which says 5 m" in why
+        assert timeline(question.params)[question.step or 0].caption.text.endswith("of the truth.")
+        assert "Measured: " in timeline(question.params)[question.step or 0].caption.text
 
     def test_averages(self):
         assert self.answer("averages") == 0
@@ -254,7 +273,7 @@ class TestPage:
         assert np.all(np.diff(lowest) <= 0)
 
     def test_parabolas_pull_to_whole_pixels(self):
-        found = boards(states(BOARDS)[DEPTH])
+        found = boards(states(replace(BOARDS, focal_length=700.0, baseline=0.12))[DEPTH])
         assert found[20] > 20.2
         assert 4.0 < 84 / found[20] < 4.15
         errors = np.abs([84 / found[20] - 4.2, 84 / found[5] - 16.8])
@@ -395,10 +414,64 @@ class TestOwnPairs:
 
     def test_a_pair_shrinks_and_gives_the_same_depths(self, files):
         left, right = files
-        own = Params(left=left, right=right, shrink=2, focal_length=300.0, baseline=0.1)
+        own = Params(left=left, right=right, shrink=2, own_focal_length=300.0, own_baseline=0.1)
         found, made = states(own), states(HOME)
         assert np.array_equal(found[LAST_CHOICE].disparity, made[LAST_CHOICE].disparity)
         assert np.allclose(found[DEPTH].depth, made[DEPTH].depth, equal_nan=True)
+
+    @pytest.mark.parametrize("known", [{}, {"own_focal_length": 300.0}, {"own_baseline": 0.1}])
+    def test_without_its_cameras_an_own_pair_has_no_metres(self, files, known):
+        own = timeline(Params(left=files[0], right=files[1], shrink=2, **known))
+        asked = "give own_focal_length and own_baseline for metres"
+        assert asked in own[DEPTH].caption.text
+        assert "of itself, whatever the cameras: at " in own[LAST].caption.text
+        for step in (own[10], own[DEPTH], own[LAST]):
+            assert step.caption.tone == "info"
+            for path, primitive in step.scene.items():
+                said = [getattr(primitive, name, "") for name in ("text", "unit", "x_label", "y_label")]
+                said += [getattr(getattr(primitive, name, None), "unit", "") for name in ("color", "image")]
+                said += [cell for row in getattr(primitive, "rows", ()) for cell in row]
+                assert not [words for words in said if re.search(r"(^|\d )m\b", str(words))], (path, said)
+            assert not {"law", "error/predicted"} & step.scene.keys()
+        cloud = own[LAST].scene["cloud"]
+        assert isinstance(cloud, Points)
+        assert isinstance(cloud.color, Field)
+        assert (cloud.color.unit, cloud.name) == ("%", "depth cloud by its error; its size is made up")
+        metric = states(Params(left=files[0], right=files[1], shrink=2, own_focal_length=300.0, own_baseline=0.1))
+        assert np.array_equal(own[DEPTH].state.disparity, metric[DEPTH].disparity, equal_nan=True)
+
+    @pytest.mark.parametrize("known", [{}, {"own_focal_length": 300.0, "own_baseline": 0.1}])
+    def test_exchanged_pictures_are_noticed(self, files, known):
+        left, right = files
+        for pair, noticed in (((left, right), False), ((right, left), True)):
+            own = timeline(Params(left=pair[0], right=pair[1], shrink=2, **known))
+            assert ("is the left one the right one?" in own[CHECKED].caption.text) is noticed
+
+    def test_real_pairs_are_never_taken_for_exchanged_but_when_they_are(self, shared_data):
+        cones = [shared_data / "stereo" / "cones" / name for name in ("im2.png", "im6.png")]
+        for shrink in (3, 6):
+            for pair, noticed in ((cones, False), (cones[::-1], True)):
+                assert setup_of(Params(left=pair[0], right=pair[1], shrink=shrink)).seem_exchanged is noticed
+        assert not setup_of(MOTORCYCLE).seem_exchanged
+        assert setup_of(replace(MOTORCYCLE, mistake="pictures exchanged")).seem_exchanged
+
+    def test_awkward_files(self, files, tmp_path):
+        left, _ = files
+        picture = Image.open(left)
+        picture.convert("L").save(tmp_path / "grey.png")
+        picture.resize((300, 240)).save(tmp_path / "narrow.png")
+        Image.fromarray(np.zeros((240, 320), np.uint16)).save(tmp_path / "deep.png")
+        Image.fromarray(np.zeros((4100, 4000), np.uint8)).save(tmp_path / "large.png")
+        assert timeline(Params(left=left, right=tmp_path / "grey.png", shrink=4)).complete()
+        for name, words in (
+            ("narrow.png", "320 x 240 pixels, narrow.png 300 x 240"),
+            ("deep.png", "deep.png: more than 8 bits a pixel; save it with 8 bits"),
+            ("large.png", "4000 x 4100 pixels; a pair may have at most 16,000,000 each"),
+        ):
+            with pytest.raises(InputError) as refused:
+                setup_of(Params(left=left, right=tmp_path / name))
+            assert words in str(refused.value)
+            assert "\n" not in str(refused.value)
 
     def test_refusals(self, files, tmp_path):
         left, right = files

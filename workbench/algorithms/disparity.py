@@ -1,8 +1,8 @@
-"""The whole way from two pictures to disparities and depths: in steps for a screen, or at once.
+"""The whole way from two pictures to disparities and depths, in steps.
 
-`match` stops after every disparity compared and every direction summed; `disparity_map` and `block_matching` run the same
-pieces without stops. `reconstruct` turns a map into depths. Maps are (h, w), pixels, for the left picture: d = x_left -
-x_right. NaN is unknown; 0 is a disparity like any other, that of something infinitely far.
+`match` stops after every disparity compared and every direction summed; `reconstruct` turns a map into depths. Maps are
+(h, w), pixels, for the left picture: d = x_left - x_right. NaN is unknown; 0 is a disparity like any other, that of
+something infinitely far.
 
 Reference: Scharstein and Szeliski, A taxonomy and evaluation of dense two-frame stereo correspondence algorithms, IJCV 2002,
 section 3; Hirschmueller, PAMI 2008, section 2.
@@ -16,17 +16,16 @@ from typing import TypeAlias
 import numpy as np
 from jaxtyping import Bool, Float, Real
 
-from workbench.algorithms.cost_volume import CENSUS_BITS, CostVolume, census_cost_volume, sad_cost_volume
+from workbench.algorithms.cost_volume import CostVolume, sad_cost_volume
 from workbench.algorithms.disparity_map import (
     agree,
     fill,
     median3,
-    right_winner,
     seen_from_right,
     sub_pixel,
     winner_takes_all,
 )
-from workbench.algorithms.semiglobal import semi_global, semi_global_total
+from workbench.algorithms.semiglobal import semi_global
 from workbench.geometry.stereo import depth_from_disparity, depth_uncertainty
 from workbench.watch import watched
 
@@ -38,9 +37,6 @@ Penalties: TypeAlias = Callable[[np.ndarray], tuple[float, float]]
 
 DepthOf: TypeAlias = Callable[[np.ndarray, float, float], np.ndarray]
 """depth_of(disparity, f in pixels, baseline in metres) -> depth in metres."""
-
-P1, P2 = CENSUS_BITS // 3, CENSUS_BITS
-"""Penalties for census costs of single pixels: a jump costs as much as the worst match, a step of one a third of it."""
 
 
 class Stage(Enum):
@@ -134,35 +130,6 @@ def match(
 
     smooth = median3(fill(refined, matched))
     yield Matching(Stage.SMOOTH, cost, np.where(matched, smooth, np.nan), matched, summed, jumps)
-
-
-def disparity_map(
-    left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int
-) -> tuple[Float[np.ndarray, "h w"], Bool[np.ndarray, "h w"]]:
-    """Return the disparity of every left pixel by semi-global matching of census codes, and which pixels were matched.
-
-    Args:
-        left: Grey picture of the left camera.
-        right: Grey picture of the right one, of the same size; rows correspond.
-        max_disparity: Largest disparity that is tried, pixels.
-
-    Returns:
-        The map, pixels, in which unmatched (mostly occluded) pixels continue the background; and the mask of the others.
-    """
-    return _finish(semi_global_total(census_cost_volume(left, right, max_disparity), P1, P2))
-
-
-def block_matching(
-    left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int, window: int
-) -> tuple[Float[np.ndarray, "h w"], Bool[np.ndarray, "h w"]]:
-    """Return the disparity of every left pixel by the lowest sum of absolute differences, as `disparity_map` does."""
-    return _finish(sad_cost_volume(left, right, max_disparity, window))
-
-
-def _finish(cost: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    winner = winner_takes_all(cost)
-    matched = agree(winner, right_winner(cost))
-    return median3(fill(sub_pixel(cost, winner), matched)), matched
 
 
 @dataclass(frozen=True, eq=False)

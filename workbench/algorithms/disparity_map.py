@@ -12,26 +12,13 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
 
     Reference: Scharstein and Szeliski, IJCV 2002, section 3.3.
     """
-    return _winner(cost, 0)
-
-
-def right_winner(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
-    """Return what `winner_takes_all` chooses for the right picture, `seen_from_right`, without making that volume."""
-    return _winner(cost, 1)
-
-
-def _winner(cost: np.ndarray, step: int) -> np.ndarray:
-    """Return the winner at every pixel x of cost[d, y, x + step d]."""
-    w = cost.shape[2]
     lowest = cost[0].copy()
     number = np.uint8 if len(cost) <= 2**8 else np.uint16
     winner = np.zeros(lowest.shape, number)
     for d in range(1, len(cost)):
-        stop = w - step * d
-        candidate, best, chosen = cost[d, :, step * d :], lowest[:, :stop], winner[:, :stop]
-        better = (candidate < best).view(np.uint8)
-        np.maximum(chosen, better * number(d), out=chosen)  # d grows, so the latest winner is the largest
-        np.minimum(best, candidate, out=best)
+        better = (cost[d] < lowest).view(np.uint8)
+        np.maximum(winner, better * number(d), out=winner)  # d grows, so the latest winner is the largest
+        np.minimum(lowest, cost[d], out=lowest)
     return winner.astype(np.int16 if number is np.uint8 else np.int64)
 
 

@@ -36,7 +36,6 @@ class Model:
         sample_size: How many rows determine it.
         fewest: How many rows a refit needs.
         columns: How many numbers a row has.
-        directions: In how many directions a row can leave the model (for `inlier_distance_for`).
         unit: Of its distances.
         degenerate_when: In words, when a sample determines no model.
         solve: From samples (k, sample_size, columns) the estimates through them, in one list: none for a degenerate
@@ -50,7 +49,6 @@ class Model:
     sample_size: int
     fewest: int
     columns: int
-    directions: int
     unit: str
     degenerate_when: str
     solve: Callable[[np.ndarray], np.ndarray]
@@ -125,27 +123,27 @@ def _refit_fundamental(
 
 
 LINE = Model(
-    "line", 2, 2, 2, 1, "m", "the two points coincide",
+    "line", 2, 2, 2, "m", "the two points coincide",
     lambda samples: finite(line_from_points(samples)), _hyperplane_distances, _refit_hyperplane,
 )  # fmt: skip
 PLANE = Model(
-    "plane", 3, 3, 3, 1, "m", "the three points lie on one line",
+    "plane", 3, 3, 3, "m", "the three points lie on one line",
     lambda samples: finite(plane_from_points(samples)), _hyperplane_distances, _refit_hyperplane,
 )  # fmt: skip
 CIRCLE = Model(
-    "circle", 3, 3, 2, 1, "m", "the three points lie on one line",
+    "circle", 3, 3, 2, "m", "the three points lie on one line",
     lambda samples: finite(circle_from_points(samples)), _sphere_distances, fit_sphere,
 )  # fmt: skip
 SPHERE = Model(
-    "sphere", 4, 4, 3, 1, "m", "the four points lie in one plane",
+    "sphere", 4, 4, 3, "m", "the four points lie in one plane",
     lambda samples: finite(sphere_from_points(samples)), _sphere_distances, fit_sphere,
 )  # fmt: skip
 HOMOGRAPHY = Model(
-    "homography", 4, 4, 4, 2, "px", "no camera can see both sets of four pixels as one plane",
+    "homography", 4, 4, 4, "px", "no camera can see both sets of four pixels as one plane",
     _solve_homography, _transfer_distances, _refit_homography,
 )  # fmt: skip
 FUNDAMENTAL = Model(
-    "fundamental matrix", 7, 8, 4, 1, "px", "no two cameras can see the seven matches in front of them",
+    "fundamental matrix", 7, 8, 4, "px", "no two cameras can see the seven matches in front of them",
     _solve_fundamental, _sampson_distances, _refit_fundamental,
 )  # fmt: skip
 MODELS = {model.name: model for model in (LINE, PLANE, CIRCLE, SPHERE, HOMOGRAPHY, FUNDAMENTAL)}

@@ -191,11 +191,9 @@ def ransac(
 
 
 def refit_rounds(
-    p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit], changing: float = 0.0
+    p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit]
 ) -> Iterator[Fit]:
     """Yield fits, each the least-squares fit to the inliers of the one before, until the inliers stay the same, ten at most.
-
-    `changing` is the share of the inliers that may still come or go at the end.
 
     No round lowers the MSAC score: the fit lowers the squared distances of the old inliers, and the new inliers are the
     choice that lowers the truncated sum further.
@@ -209,7 +207,7 @@ def refit_rounds(
         if not np.isfinite(again.estimate).all():
             return
         yield again
-        if np.count_nonzero(again.inliers != fit.inliers) <= changing * fit.count:
+        if (again.inliers == fit.inliers).all():
             return
         fit = again
 

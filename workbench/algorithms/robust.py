@@ -1,4 +1,4 @@
-"""Fits that use all points at once, each trusted by its distance: Huber's, and a mixture of inliers and outliers."""
+"""Huber's fit: it uses all points at once, and trusts each by its distance."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -92,52 +92,3 @@ def huber_fit(
         yield Reweighted(iteration, estimate, distances, weights, float(huber_loss(distances, corner).sum()), stop)
         if stop:
             return
-
-
-def mixture_fit(
-    p: Float[np.ndarray, "n d"],
-    model: Model,
-    estimate: Float[np.ndarray, "..."],
-    *,
-    inlier_distance: float,
-    rounds: int = 3,
-    tolerance: float = 0.05,
-) -> Float[np.ndarray, "..."]:
-    """Return the estimate, near a good one, that explains the rows around it best as inliers among evenly spread outliers.
-
-    The noise of the inliers and their share are found along with it (expectation maximisation), so the answer hardly
-    depends on the inlier distance. Only rows within ten inlier distances of the first estimate take part.
-
-    Args:
-        p: The rows: points, or matches.
-        model: What to fit.
-        estimate: A good estimate, such as RANSAC's.
-        inlier_distance: The noise's standard deviation is taken to be below it.
-        rounds: Reweighted fits at most.
-        tolerance: Stop when no distance of an inlier changes by more than this share of the noise.
-
-    Reference: Torr and Zisserman, MLESAC, 2000, section 5 (the mixture); Dempster, Laird and Rubin 1977 (the iteration).
-    """
-    window = 10.0 * inlier_distance
-    distances = model.distances(estimate, p)
-    taken = distances <= window
-    near, distances = np.compress(taken, p, axis=0), distances[taken]
-    if len(near) < model.fewest:
-        return estimate
-    # The volume in which an outlier near the model may lie: a strip to both sides, or a disc.
-    outlier_density = 1.0 / (2.0 * window if model.directions == 1 else np.pi * window**2)
-    sigma, share = 0.5 * inlier_distance, 0.5
-    for _ in range(rounds):
-        peak = share / (np.sqrt(2.0 * np.pi) * sigma) ** model.directions
-        inlier_density = peak * np.exp(-0.5 * (distances / sigma) ** 2)
-        weights = inlier_density / (inlier_density + (1.0 - share) * outlier_density)  # expectation
-        share = weights.mean()
-        sigma = np.sqrt(weights @ distances**2 / (model.directions * weights.sum()))
-        sigma = min(max(sigma, 1e-6 * inlier_distance), inlier_distance)
-        refit = model.refit(near, weights, estimate)  # maximisation
-        if not np.isfinite(refit).all():
-            break
-        before, estimate, distances = distances, refit, model.distances(refit, near)
-        if (weights * np.abs(distances - before)).max() <= tolerance * sigma:
-            break
-    return estimate

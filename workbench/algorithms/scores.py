@@ -6,7 +6,6 @@ Each score takes the distances, never negative, of n points to one candidate, or
 from collections.abc import Callable
 
 import numpy as np
-import scipy
 from jaxtyping import Float, Shaped
 
 from workbench.geometry.lines_planes import hyperplane_distances
@@ -51,20 +50,6 @@ def mlesac_score(
     for _ in range(steps):
         share = (share * ratio / (share * ratio + 1.0 - share)).mean(axis=-1, keepdims=True)
     return np.asarray(np.log(share * ratio + 1.0 - share).sum(axis=-1))
-
-
-def inlier_distance_for(sigma: float, *, directions: int = 1, kept: float = 0.95) -> float:
-    """Return the inlier distance that keeps a share of the inliers whose coordinates have normal noise.
-
-    Args:
-        sigma: Standard deviation of the noise of one coordinate, in the unit of the distances.
-        directions: In how many directions a point can leave the model: 1 for a line in the plane, a plane, a sphere,
-            an epipolar line; 2 for a point that must meet a point.
-        kept: The share of the inliers that shall stay.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.7.1 and table 4.2.
-    """
-    return sigma * float(np.sqrt(scipy.stats.chi2.ppf(kept, directions)))
 
 
 def count_inliers(plane: Float[np.ndarray, "4"], p: Float[np.ndarray, "n 3"], inlier_distance: float) -> int:

@@ -20,10 +20,6 @@ DIRECTIONS = ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 
 """The eight steps (rows down, columns right) from one pixel of a path to the next."""
 
 
-BAND_CELLS = 2**15
-"""Costs per line of a band: a few arrays of so many bytes stay in a core's cache."""
-
-
 @dataclass(frozen=True, eq=False)
 class PathSum:
     """The path costs of all directions so far.
@@ -57,30 +53,6 @@ def semi_global(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Iterat
         path = path_costs(cost, direction, jumps)  # L_r, eq. 13
         total = total + path  # S = sum over r of L_r, eq. 14
         yield PathSum(direction, path, total)
-
-
-def semi_global_total(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Real[np.ndarray, "d h w"]:
-    """Return the sum over all eight directions at once: what `semi_global` ends with, several times sooner.
-
-    The three directions that go down share one pass over the picture, and so do those that go up. Right and left run over
-    a turned copy, in which they are down and up: a band of rows at a time, small enough for the cache.
-    """
-    cost, jumps = prepare(cost, P1, P2)
-    total = np.zeros(cost.shape, jumps.type_of_sum(len(DIRECTIONS)))
-    for way in (1, -1):
-        sweep(by_row(cost)[::way], by_row(total)[::way], (0, 1, -1), jumps)
-    disparities, h, w = cost.shape
-    band = min(h, max(BAND_CELLS // disparities, 16))
-    turned = np.empty((disparities, w, band), cost.dtype)
-    sideways = np.empty(turned.shape, jumps.type_of_sum(2))
-    for top in range(0, h, band):
-        rows, some = slice(top, top + band), slice(0, min(band, h - top))
-        turned[:, :, some] = cost[:, rows].transpose(0, 2, 1)
-        sideways[:] = 0
-        for way in (1, -1):
-            sweep(by_row(turned[:, :, some])[::way], by_row(sideways[:, :, some])[::way], (0,), jumps)
-        total[:, rows] += sideways[:, :, some].transpose(0, 2, 1)
-    return total
 
 
 @dataclass(frozen=True)
@@ -118,21 +90,19 @@ def path_costs(cost: Real[np.ndarray, "d h w"], direction: tuple[int, int], jump
     down, right = direction
     path = np.zeros(cost.shape, jumps.type_of_sum(1))
     if down:
-        sweep(by_row(cost)[::down], by_row(path)[::down], (right,), jumps)
+        sweep(by_row(cost)[::down], by_row(path)[::down], right, jumps)
     else:
-        sweep(by_column(cost)[::right], by_column(path)[::right], (0,), jumps)
+        sweep(by_column(cost)[::right], by_column(path)[::right], 0, jumps)
     return path
 
 
-def sweep(
-    cost: Real[np.ndarray, "n d w"], total: Real[np.ndarray, "n d w"], slopes: tuple[int, ...], jumps: Jumps
-) -> None:
-    """Walk over the lines of a picture in order, and add to `total` the path costs of one path per slope.
+def sweep(cost: Real[np.ndarray, "n d w"], path: Real[np.ndarray, "n d w"], slope: int, jumps: Jumps) -> None:
+    """Walk over the lines of a picture in order, and write the path costs.
 
     Args:
         cost: C(p, d), line by line.
-        total: S(p, d), added to in place.
-        slopes: How many columns right each path goes per line: 0, 1 or -1.
+        path: L_r(p, d), written in place.
+        slope: How many columns right the path goes per line: 0, 1 or -1.
         jumps: The penalties.
 
     Note:
@@ -143,34 +113,26 @@ def sweep(
     n, disparities, w = cost.shape
     row = w + 1
     start, stop = row + 1, row + 1 + disparities * row
-    dtype = jumps.type_of_sum(len(slopes))
-    P1 = dtype.type(jumps.P1)
-    limit = np.full((disparities, row), jumps.P2, dtype)
+    P1 = path.dtype.type(jumps.P1)
+    limit = np.full((disparities, row), jumps.P2, path.dtype)
     limit[:, w] = 0  # nothing is carried from beyond the border: a path begins there
-    carried = np.zeros((len(slopes), stop + row + 1), dtype)
-    carried[:, :row], carried[:, stop:] = jumps.P2, jumps.P2
+    carried = np.zeros(stop + row + 1, path.dtype)
+    carried[:row], carried[stop:] = jumps.P2, jumps.P2
 
-    def seen(before: np.ndarray, shift: int) -> np.ndarray:
-        return before[start + shift : stop + shift].reshape(disparities, row)
+    def seen(shift: int) -> np.ndarray:
+        return carried[start + shift : stop + shift].reshape(disparities, row)
 
-    views = [
-        (seen(before, -slope), seen(before, -slope - row), seen(before, -slope + row), seen(before, 0))
-        for slope, before in zip(slopes, carried, strict=True)
-    ]
-    here = np.zeros((disparities, row), dtype)
-    paths = [np.zeros((disparities, row), dtype) for _ in slopes]
+    same, lower, higher, after = seen(-slope), seen(-slope - row), seen(-slope + row), seen(0)
+    here, L = np.zeros((disparities, row), path.dtype), np.zeros((disparities, row), path.dtype)
     for line in range(n):
         here[:, :w] = cost[line]
-        for path, (same, lower, higher, after) in zip(paths, views, strict=True):
-            np.minimum(lower, higher, out=path)
-            path += P1
-            np.minimum(path, same, out=path)
-            path += here  # L_r(p, d), eq. 13
-            np.subtract(path, np.minimum.reduce(path, axis=0), out=after)
-            np.minimum(after, limit, out=after)
-        for path in paths[1:]:
-            paths[0] += path
-        total[line] += paths[0][:, :w]
+        np.minimum(lower, higher, out=L)
+        L += P1
+        np.minimum(L, same, out=L)
+        L += here  # L_r(p, d), eq. 13
+        np.subtract(L, np.minimum.reduce(L, axis=0), out=after)
+        np.minimum(after, limit, out=after)
+        path[line] = L[:, :w]
 
 
 def energy(cost: Real[np.ndarray, "d h w"], disparity: Real[np.ndarray, "h w"], P1: float, P2: float) -> float:

@@ -42,7 +42,7 @@ def read_matches(path: Path, fewest: int = 4) -> Matches:
     """
     path = Path(path)
     if not path.is_file():
-        raise InputError(f"{path}: no such file")
+        raise InputError(f"{path}: {'a folder, not a file' if path.is_dir() else 'no such file'}")
     if path.stat().st_size > MOST_BYTES:
         raise InputError(f"{path.name}: over {MOST_BYTES // 10**6} MB; that is too large for matches")
     found = _from_arrays(path) if path.suffix.lower() == ".npz" else _from_text(path)

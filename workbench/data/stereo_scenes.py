@@ -170,7 +170,7 @@ def repeated(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
 
 
 def boards(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
-    """Return boards at 1, 5 and 20 m before an infinitely far sky, none of which hides another; made for f = 700 px."""
+    """Return boards at 1, 5 and 20 m before an infinitely far sky, none of which hides another; made for f = 640 px."""
     flat = [
         Board((x * z, y * z, z), (side * z, 0, 0), (0, 0.06 * z, 0), speckle(rng, 2.5 * pixel * z), color)
         for z, x, y, side, color in (
@@ -188,7 +188,7 @@ SCENES: Mapping[str, Callable[[np.random.Generator, float], tuple[Thing, ...]]] 
     "posts": posts,
     "plain wall": plain_wall,
     "repeated pattern": repeated,
-    "boards at 1, 5, 20 m": boards,
+    "boards at three depths": boards,
 }
 """Scenes by name; each is made from `rng` and the width of a pixel at 1 m, so that its texture is as fine as the picture."""
 

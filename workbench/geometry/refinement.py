@@ -8,6 +8,7 @@ import numpy as np
 Unknown = TypeVar("Unknown")
 
 
+@np.errstate(over="ignore", invalid="ignore")  # a step that is not finite has failed, quietly
 def levenberg_marquardt(
     linearise: Callable[[Unknown], tuple[np.ndarray, np.ndarray]],
     retract: Callable[[Unknown, np.ndarray], Unknown],

@@ -1,0 +1,484 @@
+"""What the RANSAC lesson says of its runs, decided from the rows and the truth that a state carries."""
+
+import dataclasses
+import functools
+import itertools
+import re
+
+import numpy as np
+
+from lessons.ransac.lesson import lesson
+from lessons.ransac.words import caption_of as caption
+from tests.verdicts import Claim, Run
+
+__all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
+
+NUMBERS = {"no": 0, "none": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7}
+
+
+def apart(model: str, estimate: np.ndarray, p: np.ndarray) -> np.ndarray:
+    """Return the distances of rows to an estimate, written here once more."""
+    if model in ("line", "plane"):
+        return np.abs(p @ estimate[:-1] + estimate[-1]) / np.linalg.norm(estimate[:-1])
+    if model in ("circle", "sphere"):
+        return np.abs(np.linalg.norm(p - estimate[:-1], axis=1) - estimate[-1])
+    first, second = (np.column_stack([uv, np.ones(len(p))]) for uv in (p[:, :2], p[:, 2:]))
+    if model == "homography":
+        moved = first @ estimate.T
+        return np.linalg.norm(moved[:, :2] / moved[:, 2:] - p[:, 2:], axis=1)
+    lines, back = first @ estimate.T, second @ estimate
+    slope = np.square(lines[:, :2]).sum(1) + np.square(back[:, :2]).sum(1)
+    return np.abs((second * lines).sum(1)) / np.sqrt(slope)
+
+
+def rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.square(values).mean()))
+
+
+def error(state, estimate: np.ndarray) -> float:
+    """Return how far the true rows, free of noise, are from an estimate: it holds all of its parameters."""
+    return rms(apart(state.subject.model.name, estimate, state.subject.p_true))
+
+
+def is_right(state) -> bool:
+    """Nearer to the truth than the noise lets single rows be."""
+    if state.now.best is None:
+        return False
+    sigma = state.params.noise_pixels if state.subject.model.unit == "px" else state.params.noise
+    return error(state, state.now.best.estimate) < sigma
+
+
+def right(run: Run, k: int) -> bool | None:
+    state = run.states[k]
+    if state.now.phase == "stop":
+        return is_right(state)
+    if state.now.phase == "degenerate" and state.subject.model.name != "fundamental matrix":
+        return determines(state.subject.p[state.now.sample])
+    return None
+
+
+def determines(sample: np.ndarray) -> bool:
+    """Whether three points make a plane, or four matches a homography that some camera can see."""
+    if sample.shape[1] == 3:
+        return bool(np.linalg.matrix_rank(np.diff(sample, axis=0), tol=1e-9) > 1)
+    corners = [sample[list(three)] for three in itertools.combinations(range(4), 3)]
+    turned = [side(three[:, :2]) * side(three[:, 2:]) for three in corners]
+    return all(turn > 0 for turn in turned) or all(turn < 0 for turn in turned)
+
+
+def side(uv: np.ndarray) -> float:
+    """Return on which side of two pixels the third is: as signed area."""
+    (a, b), (c, d) = uv[1] - uv[0], uv[2] - uv[0]
+    return float(a * d - b * c)
+
+
+def same(said: str, unit: str, value: float) -> bool:
+    """Whether a length as it is written is this one, to the three digits that are written."""
+    metres = float(said.replace(",", "")) * (0.001 if unit == "mm" else 1.0)
+    return bool(np.isclose(metres, value, rtol=6e-3, atol=1e-6))
+
+
+def outliers_of(run: Run, k: int, found: re.Match[str]) -> bool:
+    state = run.states[k]
+    wrong = int(np.count_nonzero(~state.subject.is_inlier[state.now.sample]))
+    said = len(state.now.sample) if found["n"] == "all" else NUMBERS[found["n"]]
+    return NUMBERS[found["size"]] == len(state.now.sample) and said == wrong
+
+
+def near(run: Run, k: int, found: re.Match[str]) -> bool:
+    """So many rows lie within the limit of the estimate in question."""
+    state = run.states[k]
+    estimate = state.now.estimate if state.now.phase == "inliers" else state.now.best.estimate
+    limit = state.params.inlier_pixels if state.subject.model.unit == "px" else state.params.inlier_distance
+    count = np.count_nonzero(apart(state.subject.model.name, estimate, state.subject.p) <= limit)
+    return same(found["limit"], found["unit"], limit) and int(found["n"].replace(",", "")) == count
+
+
+def stays(run: Run, k: int, found: re.Match[str]) -> bool:
+    now = run.states[k].now
+    best = np.count_nonzero(now.best.inliers)
+    fewer = now.trial.score <= now.best.score
+    after = run.states[k + 1].now
+    replaced = after.phase == "best" and after.iteration == now.iteration
+    return fewer and best == int(found["n"].replace(",", "")) and not replaced
+
+
+def is_new_best(run: Run, k: int, found: re.Match[str]) -> bool:
+    """It beats every best before it, and so many samples were drawn."""
+    now = run.states[k].now
+    before = [state.now.best.score for state in run.states[:k] if state.now.best is not None]
+    share = 100.0 * np.count_nonzero(now.best.inliers) / len(now.best.inliers)
+    return (
+        all(now.best.score > score for score in before)
+        and int(found["after"].replace(",", "")) == now.iteration
+        and int(found["n"].replace(",", "")) == np.count_nonzero(now.best.inliers)
+        and abs(float(found["share"]) - share) <= 0.5 + 1e-9
+    )
+
+
+def enough_for(share: float, size: int, confidence: float) -> float:
+    """Return the fewest draws of which one is clean with this confidence, by doubling and halving."""
+    clean, low, high = share**size, 0, 1
+    while 1.0 - (1.0 - clean) ** high < confidence:
+        low, high = high, 2 * high
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if 1.0 - (1.0 - clean) ** middle >= confidence else (middle, high)
+    return high
+
+
+def draws_needed(run: Run, k: int, found: re.Match[str]) -> bool:
+    state = run.states[k]
+    share = np.count_nonzero(state.now.best.inliers) / len(state.subject.p)
+    confidence, said = float(found["p"]) / 100.0, int(found["n"].replace(",", ""))
+    assert confidence == state.params.confidence
+    if found["no"]:
+        clean = share**state.subject.model.sample_size
+        return said == state.params.most_samples and 1.0 - (1.0 - clean) ** (said - 1) < confidence
+    return said == enough_for(share, state.subject.model.sample_size, confidence)
+
+
+def error_is(run: Run, k: int, found: re.Match[str]) -> bool:
+    state = run.states[k]
+    return same(found["n"], found["unit"], error(state, state.now.best.estimate))
+
+
+def refit(run: Run, k: int, found: re.Match[str]) -> bool:
+    """So many inliers before and after, and the errors to the truth of both."""
+    state, before = run.states[k], run.states[k - 1]
+    counts = [np.count_nonzero(each.now.best.inliers) for each in (before, state)]
+    errors = [error(state, each.now.best.estimate) for each in (before, state)]
+    said = [int(found[name].replace(",", "")) for name in ("n", "old", "new")]
+    return (
+        said == [counts[0], *counts]
+        and same(found["was"], found["unit"], errors[0])
+        and same(found["is"], found["u"], errors[1])
+    )
+
+
+def stopped(run: Run, k: int, found: re.Match[str]) -> bool:
+    state = run.states[k]
+    share = np.count_nonzero(state.now.best.inliers) / len(state.subject.p)
+    bests = [each.now.best for each in run.states[:k] if each.now.phase in ("sample", "inliers", "best")]
+    share = np.count_nonzero([best for best in bests if best is not None][-1].inliers) / len(state.subject.p)
+    asked = enough_for(share, state.subject.model.sample_size, state.params.confidence)
+    drawn = int(found["n"].replace(",", ""))
+    if found["why"].startswith("enough"):
+        return drawn == state.now.iteration >= asked
+    return drawn == state.now.iteration == state.params.most_samples <= asked
+
+
+def rms_of_best(run: Run, k: int, found: re.Match[str]) -> bool:
+    best, state = run.states[k].now.best, run.states[k]
+    off = apart(state.subject.model.name, best.estimate, state.subject.p)[best.inliers]
+    return same(found["n"], found["unit"], rms(off))
+
+
+def errors_are(run: Run, k: int, found: re.Match[str]) -> bool:
+    """Of RANSAC, of plain least squares, and of Huber's fit, whose estimate the state carries."""
+    state = run.states[k]
+    squares, huber = (rival.estimate for rival in state.rivals)
+    return (
+        same(found["r"], found["ru"], error(state, state.now.best.estimate))
+        and same(found["s"], found["su"], error(state, squares))
+        and same(found["h"], found["hu"], error(state, huber))
+    )
+
+
+LENGTH = r"(?P<{}>[\d,.]+) (?P<{}>mm|m|px)"
+ROWS = r"(points|matches)"
+CAPTIONS = (
+    Claim(rf"Of its (?P<size>\w+) {ROWS} (?P<n>\w+) (is an outlier|are outliers) in truth", outliers_of),
+    Claim(rf"(?P<n>[\d,]+) of [\d,]+ {ROWS} (lie|are) within {LENGTH.format('limit', 'unit')} of (its|the) \w+", near),
+    Claim(r"The best so far has (?P<n>[\d,]+) inliers( \([^)]*\))?: it stays", stays),
+    Claim(
+        r"New best after (?P<after>[\d,]+) samples?: (?P<n>[\d,]+) inliers( \([^)]*\))?, (?P<share>\d+) % of all",
+        is_new_best,
+    ),
+    Claim(
+        r"If that is the share of inliers, (the )?(?P<n>[\d,]+) samples? (allowed )?give (?P<no>no )?(?P<p>[\d.]+) %"
+        r" confidence that one of them is free of outliers",
+        draws_needed,
+    ),
+    Claim(
+        r"least squares on the (?P<n>[\d,]+) inliers, then counted anew: (?P<old>[\d,]+) → (?P<new>[\d,]+); RMS error to the"
+        rf" truth {LENGTH.format('was', 'unit')} → {LENGTH.format('is', 'u')}",
+        refit,
+    ),
+    Claim(rf"RMS error to the truth {LENGTH.format('n', 'unit')}(?! →)\b", error_is),
+    Claim(
+        r"Stop after (?P<n>[\d,]+) samples?: (?P<why>enough samples for the confidence asked for|the maximum number of"
+        r" samples is reached)",
+        stopped,
+    ),
+    Claim(rf"RMS distance {LENGTH.format('n', 'unit')}", rms_of_best),
+    Claim(
+        rf"RMS error to the truth: RANSAC {LENGTH.format('r', 'ru')}, least squares {LENGTH.format('s', 'su')}, Huber"
+        rf" {LENGTH.format('h', 'hu')}",
+        errors_are,
+    ),
+    Claim(
+        r"It looks settled, and it is wrong",
+        lambda run, k, _: not is_right(run.states[k]) and run.states[k].now.iteration < run.params.most_samples,
+    ),
+    Claim(r"It is wrong", lambda run, k, _: not is_right(run.states[k])),
+    Claim(r"of the truth|to the truth|in truth", None),
+)
+
+
+# preset lines -------------------------------------------------------------------------------------------------------
+
+
+@functools.cache
+def states(params) -> tuple:
+    return tuple(lesson.run(params))
+
+
+def drawn(run: Run) -> int:
+    return run.states[-1].now.iteration
+
+
+def last_error(run: Run) -> float:
+    return error(run.states[-1], run.states[-1].now.best.estimate)
+
+
+def error_of_rival(run: Run, name: str) -> float:
+    state = run.states[-1]
+    return error(state, next(rival.estimate for rival in state.rivals if rival.name == name))
+
+
+def clean(run: Run, size: int) -> float:
+    return float(run.states[-1].subject.is_inlier.mean()) ** size
+
+
+def refused(run: Run) -> float:
+    """Return the share of the true rows beyond the limit of the final model, and of the true one."""
+    state = run.states[-1]
+    inliers = state.subject.p[state.subject.is_inlier]
+    beyond = apart("plane", state.now.best.estimate, inliers) > state.inlier_distance
+    return float(beyond.mean())
+
+
+def clutter_votes(run: Run) -> bool:
+    """Over a third of the outliers lie within the limit."""
+    state = run.states[-1]
+    off = apart("plane", state.now.best.estimate, state.subject.p[~state.subject.is_inlier])
+    return bool((off <= state.inlier_distance).mean() > 1 / 3)
+
+
+def kept(params) -> float:
+    """Return the error of the best before the refit."""
+    best = [state for state in states(params) if state.now.phase == "best"][-1]
+    return error(best, best.now.best.estimate)
+
+
+def no_farther(run: Run, k: int, found: re.Match[str]) -> bool:
+    return kept(run.params) <= kept(dataclasses.replace(run.params, score="count"))
+
+
+def ten_times(run: Run, k: int, found: re.Match[str]) -> bool:
+    params = dataclasses.replace(run.params, seed=0)
+    return kept(params) < kept(dataclasses.replace(params, score="count")) / 10
+
+
+def twice_as_many(run: Run, k: int, found: re.Match[str]) -> bool:
+    """Of the points on either plane: the wall is upright in the table's own directions, 1 m from its middle."""
+    state = run.states[-1]
+    wall = state.now.best.inliers & ~state.subject.is_inlier  # the final plane, where that is upright, is the wall
+    upright = abs(state.now.best.estimate[2]) < 0.3
+    return upright and bool(1.8 < wall.sum() / state.subject.is_inlier.sum() < 2.3)
+
+
+def sooner(run: Run, k: int, found: re.Match[str]) -> bool:
+    return drawn(run) < states(dataclasses.replace(run.params, local_refit=False))[-1].now.iteration
+
+
+def reached(params) -> int:
+    """Return after how many samples the best has four fifths of the inliers it ends with."""
+    found = states(params)
+    enough = 0.8 * np.count_nonzero(found[-1].now.best.inliers)
+    return next(
+        state.now.iteration
+        for state in found
+        if state.now.best is not None and np.count_nonzero(state.now.best.inliers) >= enough
+    )
+
+
+@functools.cache
+def hundreds_by_chance(params) -> float:
+    """Return how often chance needs a hundred samples at least, of five seeds."""
+    return float(np.mean([reached(dataclasses.replace(params, seed=seed)) >= 100 for seed in range(5)]))
+
+
+def few_dozens(run: Run, k: int, found: re.Match[str]) -> bool:
+    by_chance = dataclasses.replace(run.params, sampler="uniform", steps="improvements", seed=0)
+    return reached(run.params) <= 48 and hundreds_by_chance(by_chance) > 0.6
+
+
+def picked_are_inliers(run: Run, k: int, found: re.Match[str]) -> bool:
+    state = run.states[0]
+    rows = state.now.sample
+    spread = np.linalg.norm(np.ptp(state.subject.p[rows], axis=0))
+    return state.chosen and bool(state.subject.is_inlier[rows].all()) and spread < 0.3
+
+
+def on_a_wire(run: Run, k: int, found: re.Match[str]) -> bool:
+    """The picked points are on one line, give no plane, and another sample follows."""
+    first, second = run.states[0], run.states[1]
+    line = np.linalg.matrix_rank(np.diff(first.subject.p[first.now.sample], axis=0), tol=1e-9) == 1
+    return line and first.chosen and second.now.phase == "degenerate" and run.states[2].now.iteration == 2
+
+
+LINES = {
+    "thirty": (
+        Claim("A third of all samples is clean", lambda run, k, _: abs(clean(run, 3) - 1 / 3) < 0.02),
+        Claim("a dozen or two are enough", lambda run, k, _: 11 <= drawn(run) <= 29 and last_error(run) < 0.005),
+        Claim(
+            "drag least squares 15 cm off", lambda run, k, _: abs(error_of_rival(run, "least squares") - 0.15) < 0.01
+        ),
+    ),
+    "seventy": (
+        Claim("Only one sample in 37 is clean", lambda run, k, _: abs(1 / clean(run, 3) - 37) < 0.5),
+        Claim("over a hundred are drawn", lambda run, k, _: drawn(run) > 100),
+        Claim("the plane is still within 3 mm", lambda run, k, _: last_error(run) <= 0.003),
+    ),
+    "tight": (
+        Claim(
+            "4 mm is a quarter of the noise",
+            lambda run, k, _: abs(run.params.inlier_distance / run.params.noise - 0.25) < 0.03,
+        ),
+        Claim("three in four true points are refused", lambda run, k, _: abs(refused(run) - 0.75) < 0.1),
+        Claim(
+            "500 samples do not suffice",
+            lambda run, k, _: (
+                drawn(run) == run.params.most_samples == 500
+                and enough_for(np.count_nonzero(run.states[-1].now.best.inliers) / 600, 3, 0.99) > 500
+            ),
+        ),
+        Claim(
+            "the answer rests on the few that are left",
+            lambda run, k, _: np.count_nonzero(run.states[-1].now.best.inliers) < 0.15 * len(run.states[-1].subject.p),
+        ),
+    ),
+    "loose": (
+        Claim(
+            "0.3 m is 20 sigma", lambda run, k, _: bool(np.isclose(run.params.inlier_distance, 20 * run.params.noise))
+        ),
+        Claim("clutter votes too", lambda run, k, _: clutter_votes(run)),
+        Claim("a dozen samples satisfy the formula", lambda run, k, _: 8 <= drawn(run) <= 17),
+        Claim("the plane ends 4 cm off", lambda run, k, _: abs(last_error(run) - 0.04) < 0.005),
+    ),
+    "msac": (
+        Claim("A count cannot tell 1 mm from 149 mm. MSAC can", lambda run, k, _: run.params.inlier_distance == 0.15),
+        Claim("it keeps a sample that is no farther from the truth", no_farther),
+        Claim("with seed 0 ten times nearer", ten_times),
+    ),
+    "two-planes": (Claim("a wall with twice as many points", twice_as_many), Claim("each new best", None)),
+    "collinear": (
+        Claim(
+            "You picked three points of a taut wire: a whole pencil of planes goes through them. The sample is lost, and"
+            " still counts as drawn",
+            on_a_wire,
+        ),
+    ),
+    "near-sample": (
+        Claim("three points that truly belong to the plane, close together", picked_are_inliers),
+        Claim("the next step counts who is near it", lambda run, k, _: run.states[2].now.phase == "inliers"),
+    ),
+    "rivals": (Claim("RANSAC's and the truth", None),),
+    "local": (
+        Claim("gathers its inliers sooner, and with them the end", sooner),
+        Claim("Refit every new best|each new best", None),
+    ),
+    "prosac": (Claim("a few dozen samples bring it near its end, where chance mostly needs hundreds", few_dozens),),
+    "epipolar": (
+        Claim("seven at once must be free of outliers", lambda run, k, _: len(run.states[0].now.sample) in (0, 7)),
+        Claim("at 30 %", lambda run, k, _: abs(clean(run, 1) - 0.7) < 0.01),
+    ),
+}
+
+
+# explanations -------------------------------------------------------------------------------------------------------
+
+
+def at_true_share(run: Run, size: int) -> float:
+    return enough_for(clean(run, 1), size, run.params.confidence)
+
+
+def of_one_sample(run: Run, k: int, found: re.Match[str]) -> bool:
+    w, cube, spoilt, needed = (float(found[name]) for name in ("w", "cube", "spoilt", "n"))
+    return (
+        abs(w**3 - cube) < 6e-4
+        and abs(1 - w**3 - spoilt) < 6e-4
+        and needed == at_true_share(run, 3)
+        and ((1 - w**3) ** needed < 0.01 <= (1 - w**3) ** (needed - 1))
+    )
+
+
+def reach_of_the_picked(run: Run, k: int, found: re.Match[str]) -> bool:
+    state = next(state for state in run.states if state.now.phase == "inliers")
+    inliers = state.subject.p[state.subject.is_inlier]
+    reached = (apart("plane", state.now.estimate, inliers) <= state.inlier_distance).mean()
+    return abs(100 * reached - float(found["n"])) <= 0.5 + 1e-9
+
+
+def on_the_wall(run: Run, k: int, found: re.Match[str]) -> bool:
+    state = run.states[-1]
+    best = state.now.best
+    of_table = (best.inliers & state.subject.is_inlier).sum() / state.subject.is_inlier.sum()
+    return int(found["n"]) == best.inliers.sum() and abs(best.estimate[2]) < 0.3 and of_table < 0.1
+
+
+def pull_upwards(run: Run, k: int, found: re.Match[str]) -> bool:
+    """Of the outliers, nine in ten lie above the table."""
+    subject = run.states[-1].subject
+    truth = subject.truth * np.sign(subject.truth[2])
+    off = subject.p[~subject.is_inlier] @ truth[:3] + truth[3]
+    return bool((off > 0).mean() > 0.9)
+
+
+def three_errors(run: Run, k: int, found: re.Match[str]) -> bool:
+    return (
+        same(found["r"], found["ru"], last_error(run))
+        and same(found["h"], found["hu"], error_of_rival(run, "Huber"))
+        and same(found["s"], found["su"], error_of_rival(run, "least squares"))
+    )
+
+
+WHYS = {
+    "predict-needed": (
+        Claim(
+            r"clean with probability (?P<w>[\d.]+)³ = (?P<cube>[\d.]+), and (?P<spoilt>[\d.]+) to the power (?P<n>\d+) falls"
+            r" below 0\.01",
+            of_one_sample,
+        ),
+        Claim(r"This run drew (\d+)", lambda run, k, found: int(found[1]) == drawn(run)),
+        Claim("of its best so far", None),
+    ),
+    "predict-near-sample": (
+        Claim(r"It reaches (?P<n>\d+) % of them", reach_of_the_picked),
+        Claim("The three lie so close together", picked_are_inliers),
+    ),
+    "predict-two-planes": (
+        Claim(r"Its plane has (?P<n>\d+) points near it and stands upright: the wall", on_the_wall),
+        Claim(
+            rf"The points of the table are {LENGTH.format('n', 'unit')} from it \(RMS\)",
+            lambda run, k, found: same(found["n"], found["unit"], last_error(run)),
+        ),
+    ),
+    "predict-size": (
+        Claim(
+            r"samples of four need (\d+) draws, samples of seven (\d+)",
+            lambda run, k, found: (int(found[1]), int(found[2])) == (at_true_share(run, 4), at_true_share(run, 7)),
+        ),
+        Claim(r"This run drew (\d+)", lambda run, k, found: int(found[1]) == drawn(run) >= at_true_share(run, 7)),
+    ),
+    "predict-huber": (
+        Claim(
+            rf"RANSAC {LENGTH.format('r', 'ru')}, Huber {LENGTH.format('h', 'hu')}, least squares {LENGTH.format('s', 'su')}"
+            " off",
+            three_errors,
+        ),
+        Claim("here nearly all of them pull upwards", pull_upwards),
+    ),
+}
