@@ -4,8 +4,8 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from lessons.icp.draw import State, at_home
 from lessons.icp.params import Params
+from lessons.icp.state import State
 from workbench.lesson import Preset, Question
 
 HOME = Params()
@@ -95,13 +95,13 @@ def rmse_falls(states: Sequence[State]) -> bool:
 
 
 def _far_answer(states: Sequence[State]) -> float:
-    return 0.0 if at_home(end(states)) else 2.0 if rmse_falls(states) else 1.0
+    return 0.0 if end(states).home else 2.0 if rmse_falls(states) else 1.0
 
 
 def _far_why(states: Sequence[State]) -> str:
     last = end(states)
     return (
-        f"It ended {last.rotation_error:.0f}° from the truth with an RMSE of {1000 * last.icp.rmse:.0f} mm. Each fit"
+        f"It ended {last.error.rotation:.0f}° from the truth with an RMSE of {1000 * last.icp.rmse:.0f} mm. Each fit"
         " can only lower the cost for the partners it was given; nothing in it knows about other valleys."
     )
 
@@ -109,13 +109,13 @@ def _far_why(states: Sequence[State]) -> str:
 def _vase_answer(states: Sequence[State]) -> float:
     last = end(states)
     low = last.icp.rmse < 0.02
-    return 2.0 if not low else 0.0 if last.rotation_error < 5.0 else 1.0
+    return 2.0 if not low else 0.0 if last.error.rotation < 5.0 else 1.0
 
 
 def _vase_why(states: Sequence[State]) -> str:
     last = end(states)
     return (
-        f"RMSE {1000 * last.icp.rmse:.0f} mm, as for the rabbit that came home, and {last.rotation_error:.0f}° of turn"
+        f"RMSE {1000 * last.icp.rmse:.0f} mm, as for the rabbit that came home, and {last.error.rotation:.0f}° of turn"
         " left. No point of a vase can tell how far it was turned, so no method can."
     )
 
@@ -127,7 +127,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         " (within two point spacings)?",
         answer=lambda states: 100.0 * states[0].right,
         why=lambda states: (
-            f"{100.0 * states[0].right:.0f} %, and ICP still came home to {end(states).rotation_error:.1f}°: partners"
+            f"{100.0 * states[0].right:.0f} %, and ICP still came home to {end(states).error.rotation:.1f}°: partners"
             " are wrong nearly everywhere, but wrong in a way that turns the source downhill."
         ),
         params=HOME,
