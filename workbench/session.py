@@ -113,14 +113,14 @@ class Session:
             self._want(-1 if at_end else self._wanted)
 
     def reset(self) -> None:
-        """Go back to the default run, nothing pinned."""
+        """Go back to the default run, nothing pinned; own files stay open."""
         self._pinned = None
-        self.open(self.lesson)
+        self.open(self.lesson, knobs.with_own_files(self.lesson.params(), self.params))
 
     def use_preset(self, name: str) -> None:
-        """Open a preset of the lesson."""
+        """Open a preset of the lesson; own files stay open."""
         preset = self.lesson.preset(name)
-        self.open(self.lesson, preset.params, preset.step)
+        self.open(self.lesson, knobs.with_own_files(preset.params, self.params), preset.step)
 
     def pin(self) -> None:
         """Keep the run and step that are shown as a ghost behind what comes."""

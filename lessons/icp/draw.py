@@ -61,7 +61,8 @@ def _curves(state: State) -> dict[str, Primitive]:
         )
     curves["kept"] = Scalar(100 * now.overlap, "kept", "Overlap", "%")
     if state.known:
-        curves["right"] = Scalar(100 * state.right, "right among them", "Overlap", "%", "truth")
+        guessed = now.iteration == 1 and now.phase == "match"  # a question asks for it
+        curves["right"] = Scalar(np.nan if guessed else 100 * state.right, "right among them", "Overlap", "%", "truth")
     return curves
 
 

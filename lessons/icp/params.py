@@ -13,6 +13,7 @@ Unit = Literal["m", "km", "cm", "mm"]
 Thinning = Literal["voxel", "chance"]
 Planes = Literal["spread", "all"]
 GateName = Literal["all", "trimmed", "max-distance", "3-medians"]
+BUILT_IN = ("shape", "start_angle", "start_shift", "overlap", "noise", "outliers", "points")
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,9 @@ class Params:
     ] = 0.1
     planes: Annotated[
         Planes,
-        Knob("Point-to-plane, lidar and own scans: all target points pull, or only where neighbours spread, not in a line"),
+        Knob(
+            "Point-to-plane, lidar and own scans: all target points pull, or only where neighbours spread, not in a line"
+        ),
     ] = "spread"
     overlap: Annotated[
         float, Knob("Share of the built-in source that the target saw too; not the lidar's", 0.4, 1, step=0.05)
@@ -52,8 +55,8 @@ class Params:
     target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz")] = None
     source: Annotated[Path | None, Knob("Own source scan, moved onto the target")] = None
     truth: Annotated[Path | None, Knob("Known pose of the source in the target's frame: 4x4 or list of poses")] = None
-    up: Annotated[Up, Knob("Which axis of own scans points up")] = "z"
-    unit: Annotated[Unit, Knob("Unit of the numbers in own files")] = "m"
+    up: Annotated[Up, Knob("Which axis of own scans points up", of_files=True)] = "z"
+    unit: Annotated[Unit, Knob("Unit of the numbers in own files", of_files=True)] = "m"
     thinning: Annotated[
         Thinning, Knob("Lidar and own scans: both by the means of voxels, or only the source, by chance")
     ] = "voxel"
@@ -64,3 +67,10 @@ class Params:
         int, Knob("At most so many points of a lidar or own source are used, drawn by chance", 100, 50_000, step=100)
     ] = 10_000
     seed: Annotated[int, Knob("Which points are sampled", 0, 99)] = 0
+
+    @property
+    def idle(self) -> tuple[str, ...]:
+        """The inputs that were changed and have no effect, since own scans are open."""
+        if self.target is None:
+            return ()
+        return tuple(name for name in BUILT_IN if getattr(self, name) != getattr(Params, name))

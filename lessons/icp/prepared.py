@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from lessons.icp.params import Params, Planes, Thinning, Unit, Up
-from lessons.icp.scans import Scans
+from lessons.icp.scans import WIDTH, Scans
 from workbench.data.clouds import pair
 from workbench.data.files import read_cloud, read_pose
 from workbench.data.lidar import lidar_pair
@@ -20,7 +20,6 @@ from workbench.geometry.normals import on_a_line, point_normals
 
 METRES: dict[Unit, float] = {"m": 1.0, "km": 1000.0, "cm": 0.01, "mm": 0.001}
 UPRIGHT: dict[Up, float] = {"z": 0.0, "y": np.pi / 2, "-y": -np.pi / 2}  # radians about the x axis
-WIDTH = 1.2  # metres of the picture
 RINGS, COLUMNS = 32, 900
 
 

@@ -9,6 +9,7 @@ from workbench.geometry.alignment import nearest_rotation
 from workbench.geometry.motions import apply, exp_so3, motion, rotation_angle
 
 HOME_DEGREES, HOME_SPACINGS = 5.0, 2.0
+WIDTH = 1.2  # metres of the picture that large or small scans are shown wide
 
 
 @dataclass(frozen=True)

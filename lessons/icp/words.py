@@ -2,7 +2,9 @@
 
 import numpy as np
 
+from lessons.icp.scans import WIDTH
 from lessons.icp.state import State
+from workbench.algorithms.icp import Stop
 from workbench.scene import Caption
 
 FITS = {
@@ -11,6 +13,7 @@ FITS = {
     "similarity": "the similarity with the least squared distance to the partners",
     "affine": "the affine map with the least squared distance to the partners",
 }
+SETTLED = (Stop.CONVERGED, Stop.CIRCLING)
 
 
 def caption(state: State) -> Caption:
@@ -24,8 +27,9 @@ def caption(state: State) -> Caption:
     text += f" Stop: {now.stop.message}."
     if not state.known:
         return Caption(text)
-    verdict = "It has come home." if state.home else "It looks settled, and it is wrong."
-    return Caption(f"{text} {verdict}", "good" if state.home else "wrong")
+    if state.home:
+        return Caption(f"{text} It has come home.", "good")
+    return Caption(f"{text} {'It looks settled, and it' if now.stop in SETTLED else 'It'} is wrong.", "wrong")
 
 
 def _of_match(state: State) -> str:
@@ -35,15 +39,15 @@ def _of_match(state: State) -> str:
     if kept < n:
         text += f" (up to {length(now.limit)} apart)"
     text += f"; RMSE {length(now.rmse)}." if kept else "."
-    if np.isfinite(state.right):
-        text += f" {_share(state.right)} right."
-    return text + _far_apart(state)
+    return text + (_at_start(state) if now.iteration == 1 else "")
 
 
 def _of_fit(state: State) -> str:
     text = f"Fit {state.icp.iteration}: {FITS[state.params.fit]} turns the source by {_angle(state.turned)};"
     text += f" RMSE {length(state.rmse_before)} → {length(state.icp.rmse)}"
-    return text + (f", {off(state)} from the truth." if state.known else ".")
+    if not state.known:
+        return f"{text}."
+    return f"{text}, {off(state)} from the truth. {_share(state.right)} right."
 
 
 def _of_try(state: State) -> str:
@@ -61,12 +65,17 @@ def _of_try(state: State) -> str:
     return f"{text} In this row, every start up to {state.edge:.0f}° comes home."
 
 
-def _far_apart(state: State) -> str:
-    """Say that scans which start farther apart than the target is wide need a guess."""
-    if state.icp.iteration > 1 or not state.icp.distances.min() * state.scans.scale > 1.2:
-        return ""
-    gap, width = length(float(state.icp.distances.min())), length(1.2 / state.scans.scale)
-    return f" The scans start {gap} apart and the target is {width} wide: bring the source near it first."
+def _at_start(state: State) -> str:
+    """Say what of the params has no effect on own scans, and where scans that start far apart need a guess."""
+    text, idle = "", [name.replace("_", " ") for name in state.params.idle]
+    if idle:
+        text += f" Your own scans are open: {', '.join(idle)} {'has' if len(idle) == 1 else 'have'} no effect on them."
+    gap, width = float(state.icp.distances.min()), WIDTH / state.scans.scale
+    if gap > width:
+        text += (
+            f" The scans start {length(gap)} apart, and the target is {length(width)} wide: bring the source near it."
+        )
+    return text
 
 
 def off(state: State) -> str:
@@ -76,8 +85,8 @@ def off(state: State) -> str:
 
 def _share(right: float) -> str:
     if right < 0.005:
-        return "Hardly any of them is"
-    return f"{'Only ' if right < 0.5 else ''}{100 * right:.0f} % of them are"
+        return "Hardly any of its matches was"
+    return f"{'Only ' if right < 0.5 else ''}{100 * right:.0f} % of its matches were"
 
 
 def _angle(degrees: float) -> str:
