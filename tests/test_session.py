@@ -1,9 +1,14 @@
+import dataclasses
+from pathlib import Path
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.fake import Params, lesson
+from workbench import knobs
 from workbench.errors import InputError
+from workbench.lesson import catalog
 from workbench.scene import Points, same
 from workbench.session import SPEEDS, Look, Session
 from workbench.timeline import Timelines
@@ -252,3 +257,34 @@ def test_a_session_with_a_students_function_does_not_share_its_run():
     finish(theirs)
     assert len(ours.timeline) == 6
     assert "ZeroDivisionError" in seen(theirs).caption.text
+
+
+OWN_FILES = [
+    ("icp", {"target": Path("a.ply"), "source": Path("b.ply"), "truth": Path("T.txt"), "unit": "mm", "up": "y"}),
+    ("curvature", {"mesh": Path("cow.obj")}),
+    ("disparity", {"left": Path("l.png"), "right": Path("r.png")}),
+    ("ransac", {"cloud": Path("room.xyz")}),
+]
+
+
+@pytest.mark.parametrize(("name", "files"), OWN_FILES, ids=[name for name, _ in OWN_FILES])
+def test_reset_and_presets_keep_own_files_and_how_to_read_them(name, files):
+    lesson = catalog()[name]
+    session = Session(lesson)
+    mine = dataclasses.replace(lesson.params(), **files)
+    for preset in lesson.presets:
+        session.open(lesson, mine)
+        session.use_preset(preset.name)
+        assert session.params == dataclasses.replace(preset.params, **files)
+    session.change(seed=7)
+    session.reset()
+    assert session.params == mine
+    session.change(**dict.fromkeys(files, None) if name != "icp" else {"target": None, "source": None, "truth": None})
+    session.reset()
+    assert session.params == lesson.params()  # without files nothing is kept, also not how to read them
+
+
+def test_params_that_name_files_themselves_keep_theirs():
+    params = catalog()["icp"].params
+    theirs = params(target=Path("theirs.ply"), source=Path("too.ply"))
+    assert knobs.with_own_files(theirs, params(target=Path("mine.ply"), unit="mm")) == theirs

@@ -56,6 +56,7 @@ class Knob:
         label: The words on the control; None makes them from the field's name.
         parts: What the entries of a tuple are called, where x, y, z would mislead.
         by: A Gizmo or a Pick where the scene sets it too.
+        of_files: It says how to read a person's own files (their unit, which axis is up), and is kept as long as they are.
     """
 
     hint: str
@@ -66,6 +67,7 @@ class Knob:
     label: str | None = None
     parts: tuple[str, ...] = ()
     by: Gizmo | Pick | None = None
+    of_files: bool = False
 
 
 Kind = Literal["float", "int", "bool", "choice", "floats", "ints", "path"]
@@ -243,6 +245,19 @@ def make(params: type[P], values: Mapping[str, Any], *, base: P | None = None, c
         raise
     except ValueError as error:
         raise InputError(str(error)) from None
+
+
+def with_own_files(params: P, mine: P) -> P:
+    """Return the params with a person's own files in them, and with what says how to read these (`Knob.of_files`).
+
+    A preset or a reset keeps them so. Params that name files themselves stay as they are.
+    """
+    fields = fields_of(type(params))
+    paths = [field.name for field in fields if field.kind == "path"]
+    if any(getattr(params, name) for name in paths) or not any(getattr(mine, name) for name in paths):
+        return params
+    kept = paths + [field.name for field in fields if field.knob.of_files]
+    return dataclasses.replace(params, **{name: getattr(mine, name) for name in kept})  # type: ignore[type-var]
 
 
 def check(params: Any) -> Any:

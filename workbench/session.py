@@ -116,14 +116,14 @@ class Session:
             self._want(-1 if at_end else self._wanted)
 
     def reset(self) -> None:
-        """Go back to the default run, nothing pinned."""
+        """Go back to the default run, nothing pinned; own files stay open."""
         self._pinned = None
-        self.open(self.lesson)
+        self.open(self.lesson, knobs.with_own_files(self.lesson.params(), self.params))
 
     def use_preset(self, name: str) -> None:
-        """Open a preset of the lesson."""
+        """Open a preset of the lesson; own files stay open."""
         preset = self.lesson.preset(name)
-        self.open(self.lesson, preset.params)
+        self.open(self.lesson, knobs.with_own_files(preset.params, self.params))
         step = self.lesson.first_step if preset.step is None else preset.step
         self._start(f"lesson {self.lesson.name}, preset {name!r}", step)
 

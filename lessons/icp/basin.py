@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lessons.icp.params import Params
-from lessons.icp.scans import Scans, scans_of
+from lessons.icp.prepared import scans_of
+from lessons.icp.scans import Error, Scans
 from workbench.algorithms.icp import Align, Gate, icp
 from workbench.geometry.alignment import align_affine, align_rigid, align_similarity
 from workbench.geometry.motions import inverse
@@ -15,7 +16,6 @@ from workbench.watch import unwatched
 
 ANGLES = tuple(range(0, 181, 15))
 POINTS, MAX_ITERATIONS, TOLERANCE = 300, 100, 1e-4
-HOME = 5.0  # degrees: an end closer to the truth than this has come home
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,29 +25,31 @@ class Try:
     Attributes:
         start_angle: Degrees about the vertical, away from the truth.
         T_target_truth: The end as a motion of the truly placed source: the identity when it came home.
-        rotation_error: Degrees at the end.
+        error: How far that is from the truth.
         rmse: Of the kept matches at the end, metres.
     """
 
     start_angle: float
     T_target_truth: np.ndarray
-    rotation_error: float
+    error: Error
     rmse: float
 
 
 def tries_of(params: Params) -> Iterator[Try]:
     """Yield a try for each of ANGLES. They do not depend on the start of the params, so they are kept."""
-    same = replace(params, start_angle=0.0, start_shift=0.0, guess=(0.0,) * 6)
+    same = replace(params, guess=(0.0,) * 6)
+    if params.shape != "lidar":  # where the scanner drives to decides what it sees
+        same = replace(same, start_angle=0.0, start_shift=0.0)
     for angle in ANGLES:
         yield _try(same, angle)
 
 
-def gate_of(params: Params) -> Gate:
-    """Return the gate that the params name."""
+def gate_of(params: Params, scans: Scans) -> Gate:
+    """Return the gate that the params name; its distance is one of the picture, whatever the size of the scans."""
     return {
         "all": Gate(),
         "trimmed": Gate(keep=params.keep),
-        "max-distance": Gate(max_distance=params.max_distance),
+        "max-distance": Gate(max_distance=params.max_distance / scans.scale),
         "3-medians": Gate(medians=3.0),
     }[params.gate]
 
@@ -66,15 +68,15 @@ def _try(params: Params, angle: float) -> Try:
         thinned(scans),
         scans.about_centre(np.array([0.0, 0.0, np.radians(angle)])) @ scans.T_truth,
         n_target=scans.n_target() if params.fit == "point-to-plane" else None,
-        gate=gate_of(params),
+        gate=gate_of(params, scans),
         align=align_of(params),
         max_iterations=MAX_ITERATIONS,
         tolerance=TOLERANCE,
     )
     with unwatched():
         *_, end = states
-    error, _ = scans.errors(end.T_target_source)
-    return Try(angle, end.T_target_source @ inverse(scans.T_truth), error, end.rmse)
+    T = end.T_target_source
+    return Try(angle, T @ inverse(scans.T_truth), scans.error(T), end.rmse)
 
 
 def thinned(scans: Scans) -> np.ndarray:

@@ -3,7 +3,8 @@
 What it teaches: ICP walks downhill from where it starts. Its cost falls at every step whether it walks home or into
 another valley, so a small RMSE proves nothing; the start, the gate and the error measure decide.
 
-`params.py` has the inputs, `scans.py` the clouds, `draw.py` the picture, `presets.py` the experiments and questions.
+`params.py` has the inputs, `prepared.py` and `scans.py` the clouds, `draw.py` and `words.py` the picture, `presets.py` the
+experiments and questions.
 """
 
 from collections.abc import Iterator
@@ -14,10 +15,11 @@ from typing import Any
 import numpy as np
 
 from lessons.icp.basin import Try, align_of, gate_of, tries_of
-from lessons.icp.draw import State, draw
+from lessons.icp.draw import draw
 from lessons.icp.params import Params
+from lessons.icp.prepared import scans_of
 from lessons.icp.presets import PRESETS, QUESTIONS
-from lessons.icp.scans import scans_of
+from lessons.icp.state import State
 from workbench.algorithms.icp import Align, Match, PlaneStep, icp
 from workbench.geometry.alignment import align_rigid, nearest_rotation, point_to_plane_step
 from workbench.geometry.motions import rotation_angle
@@ -40,7 +42,7 @@ def run(
         scans.p_source,
         scans.T_start,
         n_target=scans.n_target() if params.fit == "point-to-plane" else None,
-        gate=gate_of(params),
+        gate=gate_of(params, scans),
         match=match,
         align=align_of(params, align or align_rigid),
         step=step or point_to_plane_step,
@@ -49,7 +51,7 @@ def run(
     ):
         turned = turn(now.T_target_source, T_before)
         right = scans.right_share(now.indices, now.kept)
-        state = State(params, scans, now, rmse_before, turned, *scans.errors(now.T_target_source), right)
+        state = State(params, scans, now, rmse_before, turned, scans.error(now.T_target_source), right)
         yield state
         T_before, rmse_before = now.T_target_source, now.rmse
     ours = align is None and match is None and step is None
@@ -82,7 +84,7 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=300,
-    view=View(eye=(1.5, -1.9, 1.0), target=(0.0, 0.0, 0.1), grid=0.5, grid_height=-0.35),
+    view=View(eye=(1.5, -1.9, 1.0), target=(0.0, 0.0, 0.1), grid=None),
     presets=PRESETS,
     questions=QUESTIONS,
     exercises=exercises,

@@ -1,20 +1,31 @@
-"""The two scans of a run, built-in or the person's own, and how they stand in the picture."""
+"""The two scans of a run in one value: points, truth and start, and how they stand in the picture."""
 
-import functools
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
-from lessons.icp.params import Params, Up
-from workbench.data.clouds import pair
-from workbench.data.files import read_cloud, read_pose
-from workbench.errors import InputError
 from workbench.geometry.alignment import nearest_rotation
-from workbench.geometry.motions import apply, exp_so3, inverse, motion, rotation_angle
-from workbench.geometry.normals import point_normals
+from workbench.geometry.motions import apply, exp_so3, motion, rotation_angle
+
+HOME_DEGREES, HOME_SPACINGS = 5.0, 2.0
+WIDTH = 1.2  # metres of the picture that large or small scans are shown wide
+
+
+@dataclass(frozen=True)
+class Error:
+    """How far a motion is from the truth; NaN where that is not known.
+
+    Attributes:
+        rotation: Degrees.
+        translation: At the middle of the source, metres.
+        displacement: Root mean square distance of the source points from where they belong, metres: it holds all of the
+            error, also a wrong scale.
+    """
+
+    rotation: float
+    translation: float
+    displacement: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,9 +42,12 @@ class Scans:
         scale: The picture's metres per metre of the scans: own scans are shown about 1.2 m wide.
         R_world_target: How the target is set upright in the picture.
         spacing: Typical distance between neighbouring target points, metres.
+        grid: Segments of a ground grid in the picture.
+        cell: The edge of its squares, metres of the scans.
         p_target_shown: The target as the picture has it.
         p_source_shown: The source as the picture has it, in its own frame.
-        n_target: Gives the unit normals of the target, computed when first asked for.
+        n_target: Gives the normals of the target, computed when first asked for: unit vectors, or zero for a point that
+            shall not pull because its neighbours lie along a line.
     """
 
     p_target: np.ndarray
@@ -45,6 +59,8 @@ class Scans:
     scale: float
     R_world_target: np.ndarray
     spacing: float
+    grid: np.ndarray
+    cell: float
     p_target_shown: np.ndarray
     p_source_shown: np.ndarray
     n_target: Callable[[], np.ndarray]
@@ -59,94 +75,27 @@ class Scans:
         R = exp_so3(self.R_world_target.T @ w_world)
         return motion(R, self.centre - R @ self.centre)
 
-    def errors(self, T_target_source: np.ndarray) -> tuple[float, float]:
-        """Return how far a motion is from the truth: degrees, and metres at the middle of the source."""
+    def error(self, T_target_source: np.ndarray) -> Error:
+        """Return how far a motion is from the truth."""
         if self.T_truth is None:
-            return float("nan"), float("nan")
+            return Error(np.nan, np.nan, np.nan)
         R = nearest_rotation(T_target_source[:3, :3]) @ self.T_truth[:3, :3].T
-        middle = self.p_source[~self.is_outlier].mean(axis=0)
-        return float(np.degrees(rotation_angle(R))), float(
-            np.linalg.norm(apply(T_target_source, middle) - apply(self.T_truth, middle))
-        )
+        p = self.p_source[~self.is_outlier]
+        off = apply(T_target_source, p) - apply(self.T_truth, p)
+        displacement = np.sqrt(np.einsum("ij,ij->", off, off) / len(off))
+        return Error(float(np.degrees(rotation_angle(R))), float(np.linalg.norm(off.mean(axis=0))), float(displacement))
+
+    def at_home(self, error: Error) -> bool:
+        """Tell whether a motion with this error is the true one, but for sampling.
+
+        It turns by less than HOME_DEGREES, and its points are, by root mean square, less than HOME_SPACINGS times the
+        spacing of the target's points away from where they belong. Not so where the truth is not known.
+        """
+        return error.rotation < HOME_DEGREES and error.displacement < HOME_SPACINGS * self.spacing
 
     def right_share(self, indices: np.ndarray, kept: np.ndarray) -> float:
         """Return the share of kept matches whose partner lies within two spacings of where the source point belongs."""
         if self.T_truth is None or not kept.any():
             return float("nan")
         off = self.p_target[indices[kept]] - apply(self.T_truth, self.p_source[kept])
-        return float(np.mean(np.einsum("ij,ij->i", off, off) <= (2.0 * self.spacing) ** 2))
-
-
-def scans_of(params: Params) -> Scans:
-    """Return the scans that the params describe.
-
-    Raises:
-        InputError: If an own file cannot be used, or only one of the two scans is given.
-    """
-    own = (params.target, params.source, params.truth) != (None, None, None)
-    scans = _own(params) if own else _built_in(params)
-    v_world, w_world = np.array(params.guess[:3]), np.array(params.guess[3:])
-    T_start = scans.about_centre(w_world)  # the handle turns about the middle of the picture
-    T_start[:3, 3] += scans.R_world_target.T @ v_world / scans.scale
-    return replace(scans, T_start=T_start)
-
-
-def _built_in(params: Params) -> Scans:
-    start = np.radians(params.start_angle)
-    T_truth = motion(exp_so3(np.array([0.0, 0.0, start])), np.array([params.start_shift, 0.0, 0.0]))
-    home = _sampled(params.shape, params.points, params.overlap, params.noise, params.outliers, params.seed)
-    p_source = apply(inverse(T_truth), home.p_source)
-    return replace(home, p_source=p_source, p_source_shown=p_source, T_truth=T_truth)
-
-
-@functools.lru_cache(maxsize=16)
-def _sampled(shape: str, points: int, overlap: float, noise: float, outliers: float, seed: int) -> Scans:
-    """Return the scans before the source is turned away: the same arrays whatever the start."""
-    rng = np.random.default_rng(seed)
-    scans = pair(shape, points, np.eye(4), rng, overlap=overlap, noise=noise, outliers=outliers)
-    p, q = scans.p_target, scans.p_source
-    return Scans(
-        p, q, scans.is_outlier, np.eye(4), np.eye(4), np.zeros(3), 1.0, np.eye(3), _spacing(p), p, q,
-        _normals_when_asked(p),
-    )  # fmt: skip
-
-
-def _own(params: Params) -> Scans:
-    if params.target is None or params.source is None:
-        raise InputError("own scans come in pairs: give both a target and a source")
-    for scan in (params.target, params.source):
-        read_cloud(scan)  # so that a bad file is refused before anything else
-    T_truth = None if params.truth is None else read_pose(params.truth, params.target, params.source)
-    changed = (params.target.stat().st_mtime_ns, params.source.stat().st_mtime_ns)
-    scans = _prepared(params.target, params.source, changed, params.own_points, params.seed, params.up)
-    return replace(scans, T_truth=T_truth)
-
-
-@functools.lru_cache(maxsize=8)
-def _prepared(target: Path, source: Path, _changed: tuple[int, int], own_points: int, seed: int, up: Up) -> Scans:
-    """Thin an own source, and bring both into the picture; anew when a file has changed."""
-    p_target, p_source = read_cloud(target), read_cloud(source)
-    rng = np.random.default_rng(seed)
-    if len(p_source) > own_points:
-        p_source = p_source[np.sort(rng.choice(len(p_source), own_points, replace=False))]
-    low, high = np.percentile(p_target, [2, 98], axis=0)  # a few far points must not shrink the picture
-    centre = (low + high) / 2
-    scale = 1.2 / max(float((high - low).max()), 1e-9)
-    R_world_target = exp_so3(np.array([{"z": 0.0, "y": np.pi / 2, "-y": -np.pi / 2}[up], 0.0, 0.0]))
-    nobody = np.zeros(len(p_source), bool)
-    return Scans(
-        p_target, p_source, nobody, None, np.eye(4), centre, scale, R_world_target, _spacing(p_target),
-        scale * (p_target - centre) @ R_world_target.T, scale * (p_source - centre) @ R_world_target.T,
-        _normals_when_asked(p_target),
-    )  # fmt: skip
-
-
-def _normals_when_asked(p: np.ndarray) -> Callable[[], np.ndarray]:
-    return functools.cache(lambda: point_normals(p))
-
-
-def _spacing(p: np.ndarray) -> float:
-    """Return the median distance to the nearest other point, from a few hundred points."""
-    some = p[:: max(1, len(p) // 400)]
-    distances = np.asarray(scipy.spatial.KDTree(p).query(some, k=2)[0])
-    return float(np.median(distances[:, 1])) or 1e-9
+        return float(np.mean(np.einsum("ij,ij->i", off, off) <= (HOME_SPACINGS * self.spacing) ** 2))

@@ -14,8 +14,8 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from lessons.icp.draw import State as IcpState
 from lessons.icp.draw import draw as draw_icp
+from lessons.icp.state import State as IcpState
 from workbench.lesson import Lesson, catalog
 from workbench.recording.write import record_file
 from workbench.scene import Scene

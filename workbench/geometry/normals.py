@@ -1,10 +1,13 @@
 """Normals of a point cloud: the direction of least spread of each point's neighbours."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import scipy
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 CHUNK = 4096
+LINE = 0.2
 
 
 def point_normals(
@@ -30,15 +33,38 @@ def point_normals(
         raise ValueError(f"normals need at least 3 points and 3 neighbours, not {len(p)} and {k}")
     if not np.isfinite(p).all():
         raise ValueError("a point is not finite; drop such points first")
+    normals = np.empty_like(p, dtype=float)
+    for rows, covariances in _neighbourhoods(p, k):
+        normals[rows] = _least_directions(covariances)
+    outwards = p - p.mean(axis=0) if viewpoint is None else viewpoint - p
+    return np.where(np.einsum("ij,ij->i", normals, outwards)[:, None] < 0, -normals, normals)
+
+
+def on_a_line(p: Float[np.ndarray, "n 3"], k: int = 16) -> Bool[np.ndarray, "n"]:
+    """Tell of each point whether its k nearest points lie along a line, so that its normal means nothing.
+
+    So they do on one ring of a lidar scan: of their variances along the principal axes, the second is at most a fifth of
+    the largest. Coinciding points count as a line.
+
+    Args:
+        p: Points, metres.
+        k: Neighbours, itself included; fewer where the cloud has fewer points.
+    """
+    line = np.zeros(len(p), bool)
+    for rows, (xx, yy, zz, xy, xz, yz) in _neighbourhoods(p, k):
+        variances = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).T)
+        line[rows] = variances[:, 1] <= LINE * variances[:, 2]
+    return line
+
+
+def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield rows of p and the covariances of their k nearest points, in chunks that fit the cache."""
     tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
     k = min(k, len(p))
-    normals = np.empty_like(p, dtype=float)
     for start in range(0, len(p), CHUNK):  # in tree order, so that consecutive queries touch the same leaves
         rows = tree.indices[start : start + CHUNK]
         neighbours = np.asarray(tree.query(p[rows], k=k, workers=-1)[1])
-        normals[rows] = _least_directions(_covariances(p, rows, neighbours))
-    outwards = p - p.mean(axis=0) if viewpoint is None else viewpoint - p
-    return np.where(np.einsum("ij,ij->i", normals, outwards)[:, None] < 0, -normals, normals)
+        yield rows, _covariances(p, rows, neighbours)
 
 
 def _covariances(p: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:

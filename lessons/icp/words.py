@@ -1,0 +1,104 @@
+"""What a step of ICP says: what just happened, its numbers, and at the end whether it has come home."""
+
+import numpy as np
+
+from lessons.icp.scans import WIDTH
+from lessons.icp.state import State
+from workbench.algorithms.icp import Stop
+from workbench.scene import Caption
+
+FITS = {
+    "point-to-point": "the rigid motion with the least squared distance to the partners",
+    "point-to-plane": "the step with the least squared distance to the partners' tangent planes",
+    "similarity": "the similarity with the least squared distance to the partners",
+    "affine": "the affine map with the least squared distance to the partners",
+}
+SETTLED = (Stop.CONVERGED, Stop.CIRCLING)
+
+
+def caption(state: State) -> Caption:
+    """Return the caption of a step."""
+    if state.tries:
+        return Caption(_of_try(state))
+    now = state.icp
+    text = _of_match(state) if now.phase == "match" else _of_fit(state)
+    if now.stop is None:
+        return Caption(text)
+    text += f" Stop: {now.stop.message}."
+    if not state.known:
+        return Caption(text)
+    if state.home:
+        return Caption(f"{text} It has come home.", "good")
+    return Caption(f"{text} {'It looks settled, and it' if now.stop in SETTLED else 'It'} is wrong.", "wrong")
+
+
+def _of_match(state: State) -> str:
+    now = state.icp
+    kept, n = int(np.count_nonzero(now.kept)), len(now.kept)
+    text = f"Match {now.iteration}: each source point takes its nearest target point. {kept:,} of {n:,} are kept"
+    if kept < n:
+        text += f" (up to {length(now.limit)} apart)"
+    text += f"; RMSE {length(now.rmse)}." if kept else "."
+    return text + (_at_start(state) if now.iteration == 1 else "")
+
+
+def _of_fit(state: State) -> str:
+    text = f"Fit {state.icp.iteration}: {FITS[state.params.fit]} turns the source by {_angle(state.turned)};"
+    text += f" RMSE {length(state.rmse_before)} → {length(state.icp.rmse)}"
+    if not state.known:
+        return f"{text}."
+    return f"{text}, {off(state)} from the truth. {_share(state.right)} right."
+
+
+def _of_try(state: State) -> str:
+    """Return what came of another start, an experiment: where it ends wrong, the run itself has not gone wrong."""
+    last = state.tries[-1]
+    home = state.scans.at_home(last.error)
+    text = (
+        f"Another start: from {last.start_angle:.0f}° away, ICP {'comes home' if home else 'ends'}"
+        f" {_angle(last.error.rotation)} and {length(last.error.translation)} from the truth, at RMSE {length(last.rmse)}."
+    )
+    if last.start_angle < 180:
+        return text
+    if state.edge is None:
+        return f"{text} Not even the start at 0° comes home."
+    return f"{text} In this row, every start up to {state.edge:.0f}° comes home."
+
+
+def _at_start(state: State) -> str:
+    """Say what of the params has no effect on own scans, and where scans that start far apart need a guess."""
+    text, idle = "", [name.replace("_", " ") for name in state.params.idle]
+    if idle:
+        text += f" Your own scans are open: {', '.join(idle)} {'has' if len(idle) == 1 else 'have'} no effect on them."
+    gap, width = float(state.icp.distances.min()), WIDTH / state.scans.scale
+    if gap > width:
+        text += (
+            f" The scans start {length(gap)} apart, and the target is {length(width)} wide: bring the source near it."
+        )
+    return text
+
+
+def off(state: State) -> str:
+    """Return how far a step is from the truth: turn and shift."""
+    return f"{_angle(state.error.rotation)} and {length(state.error.translation)}"
+
+
+def _share(right: float) -> str:
+    if right < 0.005:
+        return "Hardly any of its matches was"
+    return f"{'Only ' if right < 0.5 else ''}{100 * right:.0f} % of its matches were"
+
+
+def _angle(degrees: float) -> str:
+    return f"{degrees:.3g}°" if degrees >= 0.001 else "less than 0.001°"
+
+
+def length(metres: float) -> str:
+    """Return a length in the unit that suits it, without an exponent."""
+    if metres >= 1e6:
+        return f"{metres / 1000:,.0f} km"
+    if metres >= 1000:
+        return f"{metres:,.0f} m"
+    if metres >= 0.1:
+        return f"{metres:.3g} m"
+    return f"{1000 * metres:.3g} mm" if metres >= 1e-6 else f"{1e6 * metres:.2g} µm" if metres >= 1e-9 else "0 mm"

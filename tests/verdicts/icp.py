@@ -1,0 +1,257 @@
+"""When the sentences of the ICP lesson are true, decided with scipy from the motions and the truth they carry."""
+
+import re
+from functools import lru_cache
+
+import numpy as np
+from scipy.spatial import KDTree
+from scipy.spatial.transform import Rotation
+
+from lessons.icp.lesson import run as run_icp
+from lessons.icp.params import Params
+from lessons.icp.presets import OVERLAP
+from lessons.icp.state import State
+from lessons.icp.words import caption
+from tests.verdicts import Claim, Run
+from workbench.algorithms.icp import Stop
+
+__all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
+
+UNITS = {"km": 1000.0, "m": 1.0, "mm": 0.001, "µm": 1e-6}
+LENGTH = r"[\d,.e-]+ (?:km|mm|µm|m)"
+
+
+def degrees(T: np.ndarray, truth: np.ndarray) -> float:
+    return float(np.degrees((Rotation.from_matrix(T[:3, :3]) * Rotation.from_matrix(truth[:3, :3]).inv()).magnitude()))
+
+
+def metres(words: str) -> float:
+    number, unit = words.split()
+    return float(number.replace(",", "")) * UNITS[unit]
+
+
+def moved(T: np.ndarray, p: np.ndarray) -> np.ndarray:
+    return p @ T[:3, :3].T + T[:3, 3]
+
+
+@lru_cache(maxsize=4)
+def _spacing(key: int, p: bytes) -> float:
+    places = np.unique(np.frombuffer(p).reshape(-1, 3), axis=0)
+    return float(np.median(KDTree(places).query(places, k=2)[0][:, 1]))
+
+
+def spacing(state: State) -> float:
+    p = state.scans.p_target
+    return _spacing(len(p), np.ascontiguousarray(p).tobytes())
+
+
+def off_by(state: State, T: np.ndarray) -> tuple[float, float, float]:
+    """Degrees, metres at the middle, and metres by root mean square over the source's points."""
+    assert state.scans.T_truth is not None
+    p = state.scans.p_source[~state.scans.is_outlier]
+    off = moved(T, p) - moved(state.scans.T_truth, p)
+    middle = moved(T, p.mean(axis=0)[None]) - moved(state.scans.T_truth, p.mean(axis=0)[None])
+    return degrees(T, state.scans.T_truth), float(np.linalg.norm(middle)), float(np.sqrt((off**2).sum(axis=1).mean()))
+
+
+def home(state: State, T: np.ndarray) -> bool:
+    """Rotation and place and all: the rotation alone says nothing of a slide."""
+    turn, _, distance = off_by(state, T)
+    return turn < 5.0 and distance < 2.0 * spacing(state)
+
+
+def end_of(run: Run) -> State:
+    return next(state for state in run.states if state.icp.stop)
+
+
+def arrived(run: Run, k: int) -> bool:
+    return home(run.states[k], run.states[k].icp.T_target_source)
+
+
+def right(run: Run, k: int) -> bool | None:
+    state = run.states[k]
+    return None if state.icp.stop is None else arrived(run, k)
+
+
+def try_home(state: State, i: int) -> bool:
+    assert state.scans.T_truth is not None
+    return home(state, state.tries[i].T_target_truth @ state.scans.T_truth)
+
+
+def close(said: str, true: float, slack: float = 0.006) -> bool:
+    """Whether a length in words is the true one, to three digits."""
+    return abs(metres(said) - true) <= slack * true + 1e-9
+
+
+def angle_close(said: str, true: float) -> bool:
+    return true < 0.0011 if said.startswith("less") else abs(float(said) - true) <= 0.006 * true + 1e-6
+
+
+def share(run: Run, k: int) -> float:
+    state = run.states[k]
+    assert state.scans.T_truth is not None
+    kept = state.icp.kept
+    belongs = moved(state.scans.T_truth, state.scans.p_source[kept])
+    off = np.linalg.norm(state.scans.p_target[state.icp.indices[kept]] - belongs, axis=1)
+    return float(np.mean(off <= 2.0 * state.scans.spacing))
+
+
+def said_share(run: Run, k: int, m: re.Match[str]) -> bool:
+    true = share(run, k)
+    if m[1].startswith("Hardly"):
+        return true < 0.005
+    return abs(float(re.findall(r"\d+", m[1])[0]) - 100 * true) <= 0.51 and m[1].startswith("Only") == (true < 0.5)
+
+
+def stood_still(run: Run, k: int, _: re.Match[str]) -> bool:
+    last = max(i for i, state in enumerate(run.states[: k + 1]) if not state.tries)
+    before, now = run.states[last - 1], run.states[last]
+    p = now.scans.p_source
+    step = np.linalg.norm(moved(now.icp.T_target_source, p) - moved(before.icp.T_target_source, p), axis=1).max()
+    return float(step) <= 1e-5 * float(np.linalg.norm(np.ptp(p, axis=0)))
+
+
+def came_round(run: Run, k: int, _: re.Match[str]) -> bool:
+    now = run.states[k].icp
+    return any(
+        np.array_equal(s.icp.indices, now.indices) and np.array_equal(s.icp.kept, now.kept)
+        for s in run.states[: k - 1]
+        if s.icp.iteration < now.iteration
+    )
+
+
+def try_ends(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    assert state.scans.T_truth is not None
+    turn, place, _ = off_by(state, state.tries[-1].T_target_truth @ state.scans.T_truth)
+    return (
+        (m[2] == "comes home") is try_home(state, -1)
+        and float(m[1]) == state.tries[-1].start_angle
+        and angle_close(m[3], turn)
+        and close(m[4], place)
+    )
+
+
+def row(run: Run, k: int, m: re.Match[str]) -> bool:
+    """Every start up to the angle comes home, and the next one does not."""
+    state = run.states[k]
+    came = [try_home(state, i) for i in range(len(state.tries))]
+    angles = [attempt.start_angle for attempt in state.tries]
+    edge = angles.index(float(m[1]))
+    return all(came[: edge + 1]) and (edge + 1 == len(came) or not came[edge + 1])
+
+
+def fit_ends(run: Run, k: int, m: re.Match[str]) -> bool:
+    turn, place, _ = off_by(run.states[k], run.states[k].icp.T_target_source)
+    return angle_close(m[1], turn) and close(m[2], place)
+
+
+ANGLE = r"(less than 0\.001|[\d.e-]+)°"
+CAPTIONS = (
+    Claim(rf"from (\d+)° away, ICP (comes home|ends) {ANGLE} and ({LENGTH}) from the truth", try_ends),
+    Claim(r"In this row, every start up to (\d+)° comes home\.", row),
+    Claim(r"Not even the start at 0° comes home\.", lambda run, k, m: not try_home(run.states[k], 0)),
+    Claim(rf"{ANGLE} and ({LENGTH}) from the truth", fit_ends),
+    Claim(r"((?:Only )?\d+ %|Hardly any) of its matches (?:was|were) right\.", said_share),
+    Claim(r"converged: the last fit moved no point by more than the tolerance", stood_still),
+    Claim(r"the matches are those of an earlier iteration again", came_round),
+    Claim(r"It has come home\.", lambda run, k, m: arrived(run, k)),
+    Claim(
+        r"It looks settled, and it is wrong\.",
+        lambda run, k, m: run.states[k].icp.stop in (Stop.CONVERGED, Stop.CIRCLING) and not arrived(run, k),
+    ),
+    Claim(r"It is wrong\.", lambda run, k, m: not arrived(run, k)),
+)
+
+
+def ended(run: Run) -> tuple[float, float, float]:
+    return off_by(end_of(run), end_of(run).icp.T_target_source)
+
+
+def came_home(run: Run) -> bool:
+    return home(end_of(run), end_of(run).icp.T_target_source)
+
+
+@lru_cache(maxsize=32)
+def fixed_gate(seed: int) -> float:
+    """Degrees that the fixed gate leaves at this seed."""
+    for state in run_icp(Params(**{**vars(OVERLAP), "seed": seed})):
+        if state.icp.stop:
+            return off_by(state, state.icp.T_target_source)[0]
+    raise AssertionError
+
+
+def from_45_lost(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[-1]
+    return all(try_home(state, i) == (attempt.start_angle < 45) for i, attempt in enumerate(state.tries))
+
+
+def outliers_fall_out(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = end_of(run)
+    return float(state.icp.kept[state.scans.is_outlier].mean()) < 0.1
+
+
+LINES = {
+    "home": (Claim("how many of its matches were right", None),),
+    "slide": (
+        Claim(r"the rotation is found", lambda run, k, m: ended(run)[0] < 0.15),
+        Claim(r"about 0\.3 m of shift stay", lambda run, k, m: 0.25 <= ended(run)[1] < 0.35),
+    ),
+    "overlap-adaptive": (
+        Claim(
+            r"less than half of the fixed gate's rotation error is left",
+            lambda run, k, m: ended(run)[0] < fixed_gate(run.params.seed) / 2,
+        ),
+    ),
+    "overlap-tight": (Claim(r"from 45° on, too few good matches pass and ICP no longer comes home", from_45_lost),),
+    "outliers": (Claim(r"the outliers pull the source over 5° astray", lambda run, k, m: ended(run)[0] > 5.0),),
+    "outliers-trimmed": (
+        Claim(r"nearly all outliers fall out", outliers_fall_out),
+        Claim(r"ICP comes home", lambda run, k, m: came_home(run)),
+    ),
+    "rings-chance": (Claim(r"over 0\.4 m stay", lambda run, k, m: ended(run)[1] > 0.4 and not came_home(run)),),
+    "rings-voxel": (Claim(r"less than 10 cm stay", lambda run, k, m: ended(run)[2] < 0.1),),
+    "rings-spread": (Claim(r"no more than 2 cm stay", lambda run, k, m: ended(run)[2] <= 0.02),),
+}
+
+WHYS = {
+    "predict-matches": (
+        Claim(
+            rf"ICP still (came home to|ended) {ANGLE} and ({LENGTH}) from the truth",
+            lambda run, k, m: (
+                (m[1] == "came home to") is came_home(run)
+                and angle_close(m[2], ended(run)[0])
+                and close(m[3], ended(run)[1])
+            ),
+        ),
+        Claim(r"^(\d+) %", lambda run, k, m: abs(100 * share(run, 0) - float(m[1])) <= 0.51 and share(run, 0) < 0.25),
+        Claim(r"partners need not be right for a fit to turn the source downhill", lambda run, k, m: came_home(run)),
+    ),
+    "predict-far": (
+        Claim(
+            rf"It ended {ANGLE} and ({LENGTH}) from the truth",
+            lambda run, k, m: angle_close(m[1], ended(run)[0]) and close(m[2], ended(run)[1]) and not came_home(run),
+        ),
+        Claim(
+            r"Each fit can only lower the cost",
+            lambda run, k, m: all(
+                fit.icp.rmse <= match.icp.rmse + 1e-12
+                for match, fit in zip(run.states[0::2], run.states[1::2], strict=False)
+                if not fit.tries and not match.tries
+            ),
+        ),
+    ),
+    "predict-vase": (
+        Claim(
+            rf"RMSE ({LENGTH}), where neighbouring target points lie ({LENGTH}) apart",
+            lambda run, k, m: (
+                close(m[1], end_of(run).icp.rmse)
+                and abs(metres(m[2]) / spacing(end_of(run)) - 1) < 0.1  # the lesson takes some hundred points
+                and metres(m[1]) < 2 * metres(m[2])
+            ),
+        ),
+        Claim(
+            r"(\d+)° of turn left", lambda run, k, m: abs(ended(run)[0] - float(m[1])) <= 0.51 and not came_home(run)
+        ),
+    ),
+}

@@ -1,0 +1,25 @@
+"""Fewer points of a cloud: one per voxel, so that dense and sparse parts of a scan count alike."""
+
+import numpy as np
+from jaxtyping import Float
+
+
+def voxel_means(p: Float[np.ndarray, "n 3"], size: float) -> Float[np.ndarray, "m 3"]:
+    """Return the mean of the points in each occupied cube of a grid, in the order of the cubes.
+
+    Args:
+        p: Points, in any unit. The grid begins at their smallest coordinates.
+        size: The edge of a cube, in the same unit.
+
+    Raises:
+        ValueError: If the size is not positive.
+    """
+    if not size > 0:
+        raise ValueError(f"a voxel has a positive size, not {size}")
+    voxels = np.floor((p - p.min(axis=0)) / size)  # stay floats: a far stray point would overflow whole numbers
+    order = np.lexsort(voxels.T[::-1])
+    starts = np.flatnonzero(np.r_[True, (np.diff(voxels[order], axis=0) != 0).any(axis=1)])
+    origin = p[order[starts]]  # means about a point of the voxel keep their digits far from the origin
+    counts = np.diff(np.r_[starts, len(p)])
+    offsets = p[order] - np.repeat(origin, counts, axis=0)
+    return origin + np.add.reduceat(offsets, starts, axis=0) / counts[:, None]
