@@ -6,12 +6,12 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TextIO
-from uuid import uuid4
 
 import numpy as np
 import rerun as rr
 
 from workbench import __version__, knobs
+from workbench.atomic import remove_leftovers, write_atomic
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
 from workbench.progress import Progress, bar
@@ -194,16 +194,10 @@ def _check_place(path: Path, force: bool) -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Put the whole file in place, or nothing: whatever stood there stays until the new file is complete."""
+    """Put the whole file in place, or nothing; a link is followed. What a killed process left half written goes."""
     final = path.resolve()
-    half = final.with_name(f".{final.name}.{uuid4().hex[:8]}.part")
     try:
-        with half.open("xb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(half, final)
+        remove_leftovers(final.parent)
+        write_atomic(final, data)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error
-    finally:
-        half.unlink(missing_ok=True)
