@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from tests import fake
+from tests.publish.conftest import TINY
 from workbench.errors import InputError
 from workbench.lesson import catalog
 from workbench.publish import runs, site
@@ -63,6 +64,14 @@ def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered):
     other = replace(SMALL, presets=(replace(SMALL.presets[0], params=fake.Params(angle=170.0)),))
     site.publish(out, [other])
     assert rendered == ["fake/half"]
+
+
+def test_a_recording_of_equal_content_is_left_alone(out, rendered, monkeypatch):
+    before = (out / "fake" / "runs" / "fake.rrd").read_bytes()
+    monkeypatch.setattr("workbench.publish.site.digest_of", lambda lesson, run: "another")
+    site.publish(out, [TINY])
+    assert rendered == ["fake/default"]
+    assert (out / "fake" / "runs" / "fake.rrd").read_bytes() == before
 
 
 def test_text_of_a_lesson_stays_text(tmp_path):

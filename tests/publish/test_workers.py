@@ -69,7 +69,7 @@ def test_workers_end_with_the_process_that_started_them(tmp_path, how):
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     command = [sys.executable, str(script), str(tmp_path)]
     pipe: Any = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "start_new_session": True}
-    process: subprocess.Popen[bytes]
+    process: Any
     with subprocess.Popen(command, env=environment, **pipe) as process:
         places = [tmp_path / "a", tmp_path / "b"]
         until(lambda: process.poll() is not None or all(place.exists() for place in places))

@@ -88,7 +88,7 @@ def test_recordings_of_other_programs_are_refused(tmp_path):
 def test_two_recordings_in_one_file_are_refused(fake_file, tmp_path):
     from workbench.recording.viewer_files import binary
 
-    other = record(fake.lesson, tmp_path / "b.rrd")
+    other = record(fake.lesson, tmp_path / "b.rrd", fake.Params(steps=2))
     both = tmp_path / "both.rrd"
     subprocess.run([str(binary()), "rrd", "merge", str(fake_file), str(other), "-o", str(both)], check=True)
     assert "2 recordings" in refuse(both)

@@ -64,6 +64,10 @@ class Ledger:
         found = self._digest(name)
         return found is not None and found in (self.files.get(name), self._writing.get(name))
 
+    def content(self, name: str) -> bytes | None:
+        """Return what a file of ours holds, None where there is none or it is not as we wrote it."""
+        return (self._out / name).read_bytes() if self.is_ours(name) else None
+
     def check(self, names: Iterable[str], *, force: bool) -> None:
         """Raise InputError where a file cannot be written, or is somebody else's and may not be replaced."""
         for name in names:

@@ -14,6 +14,7 @@ from workbench.publish.ledger import NAME, Ledger, Listed
 from workbench.publish.lock import only_writer
 from workbench.publish.pages import course_page, lesson_page
 from workbench.publish.runs import VISER_PAGE, Run, digest_of, files_of, render_all, runs_of
+from workbench.recording import equal_content
 from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
 
@@ -116,12 +117,18 @@ def _render(ledger: Ledger, work: Sequence[tuple[Lesson, Run]], progress: Progre
     done = len(work) - len(stale)
     for lesson, run, files in render_all(stale):
         ledger.runs.pop(f"{lesson.name}/{run.name}", None)
-        ledger.write(files)
+        ledger.write({name: data for name, data in files.items() if not _is_equal(ledger, name, data)})
         ledger.runs[f"{lesson.name}/{run.name}"] = digests[lesson.name, run.name]
         ledger.save()  # who stops here goes on here
         done += 1
         if progress is not None:
             progress(f"{lesson.name}/{run.name}", done, len(work))
+
+
+def _is_equal(ledger: Ledger, name: str, data: bytes) -> bool:
+    """Return whether our file there is a recording of equal content: its bytes may differ all the same."""
+    before = ledger.content(name) if name.endswith(".rrd") else None
+    return before is not None and equal_content(before, data)
 
 
 def canonical(base_url: str | None, path: str) -> str:

@@ -7,6 +7,7 @@ from workbench.lesson import Lesson
 _WHERE = {
     "record": "workbench.recording.write",
     "record_bytes": "workbench.recording.write",
+    "equal_content": "workbench.recording.canonical",
     "open_recording": "workbench.recording.read",
     "Recording": "workbench.recording.read",
 }

@@ -15,7 +15,7 @@ from workbench.recording.layout import plotted, two_runs
 from workbench.recording.read import Recording, open_recording, read_chunks
 from workbench.recording.replay import play
 from workbench.recording.sink import document, markdown
-from workbench.recording.streams import application_id, send_blueprint, stream_bytes
+from workbench.recording.streams import application_id, stream_bytes
 
 ROOTS = ("/a", "/b")
 
@@ -43,9 +43,6 @@ def compare_bytes(a: Path, b: Path) -> bytes:
     differences = differences_of(one, two)
 
     def fill(stream: Any) -> None:
-        values = {root: run.scalars for root, run in runs.items()}
-        names = {root: " · ".join((root[1:].upper(), run.path.name)) for root, run in runs.items()}
-        send_blueprint(stream, application, two_runs(view, both(contents_a, contents_b), values, names))
         stream.send_recording_name(safe(f"{a.name} and {b.name}"))
         stream.log("/differences", document(_table(differences)), static=True)
         for root, run in runs.items():
@@ -55,7 +52,9 @@ def compare_bytes(a: Path, b: Path) -> bytes:
                 style = curve_style(scalar, f"{scalar.name} · {root[1:].upper()}", second=root == ROOTS[1])
                 stream.log(root + plotted(path, scalar), style, static=True)
 
-    return stream_bytes(application, fill)
+    values = {root: run.scalars for root, run in runs.items()}
+    names = {root: " · ".join((root[1:].upper(), run.path.name)) for root, run in runs.items()}
+    return stream_bytes(application, fill, two_runs(view, both(contents_a, contents_b), values, names))
 
 
 def differences_of(a: Recording, b: Recording) -> list[tuple[str, str, str]]:

@@ -1,7 +1,8 @@
 """The layout a recording opens with: the scene with its legend and caption left, curves, charts and pictures right."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
+from uuid import UUID
 
 import numpy as np
 import rerun as rr
@@ -96,6 +97,8 @@ def plotted(path: str, scalar: Scalar) -> str:
 
 def finished(content: Any) -> Any:
     """Return the whole layout: nothing to click away, paused at the first step."""
+    for i, part in enumerate(_parts(content), 1):
+        part.id = UUID(int=i)  # rerun's own would be another one at each call
     return rrb.Blueprint(
         content,
         rrb.TopPanel(state="hidden"),
@@ -105,6 +108,14 @@ def finished(content: Any) -> Any:
         auto_layout=False,
         auto_views=False,
     )
+
+
+def _parts(part: Any) -> Iterator[Any]:
+    """Return a view or container and all that it contains."""
+    yield part
+    if isinstance(part, rrb.Container):
+        for inside in part.contents:
+            yield from _parts(inside)
 
 
 def _beside(contents: Contents, runs: Mapping[str, Values]) -> list[tuple[Any, float]]:

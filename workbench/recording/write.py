@@ -22,7 +22,7 @@ from workbench.recording.layout import one_run
 from workbench.recording.page import plain_page
 from workbench.recording.read import FORMAT, digest
 from workbench.recording.sink import RerunSink, document
-from workbench.recording.streams import application_id, send_blueprint, stream_bytes
+from workbench.recording.streams import application_id, stream_bytes
 from workbench.timeline import Timeline
 
 
@@ -115,11 +115,11 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
     lesson = timeline.lesson
     application = application_id(lesson.name)
 
+    contents = contents_of([step.scene for step in steps])
+    series = timeline.series()
+    values = {path: one.values for path, one in series.items()}
+
     def fill(stream: Any) -> None:
-        contents = contents_of([step.scene for step in steps])
-        series = timeline.series()
-        values = {path: one.values for path, one in series.items()}
-        send_blueprint(stream, application, one_run(lesson.view, contents, values))
         stream.send_recording_name(safe(_title(timeline, preset)))
         stream.send_property("run", facts(layout=to_json(contents, lesson.view), **_facts(timeline, preset)))
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
@@ -137,7 +137,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         check = digest(knobs.to_json(timeline.params), captions, values)
         stream.send_property("result", facts(status=status, steps=len(steps), digest=check))
 
-    return stream_bytes(application, fill)
+    return stream_bytes(application, fill, one_run(lesson.view, contents, values))
 
 
 def _run(lesson: Lesson, params: Any, tell: Progress) -> Timeline:

@@ -1,0 +1,89 @@
+"""The same chunks, under the same id, for the same content: rerun gives ids of the moment, and cuts where time does.
+
+Rows are put together, one chunk per entity, and numbered in the order in which they were logged. The recording's id is
+made from the content. What is left to chance is the index that rerun writes at a file's end, and the id of its layout:
+two files of one run have the same id, and differ in some bytes.
+"""
+
+import tempfile
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+from rerun.chunk import Chunk, RrdReader
+
+ROW_ID = "rerun.controls.RowId"
+_KINDS = {b"control": 0, b"index": 1, b"data": 2}  # the order that rerun wants
+
+
+def tidied(data: bytes) -> list[pa.Table]:
+    """Return the content of a file with one recording or one layout: a table per entity, static ones apart."""
+    with _as_file(data) as file:
+        reader = RrdReader(file)
+        stores = [*reader.recordings(), *reader.blueprints()]
+        return list(_tidied([chunk for store in stores for chunk in reader.stream(store=store)]))
+
+
+def _tidied(chunks: Iterable[Any]) -> Iterator[pa.Table]:
+    batches: dict[tuple[str, bool], list[pa.RecordBatch]] = {}
+    for chunk in chunks:
+        batches.setdefault((chunk.entity_path, chunk.is_static), []).append(chunk.to_record_batch())
+    groups = sorted(batches.items())
+    rows = sorted((row, i) for i, (_, group) in enumerate(groups) for batch in group for row in _row_ids(batch))
+    number = {row: n.to_bytes(16, "big") for n, row in enumerate(rows, 1)}
+    for i, (_, group) in enumerate(groups):
+        table = pa.concat_tables([pa.Table.from_batches([batch]) for batch in group], promote_options="default")
+        table = table.sort_by(ROW_ID)
+        table = table.select(sorted(table.column_names, key=lambda name: (_KINDS[_kind(table, name)], name)))
+        field = table.schema.field(ROW_ID)
+        ids = pa.array([number[row, i] for row in table.column(ROW_ID).to_pylist()], field.type)
+        about = {**(group[0].schema.metadata or {}), b"rerun:id": f"chunk_{i + 1:032X}".encode()}
+        yield table.set_column(0, field, ids).replace_schema_metadata(about).combine_chunks()
+
+
+def _kind(table: pa.Table, name: str) -> bytes:
+    return (table.schema.field(name).metadata or {})[b"rerun:kind"]
+
+
+def _row_ids(batch: pa.RecordBatch) -> list[bytes]:
+    return batch.column(ROW_ID).to_pylist()
+
+
+def chunks_of(tables: Iterable[pa.Table]) -> list[Any]:
+    """Return rerun's chunks of such tables."""
+    return [chunk for table in tables for chunk in Chunk.from_record_batch(table.to_batches()[0])]
+
+
+def id_of(tables: Sequence[pa.Table]) -> str:
+    """Return an id made from the content of all tables."""
+    told = sha256()
+    for table in tables:
+        told.update(repr(sorted((table.schema.metadata or {}).items())).encode())
+        bare = pa.schema([pa.field(field.name, field.type) for field in table.schema])
+        told.update(repr([sorted((field.metadata or {}).items()) for field in table.schema]).encode())
+        told.update(pa.table(table.columns, schema=bare).to_batches()[0].serialize())
+        told.update(str(bare).encode())
+    return told.hexdigest()[:32]
+
+
+def equal_content(a: bytes, b: bytes) -> bool:
+    """Return whether two recordings that we wrote have the same content."""
+    return id_in(a) == id_in(b)
+
+
+def id_in(data: bytes) -> str:
+    """Return the id of a recording that we wrote."""
+    with _as_file(data) as file:
+        return RrdReader(file).recordings()[0].recording_id
+
+
+@contextmanager
+def _as_file(data: bytes) -> Iterator[Path]:
+    """Yield a file with these bytes: rerun reads nothing else."""
+    with tempfile.TemporaryDirectory(prefix="workbench-") as folder:
+        file = Path(folder) / "stream.rrd"
+        file.write_bytes(data)
+        yield file
