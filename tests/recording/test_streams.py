@@ -64,4 +64,8 @@ def test_equal_runs_have_equal_content_under_one_id_and_others_another(tmp_path)
         {chunk.id: repr(chunk.to_record_batch().to_pydict()) for chunk in read_chunks(path)} for path in (here, there)
     ]
     assert chunks[0] == chunks[1]
+    for chunk in read_chunks(here):  # rerun looks for a step by halving
+        columns = chunk.to_record_batch().to_pydict()
+        assert sorted(columns["rerun.controls.RowId"]) == columns["rerun.controls.RowId"]
+        assert sorted(columns.get("step", ())) == list(columns.get("step", ()))
     assert len({chunk.entity_path + str(chunk.is_static) for chunk in read_chunks(here)}) == len(chunks[0])

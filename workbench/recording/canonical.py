@@ -1,6 +1,6 @@
 """The same chunks, under the same id, for the same content: rerun gives ids of the moment, and cuts where time does.
 
-Rows are put together, one chunk per entity, and numbered in the order in which they were logged. The recording's id is
+Rows are put together, one chunk per entity, ordered and numbered by step and then as they were logged. The recording's id is
 made from the content. What is left to chance is the index that rerun writes at a file's end, and the id of its layout:
 two files of one run have the same id, and differ in some bytes.
 """
@@ -16,7 +16,7 @@ import pyarrow as pa
 from rerun.chunk import Chunk, RrdReader
 
 ROW_ID = "rerun.controls.RowId"
-_KINDS = {b"control": 0, b"index": 1, b"data": 2}  # the order that rerun wants
+_KINDS = {b"control": 0, b"index": 1, b"data": 2}
 
 
 def tidied(data: bytes) -> list[pa.Table]:
@@ -31,25 +31,33 @@ def _tidied(chunks: Iterable[Any]) -> Iterator[pa.Table]:
     batches: dict[tuple[str, bool], list[pa.RecordBatch]] = {}
     for chunk in chunks:
         batches.setdefault((chunk.entity_path, chunk.is_static), []).append(chunk.to_record_batch())
-    groups = sorted(batches.items())
-    rows = sorted((row, i) for i, (_, group) in enumerate(groups) for batch in group for row in _row_ids(batch))
-    number = {row: n.to_bytes(16, "big") for n, row in enumerate(rows, 1)}
-    for i, (_, group) in enumerate(groups):
-        table = pa.concat_tables([pa.Table.from_batches([batch]) for batch in group], promote_options="default")
-        table = table.sort_by(ROW_ID)
-        table = table.select(sorted(table.column_names, key=lambda name: (_KINDS[_kind(table, name)], name)))
+    tables = [_joined(batches[key]) for key in sorted(batches)]
+    rows = sorted((*row, i) for i, table in enumerate(tables) for row in _order(table))
+    number = {(row_id, i): n.to_bytes(16, "big") for n, (_, row_id, i) in enumerate(rows, 1)}
+    for i, table in enumerate(tables):
         field = table.schema.field(ROW_ID)
-        ids = pa.array([number[row, i] for row in table.column(ROW_ID).to_pylist()], field.type)
-        about = {**(group[0].schema.metadata or {}), b"rerun:id": f"chunk_{i + 1:032X}".encode()}
-        yield table.set_column(0, field, ids).replace_schema_metadata(about).combine_chunks()
+        ids = pa.array([number[row_id, i] for _, row_id in _order(table)], field.type)
+        about = {**(table.schema.metadata or {}), b"rerun:id": f"chunk_{i + 1:032X}".encode()}
+        table = table.set_column(table.column_names.index(ROW_ID), field, ids).replace_schema_metadata(about)
+        yield table.sort_by(ROW_ID).combine_chunks()
+
+
+def _joined(batches: Sequence[pa.RecordBatch]) -> pa.Table:
+    """Return the rows of chunks as one table, its columns in the order that rerun wants."""
+    table = pa.concat_tables([pa.Table.from_batches([batch]) for batch in batches], promote_options="default")
+    table = table.replace_schema_metadata(batches[0].schema.metadata)
+    return table.select(sorted(table.column_names, key=lambda name: (_KINDS[_kind(table, name)], name)))
+
+
+def _order(table: pa.Table) -> list[tuple[int, bytes]]:
+    """Return what orders the rows: the step, then the moment of logging. Rerun takes both columns for sorted."""
+    ids = table.column(ROW_ID).to_pylist()
+    times = [name for name in table.column_names if _kind(table, name) == b"index"]
+    return list(zip(table.column(times[0]).to_pylist() if times else [-1] * len(ids), ids, strict=True))
 
 
 def _kind(table: pa.Table, name: str) -> bytes:
     return (table.schema.field(name).metadata or {})[b"rerun:kind"]
-
-
-def _row_ids(batch: pa.RecordBatch) -> list[bytes]:
-    return batch.column(ROW_ID).to_pylist()
 
 
 def chunks_of(tables: Iterable[pa.Table]) -> list[Any]:
