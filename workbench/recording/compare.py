@@ -1,6 +1,7 @@
 """Two recordings of one lesson as one: scenes side by side, curves in the same plots, on one step timeline."""
 
 import tempfile
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -47,9 +48,14 @@ def compare_bytes(a: Path, b: Path) -> bytes:
         stream.log("/differences", document(_table(differences)), static=True)
         for root, run in runs.items():
             stream.send_chunks([moved for chunk in read_chunks(run.path) if (moved := _below(root, chunk)) is not None])
+        charts = Counter(scalar.chart for scalar in (one.curves | two.curves).values())
         for root, run in runs.items():
             for path, scalar in run.curves.items():
-                style = curve_style(scalar, f"{scalar.name} · {root[1:].upper()}", second=root == ROOTS[1])
+                letter = root[
+                    1:
+                ].upper()  # alone in its plot a curve needs no other name: a long one hides what it names
+                name = letter if charts[scalar.chart] == 1 else f"{scalar.name} · {letter}"
+                style = curve_style(scalar, name, second=root == ROOTS[1])
                 stream.log(root + plotted(path, scalar), style, static=True)
 
     values = {root: run.scalars for root, run in runs.items()}

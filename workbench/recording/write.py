@@ -17,6 +17,7 @@ from workbench.lesson import Lesson, find
 from workbench.progress import Progress, bar
 from workbench.recording.columns import facts, send_captions, send_series
 from workbench.recording.contents import contents_of, places, to_json
+from workbench.recording.gather import unions
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import one_run
 from workbench.recording.page import plain_page
@@ -115,7 +116,8 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
     lesson = timeline.lesson
     application = application_id(lesson.name)
 
-    contents = contents_of([step.scene for step in steps])
+    scenes = [step.scene for step in steps]
+    contents, clouds = contents_of(scenes), unions(scenes)
     series = timeline.series()
     values = {path: one.values for path, one in series.items()}
 
@@ -127,7 +129,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         send_captions(stream, [step.caption for step in steps])
         for order, (path, one) in enumerate(series.items()):
             send_series(stream, path, one, order)
-        sink = RerunSink(stream, places(contents))
+        sink = RerunSink(stream, places(contents), clouds)
         for k, step in enumerate(steps):
             sink.show(k, step.scene)
             if progress is not None:
