@@ -26,12 +26,11 @@ def png_of_levels(levels: np.ndarray, colors: np.ndarray) -> bytes:
 
 
 def resized(image: np.ndarray, width: int, height: int) -> np.ndarray:
-    """Return an image, (h, w) or (h, w, 3) uint8, in another size."""
+    """Return an image, (h, w) or (h, w, 3) uint8, in a smaller size, each pixel the mean of those it stands for."""
     from PIL import Image
 
-    return np.asarray(
-        Image.fromarray(np.ascontiguousarray(image)).resize((max(width, 1), max(height, 1)), Image.Resampling.BOX)
-    )
+    size = max(width, 1), max(height, 1)
+    return np.asarray(Image.fromarray(np.ascontiguousarray(image)).resize(size, Image.Resampling.BOX))
 
 
 def webp(image: np.ndarray) -> bytes:

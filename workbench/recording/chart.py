@@ -91,10 +91,11 @@ def color_bar(field: Field, x: float, y: float, width: float, height: float = 10
 def legend_names(entries: Sequence[tuple[str, tuple[int, int, int]]]) -> list[Any]:
     """Return coloured dashes with names below them, in rows of `LEGEND_WIDTH`."""
     places = np.array(_legend_places(entries)[0])
-    dashes = np.stack([places - (DASH / 2, 0.0), places + (DASH / 2, 0.0)], axis=1)
+    half = np.array([DASH / 2, 0.0])
+    dashes = np.stack([places - half, places + half], axis=1)
     words, colors = [name for name, _ in entries], [color for _, color in entries]
     lines = rr.LineStrips2D(dashes, colors=colors, radii=rr.Radius.ui_points(2.5), draw_order=20.0)
-    return [lines, _text(places + (0.0, 4.0), words, colors)]  # Rerun begins a word right below its place
+    return [lines, _text(places + np.array([0.0, 4.0]), words, colors)]  # Rerun begins a word right below its place
 
 
 def legend_bar(field: Field, i: int, bars: int, entries: Sequence[tuple[str, tuple[int, int, int]]]) -> list[Any]:

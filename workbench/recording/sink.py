@@ -150,7 +150,7 @@ def table_text(table: Table) -> str:
 def markdown(text: str) -> str:
     """Return plain text so that Markdown shows it as it is."""
     text = safe(text).replace("\\", "\\\\").replace("\n", " ")
-    for special in "|*_`<":
+    for special in "|*_`<[]":
         text = text.replace(special, "\\" + special)
     return text
 
