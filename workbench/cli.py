@@ -200,8 +200,11 @@ def grade(
 def publish(
     out: Annotated[Path, Option("Folder to write the site into.", "OUT")],
     /,
-    lesson: Annotated[tuple[str, ...], Option("Only these lessons; all by default.", "NAME ...")] = (),
+    lesson: Annotated[
+        tuple[str, ...], Option("Only these lessons; what the site has of others stays. All by default.", "NAME ...")
+    ] = (),
     base_url: Annotated[str | None, Option("The address the site will have.", "URL")] = None,
+    force: Annotated[bool, Option("Replace files that publish did not write, or that were changed since.")] = False,
 ) -> None:
     """Write static tutorial pages that play in any browser, without Python."""
     from workbench.progress import bar
@@ -211,7 +214,7 @@ def publish(
     names = dict.fromkeys(name for word in lesson for name in word.split(",") if name)
     chosen = [lesson_given(name) for name in names or catalog()]
     with bar(sys.stderr, "Publishing") as progress:
-        files = publish_site(out, chosen, base_url=base_url, progress=progress)
+        files = publish_site(out, chosen, base_url=base_url, force=force, remove_others=not names, progress=progress)
     sys.stdout.write(sizes_told(out, files) + "\n")
 
 

@@ -14,6 +14,25 @@ def png(image: np.ndarray, compress_level: int = 6) -> bytes:
     return file.getvalue()
 
 
+def png_of_levels(levels: np.ndarray, colors: np.ndarray) -> bytes:
+    """Return an image, (h, w) uint8 that number rows of `colors` (n, 3) uint8, as the bytes of a PNG file."""
+    from PIL import Image
+
+    file = io.BytesIO()
+    image = Image.fromarray(np.ascontiguousarray(levels)).convert("P")
+    image.putpalette(np.ascontiguousarray(colors).tobytes())
+    image.save(file, "PNG", compress_level=9)
+    return file.getvalue()
+
+
+def resized(image: np.ndarray, width: int, height: int) -> np.ndarray:
+    """Return an image, (h, w) or (h, w, 3) uint8, in a smaller size, each pixel the mean of those it stands for."""
+    from PIL import Image
+
+    size = max(width, 1), max(height, 1)
+    return np.asarray(Image.fromarray(np.ascontiguousarray(image)).resize(size, Image.Resampling.BOX))
+
+
 def webp(image: np.ndarray) -> bytes:
     """Return an image, (h, w) or (h, w, 3) uint8, as the bytes of a WebP file without loss: half of a PNG's."""
     from PIL import Image

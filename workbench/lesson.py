@@ -161,6 +161,10 @@ class Lesson(Generic[P, S]):
         known = ", ".join(preset.name for preset in self.presets) or "none"
         raise InputError(f"lesson {self.name} has no preset {name!r}; it has: {known}")
 
+    def preset_of(self, params: P) -> Preset[P] | None:
+        """Return the preset that has these params, the first if there are several."""
+        return next((preset for preset in self.presets if preset.params == params), None)
+
     def check(self, params: P) -> P:
         """Return params when they are this lesson's and in range; raise InputError otherwise."""
         if not isinstance(params, self.params):

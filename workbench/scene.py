@@ -31,6 +31,8 @@ PALETTE: Mapping[Role, tuple[int, int, int]] = {
     "z": (0, 114, 178),
 }
 
+UNKNOWN = (128, 128, 128)
+"""The grey of what a Field does not know."""
 _VIRIDIS = ("440154", "472d7b", "3b528b", "2c728e", "21918c", "28ae80", "5dc863", "addc30", "fde725")
 _DIVERGING = ("0072b2", "6baed0", "f4f4f4", "eba273", "d55e00")
 
@@ -65,7 +67,7 @@ class Field:
         known = np.isfinite(self.values)
         level = np.where(known, (self.values - self.low) / (self.high - self.low), 0.0)
         colors = color_map(self.map, level)
-        colors[~known] = (128, 128, 128)
+        colors[~known] = UNKNOWN
         return colors
 
 

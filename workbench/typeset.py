@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import workbench
+from workbench.atomic import write_atomic
 
 
 def page_html(markdown: str) -> str:
@@ -84,9 +85,7 @@ def _font() -> bytes | None:
         return None
     try:
         kept.parent.mkdir(parents=True, exist_ok=True)
-        partial = kept.with_suffix(".partial")
-        partial.write_bytes(data)
-        partial.replace(kept)
+        write_atomic(kept, data)
     except OSError:
         pass  # a folder that cannot be written costs a second at the next start, no more
     return data

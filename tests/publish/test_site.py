@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from tests import fake
+from tests.publish.conftest import TINY
 from workbench.errors import InputError
 from workbench.lesson import catalog
 from workbench.publish import runs, site
@@ -29,9 +30,11 @@ def data_of(out, run: str) -> dict:
 
 def test_every_run_has_its_replay_its_recording_and_a_page_of_its_own(published):
     out, files = published
-    for run in ("default", "half"):
-        for end in (".js", ".rrd", ".html"):
-            assert files[f"fake/runs/{run}{end}"] > 500
+    for name in ("default.js", "default.html", "fake.rrd", "half.js", "half.html", "fake-half.rrd"):
+        assert files[f"fake/runs/{name}"] > 500
+    for page, name in (("index", "fake.rrd"), ("runs/default", "fake.rrd"), ("runs/half", "fake-half.rrd")):
+        assert f'{name}" download="{name}"' in (out / "fake" / f"{page}.html").read_text()
+    assert data_of(out, "half")["recording"] == "fake-half.rrd"
     assert files["fake/index.html"] < 300_000
     assert '<link rel="canonical" href="https://example.org/course/fake/">' in (out / "fake" / "index.html").read_text()
 
@@ -54,18 +57,21 @@ def test_what_repeats_is_kept_once():
     assert len(photos) == 1
 
 
-def test_nothing_is_rendered_twice_and_what_changed_is(published, monkeypatch):
+def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered):
     out, _ = published
-    rendered: list[str] = []
-    original = runs.run_script
-    monkeypatch.setattr(
-        runs, "run_script", lambda lesson, run, *rest: rendered.append(run.name) or original(lesson, run, *rest)
-    )
     site.publish(out, [SMALL])
     assert rendered == []
     other = replace(SMALL, presets=(replace(SMALL.presets[0], params=fake.Params(angle=170.0)),))
     site.publish(out, [other])
-    assert rendered == ["half"]
+    assert rendered == ["fake/half"]
+
+
+def test_a_recording_of_equal_content_is_left_alone(out, rendered, monkeypatch):
+    before = (out / "fake" / "runs" / "fake.rrd").read_bytes()
+    monkeypatch.setattr("workbench.publish.site.digest_of", lambda lesson, run: "another")
+    site.publish(out, [TINY])
+    assert rendered == ["fake/default"]
+    assert (out / "fake" / "runs" / "fake.rrd").read_bytes() == before
 
 
 def test_text_of_a_lesson_stays_text(tmp_path):
@@ -90,8 +96,16 @@ def test_a_run_that_fails_or_a_place_that_cannot_be_written_is_one_line(tmp_path
     (tmp_path / "file").write_text("x")
     with pytest.raises(InputError, match="file"):
         site.publish(tmp_path / "file", [SMALL])
+
+
+@pytest.mark.parametrize(
+    "address", ["javascript:x", "https://", "https://a/?b", "https://a/#", "http://[a", "https://a/<b"]
+)
+def test_an_address_that_is_none_is_refused_before_anything_is_rendered(tmp_path, rendered, address):
     with pytest.raises(InputError, match="base-url"):
-        site.publish(tmp_path, [replace(SMALL, presets=(), questions=())], base_url="javascript:x")
+        site.publish(tmp_path / "site", [SMALL], base_url=address)
+    assert rendered == []
+    assert not (tmp_path / "site").exists()
 
 
 def replace_default(**values):
@@ -108,13 +122,22 @@ def replace_default(**values):
     return Params
 
 
-def test_a_dead_link_or_a_heavy_page_fails(tmp_path):
+def test_a_dead_link_or_something_heavy_fails(tmp_path, monkeypatch):
     (tmp_path / "a.html").write_text('<a href="b.html">x</a>')
     with pytest.raises(InputError, match=r"a\.html: the link b\.html leads nowhere"):
-        site.checked(tmp_path)
+        site.checked(tmp_path, ["a.html"])
     (tmp_path / "b.html").write_text("x" * 400_000)
     with pytest.raises(InputError, match=r"b\.html with its styles and scripts has 0\.40 MB"):
-        site.checked(tmp_path)
+        site.checked(tmp_path, ["a.html", "b.html"])
+    (tmp_path / "c.rrd").write_bytes(b"x" * 3_000_001)
+    with pytest.raises(InputError, match=r"c\.rrd has 3\.00 MB, over the budget of 3\.00 MB"):
+        site.checked(tmp_path, ["c.rrd"])
+
+
+def test_the_summary_counts_replays_and_no_other_scripts(published):
+    out, files = published
+    told = site.sizes_told(out, list(files.items())).splitlines()
+    assert [line.partition(",")[0] for line in told[:3]] == ["4 pages", "2 replays", "2 recordings"]
 
 
 def test_every_page_of_every_lesson_is_small_and_its_runs_have_names_of_their_own():

@@ -96,9 +96,17 @@ def test_a_colour_bar_has_its_ends_its_unit_and_its_colours():
 
 def test_a_long_legend_takes_more_rows():
     entries = [(f"a rather long name {i}", PALETTE["target"]) for i in range(9)]
-    (names,) = legend_names(entries)
+    _, names = legend_names(entries)
     places = np.array(names.positions.as_arrow_array().to_pylist())
     assert places[:, 0].max() < LEGEND_WIDTH
     assert legend_height(entries, 0) > legend_height(entries[:2], 0)
     assert legend_height(entries, 1) > legend_height(entries, 0)
     assert legend_height([], 0) == 0
+
+
+def test_the_colours_of_a_legend_stand_above_its_names():
+    dashes, names = legend_names([("source", PALETTE["source"]), ("target", PALETTE["target"])])
+    ends = np.array(dashes.strips.as_arrow_array().to_pylist())
+    places = np.array(names.positions.as_arrow_array().to_pylist())
+    assert (ends[..., 1].max(axis=1) < places[:, 1]).all()
+    np.testing.assert_allclose(ends[..., 0].mean(axis=1), places[:, 0])

@@ -1,7 +1,11 @@
 """Files that are damaged or foreign, and places that cannot be written to: one line, and nothing lost."""
 
+import errno
 import os
+import re
+import signal
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -84,7 +88,7 @@ def test_recordings_of_other_programs_are_refused(tmp_path):
 def test_two_recordings_in_one_file_are_refused(fake_file, tmp_path):
     from workbench.recording.viewer_files import binary
 
-    other = record(fake.lesson, tmp_path / "b.rrd")
+    other = record(fake.lesson, tmp_path / "b.rrd", fake.Params(steps=2))
     both = tmp_path / "both.rrd"
     subprocess.run([str(binary()), "rrd", "merge", str(fake_file), str(other), "-o", str(both)], check=True)
     assert "2 recordings" in refuse(both)
@@ -115,10 +119,44 @@ def test_a_run_that_is_interrupted_leaves_nothing(tmp_path, monkeypatch):
     def interrupted(*args, **kwargs):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("workbench.recording.write.os.fsync", interrupted)
+    monkeypatch.setattr("workbench.atomic.os.fsync", interrupted)
     with pytest.raises(KeyboardInterrupt):
         record(fake.lesson, tmp_path / "a.rrd")
     assert os.listdir(tmp_path) == []
+
+
+def test_what_a_killed_record_left_is_removed_by_the_next(tmp_path):
+    code = (
+        "import os, signal, sys; from pathlib import Path; from workbench import atomic;"
+        "atomic.os.fsync = lambda file: os.kill(os.getpid(), signal.SIGKILL);"
+        "atomic.write_atomic(Path(sys.argv[1]), b'half')"
+    )
+    killed = subprocess.run([sys.executable, "-c", code, str(tmp_path / "other.rrd")], cwd=ROOT, check=False)
+    assert killed.returncode == -signal.SIGKILL
+    (left,) = os.listdir(tmp_path)
+    ours = left.replace(f"-{re.findall('-([0-9]+)-', left)[0]}-", f"-{os.getpid()}-")  # of a process that lives
+    for name in (ours, ".mine.part", "a.rrd.part"):
+        (tmp_path / name).touch()
+    record(fake.lesson, tmp_path / "a.rrd")
+    assert sorted(os.listdir(tmp_path)) == sorted(["a.rrd", ours, ".mine.part", "a.rrd.part"])
+
+
+def test_a_full_disk_leaves_nothing_half_written(tmp_path, monkeypatch):
+    def full(file):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("workbench.atomic.os.fsync", full)
+    with pytest.raises(InputError, match=r"a\.rrd: cannot be written: No space left"):
+        record(fake.lesson, tmp_path / "a.rrd")
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_file_that_may_not_be_read_is_not_called_damaged(fake_file, monkeypatch):
+    def forbidden(*args):
+        raise PermissionError(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr(Path, "open", forbidden)
+    assert refuse(fake_file) == f"{fake_file}: cannot be read: Permission denied"
 
 
 @pytest.mark.parametrize("place", ["missing/a.rrd", "file/a.rrd", "."])

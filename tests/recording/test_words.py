@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from workbench.lesson import catalog
 from workbench.recording.glyphs import safe
 from workbench.recording.page import plain_formula, plain_page
+from workbench.recording.sink import markdown
 
 
 @given(st.text(max_size=60))
@@ -80,3 +81,7 @@ def test_every_page_is_free_of_tex(lesson):
     for command in ("frac", "\\sum", "mathrm", "\\left", "begin{", "operatorname", "qquad", "lVert", "boldsymbol"):
         assert command not in page, command
     assert "?" * 2 not in page
+
+
+def test_what_looks_like_a_link_in_a_caption_stays_words():
+    assert markdown("[x](https://example.org) ![y](z)") == "\\[x\\](https://example.org) !\\[y\\](z)"

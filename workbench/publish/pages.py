@@ -1,11 +1,13 @@
 """The HTML of a published site. Whatever comes from a lesson or its params is escaped or typeset here."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from html import escape
 
 from workbench.lesson import Lesson, Question
+from workbench.publish.ledger import Listed
 from workbench.questions import answer
+from workbench.recording import file_name
 from workbench.session import SPEEDS
 from workbench.timeline import Timelines
 from workbench.typeset import inline_html, page_html
@@ -27,12 +29,12 @@ TOP = """<a class="skip" href="#main">To the content</a>
 """
 
 
-def course_page(lessons: Sequence[Lesson], extra: str = "") -> str:
-    """Return the page of the course: all lessons in order."""
+def course_page(lessons: Mapping[str, Listed], extra: str = "") -> str:
+    """Return the page of the course: all lessons by name, in order."""
     cards = "".join(
-        f'<div class="card"><h2>{number}. <a href="{lesson.name}/index.html">{escape(lesson.title)}</a></h2>'
+        f'<div class="card"><h2>{number}. <a href="{name}/index.html">{escape(lesson.title)}</a></h2>'
         f"<div>{escape(lesson.summary)}</div></div>\n"
-        for number, lesson in enumerate(lessons, 1)
+        for number, (name, lesson) in enumerate(lessons.items(), 1)
     )
     head = HEAD.format(
         title="Geometry workbench", summary="Algorithms of 3D vision, step by step", root="", extra=extra
@@ -63,28 +65,30 @@ def lesson_page(lesson: Lesson, runs: Mapping[str, tuple[str, str]], timelines: 
         for name, (title, line) in runs.items()
     )
     head = HEAD.format(title=escape(lesson.title), summary=escape(lesson.summary), root="../", extra=extra)
+    player = _player("default", root="../", runs="runs/", recording=file_name(lesson, None))
     return (
         f"{head}<body>{TOP.format(root='../', here=f'<span>{escape(lesson.title)}</span>')}"
         f'<main id="main"><div class="wb">{before}{questions}{after}</div>'
-        f'<div id="stage"><section aria-label="Replay">{_player("default", root="../", runs="runs/")}</section>'
+        f'<div id="stage"><section aria-label="Replay">{player}</section>'
         f'<h2>Runs</h2><ul class="runs">{buttons}</ul></div></main>'
         '<script src="../player.js"></script></body></html>\n'
     )
 
 
-def embed_page(lesson: Lesson, name: str, title: str) -> str:
+def embed_page(lesson: Lesson, name: str, title: str, recording: str) -> str:
     """Return the page of one run alone, for an iframe on a slide or a learning platform."""
     head = HEAD.format(
         title=f"{escape(lesson.title)}: {escape(title)}", summary=escape(lesson.summary), root="../../", extra=""
     )
+    player = _player(name, root="../../", runs="", recording=recording)
     return (
         f'{head}<body class="embed"><main id="main">'
-        f'<h1 class="skip">{escape(lesson.title)}: {escape(title)}</h1>{_player(name, root="../../", runs="")}</main>'
+        f'<h1 class="skip">{escape(lesson.title)}: {escape(title)}</h1>{player}</main>'
         '<script src="../../player.js"></script></body></html>\n'
     )
 
 
-def _player(run: str, *, root: str, runs: str) -> str:
+def _player(run: str, *, root: str, runs: str, recording: str) -> str:
     speeds = "".join(
         f'<option value="{s:g}"{" selected" if s == 1 else ""}>{s:g} step{"" if s == 1 else "s"} a second</option>'
         for s in SPEEDS
@@ -100,7 +104,7 @@ def _player(run: str, *, root: str, runs: str) -> str:
         '<input id="step" type="range" min="0" max="0" value="0" aria-label="Step">'
         f'<select id="speed" aria-label="Speed">{speeds}</select></div>'
         '<details class="take"><summary>Take this run along</summary>'
-        f'<p><a id="rrd" href="{runs}{escape(run)}.rrd" download>Recording for Rerun (.rrd)</a> · '
+        f'<p><a id="rrd" href="{runs}{escape(recording)}" download="{escape(recording)}">Recording for Rerun (.rrd)</a> · '
         f'<a id="embed" href="{runs}{escape(run)}.html">this run alone</a></p>'
         'Live, where the workbench is installed:<pre id="reopen"></pre>'
         'In a page of your own:<pre id="iframe-line"></pre></details>'
@@ -139,9 +143,9 @@ def question_run(lesson: Lesson, question: Question) -> str:
     """Return the name of the run that answers a question: of the default, a preset or an earlier question if the same."""
     if question.params == lesson.params():
         return "default"
-    for preset in lesson.presets:
-        if preset.params == question.params:
-            return preset.name
+    preset = lesson.preset_of(question.params)
+    if preset is not None:
+        return preset.name
     return next(other.name for other in lesson.questions if other.params == question.params)
 
 

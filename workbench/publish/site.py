@@ -1,112 +1,167 @@
 """Writes a static site: a course page and one page per lesson, with replays that play from disk, offline."""
 
-import json
-import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from html.parser import HTMLParser
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from urllib.parse import unquote, urlsplit
 
+import viser
+
+import workbench
 from workbench.errors import InputError
 from workbench.lesson import Lesson
+from workbench.publish.ledger import NAME, Ledger, Listed
+from workbench.publish.lock import only_writer
 from workbench.publish.pages import course_page, lesson_page
-from workbench.publish.runs import digest_of, files_of, render_all, runs_of, write
+from workbench.publish.runs import VISER_PAGE, Run, digest_of, files_of, render_all, runs_of
+from workbench.recording import equal_content
 from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
-PAGE_BUDGET, REPLAY_BUDGET = 300_000, 4_000_000
-KEPT = ".published.json"
+PAGE_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = 300_000, 4_000_000, 3_000_000
+COURSE_PAGE = "index.html"
 
 Progress = Callable[[str, int, int], object]
 """progress(what is done, how much is done, of how much)."""
 
 
 def publish(
-    out: Path, lessons: Sequence[Lesson], *, base_url: str | None = None, progress: Progress | None = None
+    out: Path,
+    lessons: Sequence[Lesson],
+    *,
+    base_url: str | None = None,
+    force: bool = False,
+    remove_others: bool = False,
+    progress: Progress | None = None,
 ) -> list[tuple[str, int]]:
-    """Write the site and return what was written: (file, bytes), the largest of each kind to be told.
+    """Write lessons into a site and return all that the site holds of ours: (file, bytes).
+
+    What is there of an earlier site and still fits is kept. A file that we did not write, or that was changed since, is
+    neither replaced nor removed.
 
     Args:
-        out: The folder; what is in it of an earlier site and still fits is kept.
-        lessons: What is published, in order.
+        out: The folder.
+        lessons: What is published.
         base_url: The address the site will have, for canonical links.
+        force: Replace files of others that are in the way.
+        remove_others: These are all lessons of the site: others that we published before go.
         progress: Told of each run.
 
     Raises:
-        InputError: If a run fails, a file cannot be written, a link leads nowhere, or something is over its size budget.
+        InputError: If somebody else's file is in the way (then nothing has changed), another publish is writing here, a
+            run fails, a file cannot be written, a link leads nowhere, or something is over its size budget.
     """
+    for lesson in lessons:
+        if not all(NAME.fullmatch(name) for name in (lesson.name, *(run.name for run in runs_of(lesson)))):
+            raise InputError(f"lesson {lesson.name!r}: a name on a site has the signs A-Z a-z 0-9 _ - only")
+    canonical(base_url, "")  # raises here where it is none
     try:
         out.mkdir(parents=True, exist_ok=True)
-        return _publish(out, lessons, base_url, progress)
+        with only_writer(out):
+            return _publish(out, lessons, base_url, force, remove_others, progress)
     except OSError as error:
         raise InputError(f"{error.filename or out}: {error.strerror or error}") from None
 
 
 def _publish(
-    out: Path, lessons: Sequence[Lesson], base_url: str | None, progress: Progress | None
+    out: Path,
+    lessons: Sequence[Lesson],
+    base_url: str | None,
+    force: bool,
+    remove_others: bool,
+    progress: Progress | None,
 ) -> list[tuple[str, int]]:
-    timelines = Timelines()
-    before = _read_kept(out)
+    ledger = Ledger(out)
+    ledger.remove_leftovers()
+    names = {lesson.name for lesson in lessons}
+    others = {} if remove_others else {name: one for name, one in ledger.lessons.items() if name not in names}
+    made_by = f"workbench {workbench.__version__}, viser {viser.__version__}"
+    if others and ledger.made_by != made_by:
+        raise InputError(f"{out}: its other lessons were published by another version; publish all of them again")
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]
-    digests = {(lesson.name, run.name): digest_of(lesson, run) for lesson, run in work}
-    whole = (out / "viser.js").exists()
-    fresh = [
-        (lesson, run)
-        for lesson, run in work
-        if whole
-        and before.get(f"{lesson.name}/{run.name}") == digests[lesson.name, run.name]
-        and all(file.exists() for file in files_of(out, lesson, run))
-    ]
-    kept = {f"{lesson.name}/{run.name}": digests[lesson.name, run.name] for lesson, run in fresh}
-    for lesson, run in render_all(out, [one for one in work if one not in fresh]):
-        kept[f"{lesson.name}/{run.name}"] = digests[lesson.name, run.name]
-        write(out / KEPT, json.dumps(kept, indent=1))  # who stops here goes on here
-        if progress is not None:
-            progress(f"{lesson.name}/{run.name}", len(kept), len(work))
-    for name in ("site.css", "player.js"):
-        write(out / name, (STATIC / name).read_text(encoding="utf-8"))
-    write(out / "math.css", math_font_css())
-    write(out / ".nojekyll", "")
+    shared = {name: (STATIC / name).read_bytes() for name in ("site.css", "player.js")}
+    shared |= {"math.css": math_font_css().encode(), ".nojekyll": b""}
+    wanted = {COURSE_PAGE, VISER_PAGE, *shared, *(f"{name}/{COURSE_PAGE}" for name in names)}
+    wanted |= {name for lesson, run in work for name in files_of(lesson, run)}
+    ledger.check(wanted, force=force)
+
+    ledger.made_by = made_by
+    _render(ledger, work, progress)
+    ledger.write(shared)
+    timelines = Timelines()
     for lesson in lessons:
         titles = {run.name: (run.title, run.line) for run in runs_of(lesson)}
-        write(
-            out / lesson.name / "index.html",
-            lesson_page(lesson, titles, timelines, canonical(base_url, f"{lesson.name}/")),
-        )
-        wanted = {file.name for run in runs_of(lesson) for file in files_of(out, lesson, run)}
-        for file in (out / lesson.name / "runs").iterdir():
-            if file.name not in wanted:
-                file.unlink()
-    for name in {key.split("/")[0] for key in before} - {lesson.name for lesson in lessons}:
-        shutil.rmtree(out / name, ignore_errors=True)  # a lesson of the site before, no longer published
-    write(out / "index.html", course_page(lessons, canonical(base_url, "")))
-    write(out / KEPT, json.dumps(kept, indent=1))
-    return checked(out)
+        page = lesson_page(lesson, titles, timelines, canonical(base_url, f"{lesson.name}/"))
+        ledger.write({f"{lesson.name}/{COURSE_PAGE}": page.encode()})
+    listed = others | {lesson.name: Listed(lesson.title, lesson.summary, lesson.order) for lesson in lessons}
+    ledger.lessons = dict(sorted(listed.items(), key=lambda item: (item[1].order, item[0])))
+    ledger.write({COURSE_PAGE: course_page(ledger.lessons, canonical(base_url, "")).encode()})
+    ledger.remove(name for name in ledger.files if name not in wanted and name.partition("/")[0] not in others)
+    ledger.runs = {key: value for key, value in ledger.runs.items() if key.partition("/")[0] in ledger.lessons}
+    ledger.save()
+    return checked(out, ledger.files)
+
+
+def _render(ledger: Ledger, work: Sequence[tuple[Lesson, Run]], progress: Progress | None) -> None:
+    """Write the files of those runs that are not there as they should be."""
+    digests = {(lesson.name, run.name): digest_of(lesson, run) for lesson, run in work}
+    stale = [
+        (lesson, run)
+        for lesson, run in work
+        if ledger.runs.get(f"{lesson.name}/{run.name}") != digests[lesson.name, run.name]
+        or not all(map(ledger.is_ours, files_of(lesson, run)))
+    ]
+    if not ledger.is_ours(VISER_PAGE):
+        stale = stale or work[:1]  # it comes with any run
+    done = len(work) - len(stale)
+    for lesson, run, files in render_all(stale):
+        ledger.runs.pop(f"{lesson.name}/{run.name}", None)
+        ledger.write({name: data for name, data in files.items() if not _is_equal(ledger, name, data)})
+        ledger.runs[f"{lesson.name}/{run.name}"] = digests[lesson.name, run.name]
+        ledger.save()  # who stops here goes on here
+        done += 1
+        if progress is not None:
+            progress(f"{lesson.name}/{run.name}", done, len(work))
+
+
+def _is_equal(ledger: Ledger, name: str, data: bytes) -> bool:
+    """Return whether our file there is a recording of equal content: its bytes may differ all the same."""
+    before = ledger.content(name) if name.endswith(".rrd") else None
+    return before is not None and equal_content(before, data)
 
 
 def canonical(base_url: str | None, path: str) -> str:
     """Return the canonical link of a page, nothing without an address."""
     if base_url is None:
         return ""
-    parts = urlsplit(base_url)
+    try:
+        parts = urlsplit(base_url)
+    except ValueError:  # such as brackets that hold no address
+        parts = urlsplit("")
     if parts.scheme not in ("http", "https") or not parts.netloc or any(c in base_url for c in "\"'<> "):
         raise InputError(f"--base-url {base_url!r}: an address such as https://example.org/course is needed")
+    if "?" in base_url or "#" in base_url:
+        raise InputError(f"--base-url {base_url!r}: the address of a folder has no query (?) and no fragment (#)")
     return f'<link rel="canonical" href="{base_url.rstrip("/")}/{path}">\n'
 
 
-def checked(out: Path) -> list[tuple[str, int]]:
-    """Return all files with their sizes.
+def checked(out: Path, names: Iterable[str]) -> list[tuple[str, int]]:
+    """Return these files of a site with their sizes.
 
     Raises:
-        InputError: If a link leads nowhere, or a page or replay is over its budget.
+        InputError: If a link leads nowhere, or a page, replay or recording is over its budget.
     """
-    sizes = [(str(file.relative_to(out)), file.stat().st_size) for file in sorted(out.rglob("*")) if file.is_file()]
+    sizes = [(name, (out / name).stat().st_size) for name in sorted(names)]
+    budgets = {".js": REPLAY_BUDGET, ".rrd": RECORDING_BUDGET}
     for name, size in sizes:
-        if name.endswith(".js") and size > REPLAY_BUDGET:
-            raise InputError(_over(name, size, REPLAY_BUDGET))
-    for page in sorted(out.rglob("*.html")):
-        name, weight = str(page.relative_to(out)), page.stat().st_size
+        budget = budgets.get(Path(name).suffix, size)
+        if size > budget:
+            raise InputError(_over(name, size, budget))
+    for name, size in sizes:
+        if not name.endswith(".html"):
+            continue
+        page, weight = out / name, size
         for link in links_in(page.read_text(encoding="utf-8")):
             parts = urlsplit(link)
             if parts.scheme or parts.netloc or not parts.path:
@@ -127,14 +182,14 @@ def _over(what: str, size: int, budget: int) -> str:
 
 def sizes_told(out: Path, files: Sequence[tuple[str, int]]) -> str:
     """Return a summary of what a site holds, by kind of file, and where to begin."""
-    kinds = {"pages": ".html", "replays": ".js", "recordings": ".rrd"}
+    kinds = {"pages": "*.html", "replays": "*/runs/*.js", "recordings": "*.rrd"}
     lines = []
-    for kind, end in kinds.items():
-        sizes = [size for name, size in files if name.endswith(end)]
+    for kind, pattern in kinds.items():
+        sizes = [size for name, size in files if PurePosixPath(name).match(pattern)]
         lines.append(
             f"{len(sizes)} {kind}, {sum(sizes) / 1e6:.1f} MB, the largest {max(sizes, default=0) / 1e6:.2f} MB"
         )
-    return "\n".join([*lines, f"begin at {out / 'index.html'}"])
+    return "\n".join([*lines, f"begin at {out / COURSE_PAGE}"])
 
 
 def links_in(page: str) -> Iterator[str]:
@@ -151,11 +206,3 @@ class _Links(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self.found += [value for name, value in attrs if name in ("href", "src") and value]
-
-
-def _read_kept(out: Path) -> dict[str, str]:
-    try:
-        kept = json.loads((out / KEPT).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return {}
-    return {str(key): str(value) for key, value in kept.items()} if isinstance(kept, dict) else {}

@@ -2,9 +2,12 @@
 
 from typing import Any
 
+from workbench.lesson import Lesson
+
 _WHERE = {
     "record": "workbench.recording.write",
     "record_bytes": "workbench.recording.write",
+    "equal_content": "workbench.recording.canonical",
     "open_recording": "workbench.recording.read",
     "Recording": "workbench.recording.read",
 }
@@ -17,3 +20,8 @@ def __getattr__(name: str) -> Any:
     from importlib import import_module
 
     return getattr(import_module(_WHERE[name]), name)
+
+
+def file_name(lesson: Lesson, run: str | None) -> str:
+    """Return under which name a recording is downloaded: of a lesson's run by that name, or of another one."""
+    return f"{lesson.name}.rrd" if run is None else f"{lesson.name}-{run}.rrd"

@@ -18,6 +18,7 @@ from workbench.scene import PALETTE, Curve, Field, color_map
 WIDTH, HEIGHT = 300.0, 186.0
 LEFT, RIGHT, TOP, BOTTOM = 40.0, 290.0, 24.0, 138.0  # the frame of a chart on its canvas
 LEGEND_WIDTH, LEGEND_ROW = 760.0, 38.0
+DASH = 26.0  # how long a colour is in the legend
 GREY = (115, 121, 129)
 
 
@@ -88,10 +89,13 @@ def color_bar(field: Field, x: float, y: float, width: float, height: float = 10
 
 
 def legend_names(entries: Sequence[tuple[str, tuple[int, int, int]]]) -> list[Any]:
-    """Return coloured dots with names below them, in rows of `LEGEND_WIDTH`."""
-    places, _ = _legend_places(entries)
-    words, colors = [safe(name) for name, _ in entries], [color for _, color in entries]
-    return [rr.Points2D(places, labels=words, colors=colors, radii=rr.Radius.ui_points(5.0), show_labels=True)]
+    """Return coloured dashes with names below them, in rows of `LEGEND_WIDTH`."""
+    places = np.array(_legend_places(entries)[0])
+    half = np.array([DASH / 2, 0.0])
+    dashes = np.stack([places - half, places + half], axis=1)
+    words, colors = [name for name, _ in entries], [color for _, color in entries]
+    lines = rr.LineStrips2D(dashes, colors=colors, radii=rr.Radius.ui_points(2.5), draw_order=20.0)
+    return [lines, _text(places + np.array([0.0, 4.0]), words, colors)]  # Rerun begins a word right below its place
 
 
 def legend_bar(field: Field, i: int, bars: int, entries: Sequence[tuple[str, tuple[int, int, int]]]) -> list[Any]:
@@ -112,7 +116,7 @@ def _legend_places(entries: Sequence[tuple[str, tuple[int, int, int]]]) -> tuple
         room = 30.0 + 7.5 * len(name)
         if x > 0 and x + room > LEGEND_WIDTH:
             x, row = 0.0, row + 1
-        places.append((x + room / 2, row * LEGEND_ROW + 8.0))
+        places.append((x + room / 2, row * LEGEND_ROW + 5.0))
         x += room
     return places, row + 1 if places else 0
 

@@ -1,6 +1,7 @@
 """Two recordings of one lesson as one: scenes side by side, curves in the same plots, on one step timeline."""
 
 import tempfile
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from workbench.recording.layout import plotted, two_runs
 from workbench.recording.read import Recording, open_recording, read_chunks
 from workbench.recording.replay import play
 from workbench.recording.sink import document, markdown
-from workbench.recording.streams import application_id, send_blueprint, stream_bytes
+from workbench.recording.streams import application_id, stream_bytes
 
 ROOTS = ("/a", "/b")
 
@@ -44,19 +45,23 @@ def compare_bytes(a: Path, b: Path) -> bytes:
     differences = differences_of(one, two)
 
     def fill(stream: Any) -> None:
-        values = {root: run.scalars for root, run in runs.items()}
-        names = {root: " · ".join((root[1:].upper(), run.path.name)) for root, run in runs.items()}
-        send_blueprint(stream, application, two_runs(view, both(contents_a, contents_b), values, names))
         stream.send_recording_name(safe(f"{a.name} and {b.name}"))
         stream.log("/differences", document(_table(differences)), static=True)
         for root, run in runs.items():
             stream.send_chunks([moved for chunk in read_chunks(run.path) if (moved := _below(root, chunk)) is not None])
+        charts = Counter(scalar.chart for scalar in (one.curves | two.curves).values())
         for root, run in runs.items():
             for path, scalar in run.curves.items():
-                style = curve_style(scalar, f"{scalar.name} · {root[1:].upper()}", second=root == ROOTS[1])
+                letter = root[
+                    1:
+                ].upper()  # alone in its plot a curve needs no other name: a long one hides what it names
+                name = letter if charts[scalar.chart] == 1 else f"{scalar.name} · {letter}"
+                style = curve_style(scalar, name, second=root == ROOTS[1])
                 stream.log(root + plotted(path, scalar), style, static=True)
 
-    return stream_bytes(application, fill)
+    values = {root: run.scalars for root, run in runs.items()}
+    names = {root: " · ".join((root[1:].upper(), run.path.name)) for root, run in runs.items()}
+    return stream_bytes(application, fill, two_runs(view, both(contents_a, contents_b), values, names))
 
 
 def _beside(run: Recording) -> tuple[Contents, View]:

@@ -1,7 +1,8 @@
 """The layout a recording opens with: the scene with its legend and caption left, curves, charts and pictures right."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
+from uuid import UUID
 
 import numpy as np
 import rerun as rr
@@ -17,6 +18,8 @@ from workbench.scene import Scalar
 RERUN_FOV = 55.0  # degrees, of the viewer's eye, from top to bottom
 TINY = 1e-9
 """A plot does not zoom in on differences below this: they are rounding, whatever the unit."""
+LATE = 0.5
+"""Share of a run after which what appears for the first time stands behind a tab."""
 MOST_ROWS = 5.2
 """Shares of height in the column beside the scene; what is more goes behind a tab."""
 
@@ -33,7 +36,7 @@ def one_run(view: View, contents: Contents, values: Values) -> Any:
         shares.append(legend_share(contents))
     left.append(caption_view(""))
     shares.append(1.7)
-    right = _column(_beside(contents, {"": values}))
+    right = _column(_beside(contents, {"": values}), late=_beside(contents, {"": values}, late=True))
     whole = rrb.Vertical(*left, row_shares=shares)
     return finished(rrb.Horizontal(whole, right, column_shares=[3, 2]) if right is not None else whole)
 
@@ -50,7 +53,7 @@ def two_runs(view: View, contents: Contents, runs: Mapping[str, Values], names: 
         shares.append(0.4 * legend_share(contents))
     rows.append(rrb.TextDocumentView(origin="/differences", name="What differs"))
     left = rrb.Vertical(*rows, row_shares=[*shares, 1.0])
-    right = _column(_beside(contents, runs))
+    right = _column(_beside(contents, runs), late=_beside(contents, runs, late=True))
     return finished(rrb.Horizontal(left, right, column_shares=[3, 2]) if right is not None else left)
 
 
@@ -96,6 +99,8 @@ def plotted(path: str, scalar: Scalar) -> str:
 
 def finished(content: Any) -> Any:
     """Return the whole layout: nothing to click away, paused at the first step."""
+    for i, part in enumerate(_parts(content), 1):
+        part.id = UUID(int=i)  # rerun's own would be another one at each call
     return rrb.Blueprint(
         content,
         rrb.TopPanel(state="hidden"),
@@ -107,12 +112,25 @@ def finished(content: Any) -> Any:
     )
 
 
-def _beside(contents: Contents, runs: Mapping[str, Values]) -> list[tuple[Any, float]]:
-    """Return rows of pictures, curves, charts and tables, each with its share of the height."""
-    plots = [_curve_view(chart, scalars, runs) for chart, scalars in contents.scalars.items()]
+def _parts(part: Any) -> Iterator[Any]:
+    """Return a view or container and all that it contains."""
+    yield part
+    if isinstance(part, rrb.Container):
+        for inside in part.contents:
+            yield from _parts(inside)
+
+
+def _beside(contents: Contents, runs: Mapping[str, Values], *, late: bool = False) -> list[tuple[Any, float]]:
+    """Return rows of pictures, curves, charts and tables, each with its share of the height.
+
+    What appears only in a run's second half is late, and left out or all there is: until then it would be empty room.
+    """
+    steps = max((len(values) for run in runs.values() for values in run.values()), default=0)
+    plots = [] if late else [_curve_view(chart, scalars, runs) for chart, scalars in contents.scalars.items()]
     beside = {
         entity: [_canvas_view(root + entity, canvas, root) for root in runs]
         for entity, canvas in canvases(contents).items()
+        if (canvas.first > LATE * steps) == late
     }
     charts = [view for entity, views in beside.items() if entity.startswith("/charts/") for view in views]
     pictures = [view for entity, views in beside.items() if entity.startswith("/pictures/") for view in views]
@@ -121,7 +139,7 @@ def _beside(contents: Contents, runs: Mapping[str, Values]) -> list[tuple[Any, f
         *_rows(pictures, 1.4, 2),
         *_rows(plots, 1.0, 1 if len(plots) < 3 else 2),
         *_rows(charts, 1.3, 2),
-        *_rows(tables if contents.tables is not None else [], 1.3, 2),
+        *_rows(tables if contents.tables is not None and (contents.tables > LATE * steps) == late else [], 1.3, 2),
     ]
 
 
@@ -130,8 +148,8 @@ def _rows(views: Sequence[Any], share: float, at_once: int) -> list[tuple[Any, f
     return [(rrb.Horizontal(*chunk) if len(chunk) > 1 else chunk[0], share) for chunk in chunks]
 
 
-def _column(rows: Sequence[tuple[Any, float]]) -> Any:
-    """Return rows below each other, those that do not fit behind further tabs; None where there is no row."""
+def _column(rows: Sequence[tuple[Any, float]], late: Sequence[tuple[Any, float]]) -> Any:
+    """Return rows below each other, those that do not fit or are late behind further tabs; None where there is no row."""
     stacks: list[list[tuple[Any, float]]] = []
     for row in rows:
         if not stacks or sum(share for _, share in stacks[-1]) + row[1] > MOST_ROWS:
@@ -145,6 +163,8 @@ def _column(rows: Sequence[tuple[Any, float]]) -> Any:
         )
         for i, stack in enumerate(stacks)
     ]
+    if late:
+        views.append(rrb.Vertical(*(view for view, _ in late), name="Towards the end"))
     return None if not views else views[0] if len(views) == 1 else rrb.Tabs(*views, active_tab=0)
 
 

@@ -176,10 +176,14 @@ def read_chunks(path: Path) -> list[Any]:
 
 def _check_file(path: Path) -> None:
     """Raise InputError if the file is missing, empty, foreign, or so damaged that rerun cannot decode it."""
-    if not path.is_file():
-        raise InputError(f"{path}: no such file")
-    if path.stat().st_size == 0:
-        raise InputError(f"{path}: is empty")
+    try:
+        if not path.is_file():
+            raise InputError(f"{path}: no such file")
+        if path.stat().st_size == 0:
+            raise InputError(f"{path}: is empty")
+        path.open("rb").close()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from error
     check = subprocess.run(
         [str(binary()), "rrd", "verify", str(path.absolute())],
         stdout=subprocess.DEVNULL,

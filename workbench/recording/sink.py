@@ -8,6 +8,7 @@ from typing import Any
 import rerun as rr
 
 from workbench.recording.chart import GREY, chart_curves, chart_frame, color_bar, frame_key, legend_bar, legend_names
+from workbench.recording.gather import Union, gathered
 from workbench.recording.glyphs import safe
 from workbench.recording.images import IMAGE, encoded, gone
 from workbench.recording.spatial import Aspect, ClassNumbers, aspects
@@ -45,11 +46,18 @@ class RerunSink:
     Args:
         stream: Rerun's recording stream.
         places: Where charts, pictures and tables are shown, by entity. While there are none, it says so there.
+        unions: Clouds that are said once for all steps, by path.
     """
 
-    def __init__(self, stream: Any, places: Mapping[str, Place] = MappingProxyType({})):
+    def __init__(
+        self,
+        stream: Any,
+        places: Mapping[str, Place] = MappingProxyType({}),
+        unions: Mapping[str, Union] = MappingProxyType({}),
+    ):
         self._stream = stream
         self._places = places
+        self._unions = unions
         self._said: dict[str, dict[str, Aspect]] = {}
         self._numbers = ClassNumbers()
 
@@ -76,7 +84,10 @@ class RerunSink:
 
     def _entities(self, k: int, scene: Scene) -> Iterator[tuple[str, Iterable[Aspect]]]:
         for path, primitive in scene.items():
-            if in_space(primitive):
+            union = self._unions.get(path)
+            if isinstance(primitive, Points) and union is not None and id(primitive) in union.shown:
+                yield entity_of("world", path), gathered(primitive, union)
+            elif in_space(primitive):
                 yield entity_of("world", path), aspects(primitive, self._numbers)
         beside = dict(_beside(scene))
         yield from beside.items()
@@ -139,7 +150,7 @@ def table_text(table: Table) -> str:
 def markdown(text: str) -> str:
     """Return plain text so that Markdown shows it as it is."""
     text = safe(text).replace("\\", "\\\\").replace("\n", " ")
-    for special in "|*_`<":
+    for special in "|*_`<[]":
         text = text.replace(special, "\\" + special)
     return text
 
@@ -167,7 +178,7 @@ def _chart(curves: tuple[Curve, ...]) -> Iterator[Aspect]:
 
 
 def _picture(picture: Picture) -> Iterator[Aspect]:
-    yield Aspect("image", (picture.image,), lambda: [encoded(picture.rgb())], IMAGE)
+    yield Aspect("image", (picture.image,), lambda: [encoded(picture.image)], IMAGE)
     field = picture.image
     if isinstance(field, Field):
         h, w = field.values.shape

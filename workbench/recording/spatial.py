@@ -13,7 +13,7 @@ import numpy as np
 import rerun as rr
 
 from workbench.recording.glyphs import safe
-from workbench.recording.images import IMAGE, encoded
+from workbench.recording.images import IMAGE, encoded, texture
 from workbench.scene import (
     PALETTE,
     Axes,
@@ -92,25 +92,25 @@ def aspects(primitive: Any, numbers: ClassNumbers) -> Iterator[Aspect]:
 
 @aspects.register
 def _points(primitive: Points, numbers: ClassNumbers) -> Iterator[Aspect]:
-    points = _affine(primitive)
+    points = affine(primitive)
     yield Aspect("place", (points.p,), lambda: [rr.Points3D.from_fields(positions=points.p)])
     yield Aspect("size", (points.radius,), lambda: [rr.Points3D.from_fields(radii=[points.radius], show_labels=False)])
     yield from _colors(points.color, points.opacity, rr.Points3D, numbers)
-    yield _pose(points.T_world_object)
+    yield pose(points.T_world_object)
 
 
 @aspects.register
 def _segments(primitive: Segments, numbers: ClassNumbers) -> Iterator[Aspect]:
-    segments = _affine(primitive)
+    segments = affine(primitive)
     yield Aspect("place", (segments.ends,), lambda: [rr.LineStrips3D.from_fields(strips=segments.ends)])
     yield _width(segments.width)
     yield from _colors(segments.color, segments.opacity, rr.LineStrips3D, numbers)
-    yield _pose(segments.T_world_object)
+    yield pose(segments.T_world_object)
 
 
 @aspects.register
 def _mesh(primitive: Mesh, numbers: ClassNumbers) -> Iterator[Aspect]:
-    mesh = _affine(primitive)
+    mesh = affine(primitive)
     if mesh.wireframe:
         role: Any = mesh.color if isinstance(mesh.color, str) else "neutral"
         yield Aspect(
@@ -125,7 +125,7 @@ def _mesh(primitive: Mesh, numbers: ClassNumbers) -> Iterator[Aspect]:
     else:
         kind = "surface" if isinstance(mesh.color, str) else "coloured surface"  # Rerun would multiply both's colours
         yield Aspect(kind, (mesh.p, mesh.faces, mesh.flat, mesh.color, mesh.opacity), lambda: [_surface(mesh)])
-    yield _pose(mesh.T_world_object)
+    yield pose(mesh.T_world_object)
 
 
 @aspects.register
@@ -136,7 +136,7 @@ def _axes(axes: Axes, numbers: ClassNumbers) -> Iterator[Aspect]:
         return say + ([_name_tag(axes.name, PALETTE["neutral"])] if axes.name else [])
 
     yield Aspect("arrows", (axes.length, axes.opacity, axes.name), arrows)
-    yield _pose(axes.T_world_object)
+    yield pose(axes.T_world_object)
 
 
 @aspects.register
@@ -156,7 +156,7 @@ def _camera(camera: Camera, numbers: ClassNumbers) -> Iterator[Aspect]:
             )
         ],
     )
-    yield _pose(camera.T_world_object)
+    yield pose(camera.T_world_object)
     image = camera.image
     if image is not None:
         yield Aspect("image", (image,), lambda: [encoded(image)], IMAGE)
@@ -169,7 +169,7 @@ def _label(label: Label, numbers: ClassNumbers) -> Iterator[Aspect]:
         (label.text, label.p, label.color, label.opacity),
         lambda: [_name_tag(label.text, PALETTE[label.color], label.p)],
     )
-    yield _pose(label.T_world_object)
+    yield pose(label.T_world_object)
 
 
 @aspects.register
@@ -177,6 +177,7 @@ def _picture(picture: Picture, numbers: ClassNumbers) -> Iterator[Aspect]:
     def plane() -> list[Any]:
         image, width = picture.rgb(), picture.width or 1.0
         x, y = width / 2, width / 2 * image.shape[0] / image.shape[1]
+        image = texture(image)
         return [
             rr.Mesh3D(
                 vertex_positions=[[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]],
@@ -188,10 +189,11 @@ def _picture(picture: Picture, numbers: ClassNumbers) -> Iterator[Aspect]:
         ]
 
     yield Aspect("plane", (picture.image, picture.width, picture.opacity), plane)
-    yield _pose(picture.T_world_object)
+    yield pose(picture.T_world_object)
 
 
-def _pose(T_world_object: np.ndarray | None) -> Aspect:
+def pose(T_world_object: np.ndarray | None) -> Aspect:
+    """Return where a primitive is."""
     T = np.eye(4) if T_world_object is None else T_world_object
     return Aspect("pose", (T,), lambda: [rr.Transform3D(translation=T[:3, 3], mat3x3=T[:3, :3])])
 
@@ -261,7 +263,7 @@ def _edges(faces: np.ndarray) -> np.ndarray:
     return np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
 
 
-def _affine(primitive: Any) -> Any:
+def affine(primitive: Any) -> Any:
     """Return the primitive with a motion that Rerun can take as a pose; a projective 4x4 is applied to the points."""
     T = primitive.T_world_object
     if T is None or np.array_equal(T[3], (0, 0, 0, 1)):

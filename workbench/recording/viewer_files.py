@@ -10,8 +10,8 @@ import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from uuid import uuid4
 
+from workbench.atomic import remove_leftovers, write_atomic
 from workbench.errors import InputError
 from workbench.typeset import cache_folder
 
@@ -57,6 +57,7 @@ def web_viewer() -> dict[str, Path]:
     if missing:
         try:
             folder.mkdir(parents=True, exist_ok=True)
+            remove_leftovers(folder)
             with _serving() as address:
                 for name in missing:
                     _fetch(f"{address}/{name}", files[name])
@@ -66,13 +67,8 @@ def web_viewer() -> dict[str, Path]:
 
 
 def _fetch(address: str, file: Path) -> None:
-    half = file.with_name(f"{file.name}.{uuid4().hex[:8]}.part")
-    try:
-        with urllib.request.urlopen(address, timeout=PATIENCE) as answer:
-            half.write_bytes(answer.read())
-        os.replace(half, file)
-    finally:
-        half.unlink(missing_ok=True)
+    with urllib.request.urlopen(address, timeout=PATIENCE) as answer:
+        write_atomic(file, answer.read())
 
 
 @contextmanager

@@ -6,23 +6,24 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TextIO
-from uuid import uuid4
 
 import numpy as np
 import rerun as rr
 
 from workbench import __version__, knobs
+from workbench.atomic import remove_leftovers, write_atomic
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find, load
 from workbench.progress import Progress, bar
 from workbench.recording.columns import facts, send_captions, send_series
 from workbench.recording.contents import contents_of, places, to_json
+from workbench.recording.gather import unions
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import one_run
 from workbench.recording.page import plain_page
 from workbench.recording.read import FORMAT, digest
 from workbench.recording.sink import RerunSink, document
-from workbench.recording.streams import application_id, send_blueprint, stream_bytes
+from workbench.recording.streams import application_id, stream_bytes
 from workbench.timeline import Timeline
 
 
@@ -137,11 +138,12 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         preset = None  # changed since: the name would promise another run
     application = application_id(lesson.name)
 
+    scenes = [step.scene for step in steps]
+    contents, clouds = contents_of(scenes), unions(scenes)
+    series = timeline.series()
+    values = {path: one.values for path, one in series.items()}
+
     def fill(stream: Any) -> None:
-        contents = contents_of([step.scene for step in steps])
-        series = timeline.series()
-        values = {path: one.values for path, one in series.items()}
-        send_blueprint(stream, application, one_run(lesson.view, contents, values))
         stream.send_recording_name(safe(_title(timeline, preset)))
         stream.send_property("run", facts(layout=to_json(contents, lesson.view), **_facts(timeline, preset)))
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
@@ -149,7 +151,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         send_captions(stream, [step.caption for step in steps])
         for order, (path, one) in enumerate(series.items()):
             send_series(stream, path, one, order)
-        sink = RerunSink(stream, places(contents))
+        sink = RerunSink(stream, places(contents), clouds)
         for k, step in enumerate(steps):
             sink.show(k, step.scene)
             if progress is not None:
@@ -159,7 +161,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         check = digest(knobs.to_json(timeline.params), captions, values)
         stream.send_property("result", facts(status=status, steps=len(steps), digest=check))
 
-    return stream_bytes(application, fill)
+    return stream_bytes(application, fill, one_run(lesson.view, contents, values))
 
 
 def _run(lesson: Lesson, params: Any, tell: Progress) -> Timeline:
@@ -212,16 +214,10 @@ def _check_place(path: Path, force: bool) -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Put the whole file in place, or nothing: whatever stood there stays until the new file is complete."""
+    """Put the whole file in place, or nothing; a link is followed. What a killed process left half written goes."""
     final = path.resolve()
-    half = final.with_name(f".{final.name}.{uuid4().hex[:8]}.part")
     try:
-        with half.open("xb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(half, final)
+        remove_leftovers(final.parent)
+        write_atomic(final, data)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error
-    finally:
-        half.unlink(missing_ok=True)

@@ -352,14 +352,16 @@ class Page:
         self._wake.set()
 
     async def _download(self, session: Session) -> None:
-        from workbench.recording import record_bytes
+        from workbench.recording import file_name, record_bytes
 
         note = self.client.add_notification("Recording", "Writing the run …", loading=True, with_close_button=False)
         timeline = session.timeline
         try:
+            preset = timeline.lesson.preset_of(timeline.params)
+            name = None if preset is None else preset.name
             with Blaming(f"lesson {session.lesson.name}, recording", session.lesson.draw):
-                data = await asyncio.to_thread(lambda: record_bytes(timeline.complete()))
-            self.client.send_file_download(f"{session.lesson.name}.rrd", data, save_immediately=True)
+                data = await asyncio.to_thread(lambda: record_bytes(timeline.complete(), preset=name))
+            self.client.send_file_download(file_name(timeline.lesson, name), data, save_immediately=True)
         except InputError as error:
             tell_terminal(error)
             session.message = str(error)

@@ -40,7 +40,8 @@ async function open(name, k) {
     button.setAttribute("aria-pressed", String(button.dataset.run === name)));
   $("#step").max = last;
   const beside = player.dataset.runs + name;
-  $("#rrd").href = `${beside}.rrd`;
+  $("#rrd").href = player.dataset.runs + data.recording;
+  $("#rrd").download = data.recording;
   $("#embed").href = `${beside}.html`;
   $("#reopen").textContent = data.reopen;
   $("#iframe-line").textContent = `<iframe src="${new URL(`${beside}.html`, location.href)}" width="800" height="600"></iframe>`;

@@ -1,0 +1,98 @@
+"""Processes that share out work end with it, with an error, and with the process that started them."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from workbench.publish.workers import WorkerLostError, shared_out
+
+ROOT = Path(__file__).resolve().parents[2]
+PATIENCE = 120.0
+"""Seconds after which a process that should have ended counts as one that never will."""
+RUNS_LONG = """
+import sys
+from tests.publish.test_workers import begin_and_wait
+from workbench.publish.workers import shared_out
+if __name__ == "__main__":
+    for task in shared_out(begin_and_wait, [sys.argv[1] + "/a", sys.argv[1] + "/b"], 2):
+        pass
+"""
+
+
+def square(number: int) -> int:
+    return number * number
+
+
+def fail(number: int) -> int:
+    raise ValueError(f"{number} is bad")
+
+
+def vanish(number: int) -> int:
+    os._exit(3)
+
+
+def begin_and_wait(path: str) -> None:
+    """Say who works here, then work on for as long as nobody ends it."""
+    half = Path(f"{path}.half")
+    half.write_text(str(os.getpid()))
+    half.rename(path)
+    while True:
+        sum(range(10_000))
+
+
+def test_everything_is_done_once():
+    assert sorted(shared_out(square, range(5), 2)) == [(n, n * n) for n in range(5)]
+    assert list(shared_out(square, [], 2)) == []
+
+
+def test_an_error_is_raised_here():
+    with pytest.raises(ValueError, match="3 is bad"):
+        list(shared_out(fail, [3], 2))
+
+
+def test_a_process_that_is_ended_from_outside_is_noticed():
+    with pytest.raises(WorkerLostError):
+        list(shared_out(vanish, [1], 1))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL, signal.SIGINT])
+def test_workers_end_with_the_process_that_started_them(tmp_path, how):
+    script = tmp_path / "script.py"
+    script.write_text(RUNS_LONG)
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, str(script), str(tmp_path)]
+    pipe: Any = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "start_new_session": True}
+    process: Any
+    with subprocess.Popen(command, env=environment, **pipe) as process:
+        places = [tmp_path / "a", tmp_path / "b"]
+        until(lambda: process.poll() is not None or all(place.exists() for place in places))
+        workers = [int(place.read_text()) for place in places]
+        if how == signal.SIGINT:
+            os.killpg(process.pid, how)  # as a terminal does
+        else:
+            process.send_signal(how)
+        said, _ = process.communicate(timeout=PATIENCE)  # ends when nobody holds the pipe any more
+        assert said.count(b"Traceback") == (how == signal.SIGINT), said.decode()
+        until(lambda: not any(is_alive(worker) for worker in workers))
+
+
+def is_alive(process: int) -> bool:
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def until(what) -> None:
+    """Wait for a state."""
+    end = time.monotonic() + PATIENCE
+    while not what():
+        assert time.monotonic() < end, "it never came"
+        time.sleep(0.01)

@@ -1,0 +1,55 @@
+"""One publish at a time writes into a folder."""
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from workbench.errors import InputError
+
+LOCK = ".publishing.lock"
+
+
+@contextmanager
+def only_writer(out: Path) -> Iterator[None]:
+    """Hold a folder for the length of the block. The system lets go of it when the process ends, however it ends.
+
+    Raises:
+        InputError: If another process holds it.
+    """
+    path = out / LOCK
+    file = _opened(path)
+    try:
+        yield
+    finally:
+        if os.fstat(file).st_size == 0:  # else it is somebody else's file
+            path.unlink(missing_ok=True)
+        os.close(file)
+
+
+def _opened(path: Path) -> int:
+    while True:
+        file = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
+        try:
+            _hold(file)
+            if path.exists() and os.path.samestat(os.fstat(file), path.stat()):
+                return file
+        except (BlockingIOError, PermissionError):
+            os.close(file)
+            raise InputError(f"{path.parent}: another publish is writing here; wait until it is done") from None
+        except BaseException:
+            os.close(file)
+            raise
+        os.close(file)  # who held it before has removed it meanwhile
+
+
+def _hold(file: int) -> None:
+    if sys.platform == "win32":
+        import msvcrt
+
+        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
+    else:
+        import fcntl
+
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
