@@ -5,17 +5,16 @@ before it was sent, a removal to the addition that follows it. The client keeps 
 added under a name it knows (SceneTreeState.ts, `addSceneNode`; MessageHandler.tsx), and forgets them when it is removed.
 """
 
-import asyncio
 import contextlib
+import math
 import re
 from dataclasses import fields
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import viser
 import viser._messages as m
 from viser.infra._async_message_buffer import AsyncMessageBuffer
-from viser.transforms import SE3, SO3
 
 Seen = dict[str, dict[str, Any]]
 
@@ -30,10 +29,9 @@ class Windows:
     """
 
     def __init__(self, server: viser.ViserServer, monkeypatch: Any, browsers: int = 1):
-        self._loop = asyncio.new_event_loop()
         self.browsers = [Browser() for _ in range(browsers)]
         self.recorded: list[Any] = []
-        self._buffers = [AsyncMessageBuffer(self._loop, persistent_messages=False) for _ in self.browsers]
+        self._buffers = [AsyncMessageBuffer(cast(Any, Loop()), persistent_messages=False) for _ in self.browsers]
         interface = server.scene._websock_interface
         monkeypatch.setattr(interface, "queue_message", self._push)
         monkeypatch.setattr(interface, "get_message_buffer", lambda: self)
@@ -59,9 +57,12 @@ class Windows:
         self.browsers[i].handle([message for message in batch if message is not None])
         return self.browsers[i]
 
-    def close(self) -> None:
-        """Close the loop that nobody runs."""
-        self._loop.close()
+
+class Loop:
+    """An event loop on which nobody waits."""
+
+    def call_soon_threadsafe(self, *_: Any) -> None:
+        """Wake nobody."""
 
 
 class Browser:
@@ -105,7 +106,11 @@ class Browser:
     def seen(self, below: str) -> Seen:
         """Return what is drawn below a name: every visible node's kind, properties and pose in the world."""
         return {
-            re.sub("~[0-9]+", "", name): {"kind": node["kind"], **node["props"], "T_world_node": self._placed(name, node["kind"])}
+            re.sub("~[0-9]+", "", name): {
+                "kind": node["kind"],
+                **node["props"],
+                "pose": self._placed(name, node["kind"]),
+            }
             for name, node in self.nodes.items()
             if name.startswith(below) and self._visible(name)
         }
@@ -134,14 +139,16 @@ class Browser:
         chain = ["/".join(parts[: i + 1]) for i in range(1, len(parts))]
         return all(self.nodes[part]["visible"] for part in chain)
 
-    def _placed(self, name: str, kind: str) -> np.ndarray:
-        parts = name.split("/")
-        T = SE3.identity()
+    def _placed(self, name: str, kind: str) -> list[float]:
+        """Return the poses from the root to a node, quaternion and position, without those that move nothing."""
+        parts, placed = name.split("/"), []
         for i in range(1, len(parts)):
             pose = self.poses.get("/".join(parts[: i + 1]), {})
-            wxyz = (1.0, 0, 0, 0) if kind == "LabelMessage" and i == len(parts) - 1 else pose.get("wxyz", (1.0, 0, 0, 0))
-            T = T @ SE3.from_rotation_and_translation(SO3(np.array(wxyz)), np.array(pose.get("position", (0.0, 0, 0))))
-        return T.as_matrix()
+            turned = kind != "LabelMessage" or i < len(parts) - 1  # labels stand upright, whatever their pose
+            wxyz = pose.get("wxyz", (1.0, 0.0, 0.0, 0.0)) if turned else (1.0, 0.0, 0.0, 0.0)
+            moves = (*wxyz, *pose.get("position", (0.0, 0.0, 0.0)))
+            placed += () if np.allclose(moves, (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), atol=1e-7) else moves
+        return placed
 
 
 def difference(a: Seen, b: Seen) -> str:
@@ -156,8 +163,10 @@ def difference(a: Seen, b: Seen) -> str:
 
 
 def _alike(key: str, a: Any, b: Any) -> bool:
-    if key == "T_world_node":
-        return bool(np.allclose(a, b, rtol=1e-4, atol=1e-6))  # viser drops changes below 1e-5 of a pose
+    if key == "pose":  # viser drops changes below 1e-5 of a pose
+        return len(a) == len(b) and all(
+            math.isclose(x, y, rel_tol=1e-4, abs_tol=1e-6) for x, y in zip(a, b, strict=True)
+        )
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
         if a.shape != b.shape and key == "colors":
             a, b = np.broadcast_arrays(a, b)

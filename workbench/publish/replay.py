@@ -48,7 +48,7 @@ class Renderer:
         self._server.scene.reset()
         camera = self._server.initial_camera
         camera.position, camera.look_at, camera.up, camera.fov = (
-            view.eye,
+            view.seen_from(),
             view.target,
             view.up,
             float(np.radians(view.fov_degrees)),

@@ -195,7 +195,7 @@ def _eye(view: View) -> np.ndarray:
     """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's does."""
     target = np.array(view.target)
     share = np.tan(np.radians(view.fov_degrees) / 2) / np.tan(np.radians(RERUN_FOV) / 2)
-    return target + (np.array(view.eye) - target) * share
+    return target + (view.seen_from() - target) * share
 
 
 def _canvas_view(entity: str, canvas: Canvas, root: str = "") -> Any:

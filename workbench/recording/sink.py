@@ -1,7 +1,7 @@
 """Makes a Rerun stream equal to scenes, one step after another, and says only what has changed since the step before."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -77,7 +77,9 @@ class RerunSink:
     def _entities(self, k: int, scene: Scene) -> Iterator[tuple[str, Iterable[Aspect]]]:
         for path, primitive in scene.items():
             if in_space(primitive):
-                yield entity_of("world", path), aspects(primitive, self._numbers)
+                kind = type(primitive).__name__  # another kind at this path has no aspect in common with it
+                said = [replace(aspect, name=f"{kind} {aspect.name}") for aspect in aspects(primitive, self._numbers)]
+                yield entity_of("world", path), said
         beside = dict(_beside(scene))
         yield from beside.items()
         for entity, place in self._places.items():
