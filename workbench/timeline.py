@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from workbench.axis import settled
 from workbench.errors import InputError
 from workbench.lesson import Lesson
 from workbench.scene import Caption, Scalar, Scene, arrays, caption_of
@@ -34,7 +35,10 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """A scalar over the steps of a run: how it is drawn, and its value per step, NaN where a step has none."""
+    """A scalar over the steps of a run: how it is drawn, and its value per step, NaN where a step has none.
+
+    What is below round-off is zero.
+    """
 
     scalar: Scalar
     values: np.ndarray
@@ -140,7 +144,8 @@ class Timeline:
                 if isinstance(primitive, Scalar):
                     first.setdefault(path, primitive)
         return {
-            path: Series(scalar, np.array([_value(s.scene, path) for s in steps])) for path, scalar in first.items()
+            path: Series(scalar, settled(np.array([_value(s.scene, path) for s in steps])))
+            for path, scalar in first.items()
         }
 
     def _end(self, why: str | None = None) -> bool:
@@ -157,6 +162,12 @@ class Timeline:
             if id(array) not in self._owners:
                 self._owners[id(array)] = array
                 self.bytes += array.nbytes
+
+
+def plotted_values(scalar: Scalar, values: np.ndarray) -> np.ndarray:
+    """Return what is plotted of a scalar's values: they or their logarithm; NaN where there is none."""
+    values = np.asarray(values, float)
+    return np.log10(np.where(values > 0, values, np.nan)) if scalar.log else values
 
 
 def _value(scene: Scene, path: str) -> float:

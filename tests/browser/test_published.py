@@ -96,13 +96,13 @@ EVERY_STEP = """() => {
 def said(caption: str) -> dict[str, float]:
     """Return the numbers above the curves of a chart, by name."""
     return {
-        found["name"]: float(found["value"])
-        for part in caption.split(" · ")
+        found["name"]: float(found["value"].replace("−", "-").replace(",", ""))
+        for part in caption.rpartition(": ")[2].split(" · ")
         if (found := NAMED.match(part)) is not None
     }
 
 
-NAMED = re.compile(r"(?P<name>.+?) (?P<value>-?[0-9.]+(e[+-][0-9]+)?)( \S+)?$")
+NAMED = re.compile(r"(?P<name>.+?) (?P<value>−?[0-9.,]+(e−?[0-9]+)?)( \S+)?$")
 
 
 @pytest.mark.parametrize("name", catalog())
