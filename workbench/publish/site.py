@@ -15,7 +15,7 @@ from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
-PAGE_BUDGET, REPLAY_BUDGET = 300_000, 4_000_000
+PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET = 300_000, 1_000_000, 4_000_000
 KEPT = ".published.json"
 
 Progress = Callable[[str, int, int], object]
@@ -106,8 +106,11 @@ def checked(out: Path) -> list[tuple[str, int]]:
         if name.endswith(".js") and size > REPLAY_BUDGET:
             raise InputError(_over(name, size, REPLAY_BUDGET))
     for page in sorted(out.rglob("*.html")):
-        name, weight = str(page.relative_to(out)), page.stat().st_size
+        name, weight, pictures = str(page.relative_to(out)), page.stat().st_size, 0
         for link in links_in(page.read_text(encoding="utf-8")):
+            if link.startswith("data:image/"):
+                pictures += len(link)
+                continue
             parts = urlsplit(link)
             if parts.scheme or parts.netloc or not parts.path:
                 continue
@@ -116,6 +119,9 @@ def checked(out: Path) -> list[tuple[str, int]]:
                 raise InputError(f"{name}: the link {link} leads nowhere")
             if linked.suffix in (".css", ".js"):
                 weight += linked.stat().st_size
+        if pictures > PICTURES_BUDGET:
+            raise InputError(_over(f"the pictures of {name}", pictures, PICTURES_BUDGET))
+        weight -= pictures
         if weight > PAGE_BUDGET:
             raise InputError(_over(f"{name} with its styles and scripts", weight, PAGE_BUDGET))
     return sizes
