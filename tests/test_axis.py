@@ -64,6 +64,13 @@ def test_a_number_is_said_in_three_digits_and_round_off_is_zero(value, word):
     assert number(value) == word
 
 
+def test_steps_have_no_ticks_between_them():
+    assert axis(0.0, 2.0).words == ("0", "0.5", "1.0", "1.5", "2.0")
+    assert axis(0.0, 2.0, whole=True).words == ("0", "1", "2")
+    assert axis(0.0, 134.0, whole=True).words == ("0", "50", "100")
+    assert axis(0.0, 0.0, whole=True).words == ("0",)
+
+
 def test_ends_that_only_round_off_tells_apart_are_moved_apart():
     assert apart(1.0, 1.0 + 1e-12) == pytest.approx((0.9, 1.1))
     assert apart(0.0, 0.0) == (-0.5, 0.5)

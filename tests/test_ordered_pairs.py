@@ -5,7 +5,6 @@ an export and through a recording: all presets at the step at which they open, a
 """
 
 import itertools
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -13,7 +12,7 @@ import pytest
 import rerun as rr
 import viser
 
-from tests.viewer.browser_scene import Browser, Seen, Windows, difference
+from tests.viewer.browser_scene import Browser, Seen, Windows, all_pairs, difference
 from workbench.lesson import catalog
 from workbench.recording.sink import RerunSink
 from workbench.scene import Camera, Classes, Field, Mesh, Picture, Points, Scene, Segments
@@ -66,14 +65,6 @@ def _every(color: Any) -> Any:
 
 def _coarse(image: Any) -> Any:
     return replace(image, values=image.values[::16, ::16]) if isinstance(image, Field) else image[::16, ::16]
-
-
-def all_pairs(n: int) -> Iterator[int]:
-    """Yield 0 to n - 1 so that each follows each other one at least once."""
-    for i in range(n):
-        for j in range(i + 1, n):
-            yield from (i, j)
-    yield 0
 
 
 def test_each_follows_each():

@@ -26,10 +26,15 @@ def settled(values: np.ndarray) -> np.ndarray:
     return np.where(np.abs(values) < ROUND_OFF, 0.0, values)
 
 
-def axis(low: float, high: float, most: int = 5) -> Axis:
-    """Return the axis from low to high; around both where nothing but round-off lies between them."""
+def axis(low: float, high: float, most: int = 5, whole: bool = False) -> Axis:
+    """Return the axis from low to high; around both where nothing but round-off lies between them.
+
+    `whole` says that there is nothing between whole numbers, steps for instance: ticks are at some of these then.
+    """
     low, high = apart(low, high)
     places = ticks(low, high, most)
+    if whole and (places != np.rint(places)).any():
+        places = np.arange(np.ceil(low), np.floor(high) + 1)
     return Axis(low, high, tuple(places.tolist()), _words(places))
 
 
@@ -43,14 +48,14 @@ def value_axis(columns: Iterable[np.ndarray], from_zero: bool = False, most: int
     """
     known = settled(np.concatenate([np.zeros(0), *(column[np.isfinite(column)] for column in columns)]))
     if not len(known):
-        return axis(0.0, 1.0, most)
+        return axis(0.0, 1.06, most)
     low, high = float(known.min()), float(known.max())
     if from_zero:
         low, high = min(low, 0.0), max(high, 0.0)
     if 0.0 <= low < 0.5 * high:
         low = 0.0  # magnitudes are read against zero
     if low == high == 0.0:
-        return axis(0.0, 1.0, most)
+        return axis(0.0, 1.06, most)
     if not _differ(low, high):
         return axis(*sorted((0.5 * low, 1.5 * high)), most)
     room = 0.06 * (high - low)

@@ -8,6 +8,7 @@ added under a name it knows (SceneTreeState.ts, `addSceneNode`; MessageHandler.t
 import contextlib
 import math
 import re
+from collections.abc import Iterator
 from dataclasses import fields
 from typing import Any, cast
 
@@ -149,6 +150,14 @@ class Browser:
             moves = (*wxyz, *pose.get("position", (0.0, 0.0, 0.0)))
             placed += () if np.allclose(moves, (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), atol=1e-7) else moves
         return placed
+
+
+def all_pairs(n: int) -> Iterator[int]:
+    """Yield 0 to n - 1 so that each follows each other one at least once."""
+    for i in range(n):
+        for j in range(i + 1, n):
+            yield from (i, j)
+    yield 0
 
 
 def difference(a: Seen, b: Seen) -> str:

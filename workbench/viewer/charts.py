@@ -173,7 +173,8 @@ class Beside:
 def axes_of(xs: Sequence[np.ndarray], ys: Sequence[np.ndarray]) -> tuple[Axis, Axis]:
     """Return the axes of a chart in which all these points are."""
     x = np.concatenate(xs)
-    return axis(float(x.min()), float(x.max())), value_axis(ys, most=4)
+    whole = bool(np.array_equal(x, np.rint(x)))
+    return axis(float(x.min()), float(x.max()), whole=whole), value_axis(ys, most=4)
 
 
 def titled(curves: Sequence[Curve]) -> tuple[str, str]:
@@ -262,9 +263,10 @@ _HERE = {"label": "here", "stroke": css_color(PALETTE["highlight"]), "width": 2,
 def _drawn_axis(along: Axis, label: str, **sizes: int) -> dict[str, Any]:
     """Return how the browser draws an axis, with the ticks and words that every home has."""
     grid = {"stroke": "rgba(128,128,128,.22)", "width": 1}
+    ticks = grid | {"size": 4}
     fonts = {"font": "11px sans-serif", "labelFont": "11px sans-serif"}
     return {
-        "stroke": "#808790", "grid": grid, "label": label, "splits": along.ticks, "values": along.words, **fonts, **sizes
+        "stroke": "#808790", "grid": grid, "ticks": ticks, "label": label, "splits": along.ticks, "values": along.words, **fonts, **sizes
     }  # fmt: skip
 
 
