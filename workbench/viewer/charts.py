@@ -265,9 +265,8 @@ def _drawn_axis(along: Axis, label: str, **sizes: int) -> dict[str, Any]:
     grid = {"stroke": "rgba(128,128,128,.22)", "width": 1}
     ticks = grid | {"size": 4}
     fonts = {"font": "11px sans-serif", "labelFont": "11px sans-serif"}
-    return {
-        "stroke": "#808790", "grid": grid, "ticks": ticks, "label": label, "splits": along.ticks, "values": along.words, **fonts, **sizes
-    }  # fmt: skip
+    words = {"label": label, "splits": along.ticks, "values": along.words}
+    return {"stroke": "#808790", "grid": grid, "ticks": ticks, **words, **fonts, **sizes}
 
 
 def _enlarged(image: np.ndarray, least: int = 300) -> np.ndarray:
