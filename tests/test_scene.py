@@ -88,7 +88,8 @@ def test_a_ghost_is_what_stands_in_space_and_fainter():
     scene = Timeline(lesson, lesson.params()).complete()[0].scene
     faint = ghost(scene, {})
     assert faint
-    assert all(path.startswith("ghost/") and in_space(primitive) for path, primitive in faint.items())
+    assert all(path.startswith("ghost/") for path in faint)
+    assert all(in_space(primitive) or isinstance(primitive, Picture) for primitive in faint.values())
     assert faint["ghost/source"].opacity < 0.5  # type: ignore[union-attr]
     assert faint["ghost/source"].p is scene["source"].p  # type: ignore[union-attr]
 
@@ -99,6 +100,38 @@ def test_a_ghost_leaves_out_what_did_not_move():
     assert ghost(last, paler) == {}
     assert "ghost/source" in ghost(first, last)
     assert "ghost/target" not in ghost(first, last)
+
+
+def test_round_off_is_no_other_place():
+    scene = Timeline(lesson, lesson.params()).complete()[3].scene
+    stirred = {
+        path: replace(p, T_world_object=p.T_world_object + 1e-16)
+        if getattr(p, "T_world_object", None) is not None
+        else p
+        for path, p in scene.items()
+    }
+    assert ghost(stirred, scene) == {}
+    moved = {**scene, "frame": replace(scene["frame"], T_world_object=scene["frame"].T_world_object + 1e-6)}  # type: ignore
+    assert list(ghost(moved, scene)) == ["ghost/frame"]
+
+
+def test_a_ghost_hides_nothing_of_what_is_compared():
+    first, last = (Timeline(lesson, lesson.params()).complete()[k].scene for k in (0, -1))
+    faint = cast(Any, ghost(first, last))
+    assert faint["ghost/source"].radius < 0.5 * cast(Any, first)["source"].radius
+    assert "ghost/camera" not in faint  # it stands still; were it moved, it would be its frustum
+    moved = {**last, "camera": replace(cast(Any, last["camera"]), T_world_object=np.eye(4))}
+    assert cast(Any, ghost(first, moved)["ghost/camera"]).image is None
+    other = {**last, "plane": replace(cast(Any, last["plane"]), image=np.zeros((4, 4), np.uint8))}
+    assert "ghost/plane" not in ghost(first, other)
+
+
+def test_a_picture_beside_the_scene_has_a_pinned_version_where_it_differs():
+    first, last = (Timeline(lesson, lesson.params()).complete()[k].scene for k in (0, -1))
+    faint = cast(Any, ghost(first, last))
+    assert faint["ghost/beside/depth"].title == "Depth, pinned"
+    assert not in_space(faint["ghost/beside/depth"])
+    assert "ghost/beside/photo" not in faint
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,12 @@ import html
 import io
 import re
 
+import pytest
 from fontTools.ttLib import TTFont
 
+from workbench.errors import InputError
 from workbench.lesson import catalog
-from workbench.typeset import inline_html, math_font_css, math_html, page_html
+from workbench.typeset import LARGEST_PICTURE, inline_html, math_font_css, math_html, page_html, page_of
 
 
 def test_maths_becomes_mathml_and_sections_are_named():
@@ -54,3 +56,54 @@ def test_the_font_has_every_letter_of_every_formula():
         for formula in re.findall(r"<math.*?</math>", page_html(lesson.text()), re.DOTALL):
             letters = set(html.unescape(re.sub(r"<[^>]*>", "", formula)))
             assert {c for c in letters if not c.isspace() and ord(c) not in known} == set(), lesson.name
+
+
+DOT = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
+)
+
+
+@pytest.fixture
+def page(tmp_path):
+    folder = tmp_path / "lesson"
+    (folder / "figures").mkdir(parents=True)
+    (folder / "dot.png").write_bytes(DOT)
+    (folder / "figures" / "a b.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"/>')
+    (folder / "large.webp").write_bytes(bytes(LARGEST_PICTURE + 1))
+    (folder / "notes.txt").write_text("no picture")
+    (tmp_path / "outside.png").write_bytes(DOT)
+    (folder / "link.png").symlink_to(tmp_path / "outside.png")
+    return folder / "page.md"
+
+
+def test_a_page_s_pictures_come_with_it(page):
+    page.write_text('# T\n\n![a "dot" & $x$](dot.png)\n\n## Watch\n\n![b](./figures/a%20b.svg)\n')
+    html = page_of(page.read_text(encoding="utf-8"), page)
+    assert f'src="data:image/png;base64,{base64.b64encode(DOT).decode()}"' in html
+    assert "data:image/svg+xml;base64," in html
+    assert 'alt="a &quot;dot&quot; &amp; ' in html
+    assert "<img" not in page_html(page.read_text())  # without a folder a picture is its words
+
+
+@pytest.mark.parametrize(
+    ("name", "line"),
+    [
+        ("missing.png", "no picture 'missing.png'"),
+        ("../outside.png", "no picture '../outside.png'"),
+        ("figures/../../outside.png", "no picture"),
+        ("%2e%2e/outside.png", "no picture '../outside.png'"),
+        ("/etc/hostname.png", "no picture '/etc/hostname.png'"),
+        ("https://example.org/a.png", "no picture 'https://example.org/a.png'"),
+        ("link.png", "no picture 'link.png'"),
+        ("figures", "no picture 'figures'"),
+        ("notes.txt", "'notes.txt' is none of .svg, .png"),
+        ("large.webp", "'large.webp' has 300 kB, over the limit of 300 kB"),
+    ],
+)
+def test_a_picture_that_is_not_the_page_s_own_is_one_line(page, name, line):
+    page.write_text(f"![a]({name})")
+    with pytest.raises(InputError) as raised:
+        page_of(page.read_text(encoding="utf-8"), page)
+    assert line in str(raised.value)
+    assert str(page) in str(raised.value)
+    assert "\n" not in str(raised.value)

@@ -15,6 +15,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar
 
+import numpy as np
+
 from workbench.authors import at, described
 from workbench.errors import AuthorError, InputError, LeftOutWarning
 from workbench.knobs import check, fields_of
@@ -39,6 +41,28 @@ class View:
     grid_height: float = 0.0
     fov_degrees: float = 45.0
     axes: bool = True
+
+    def __post_init__(self) -> None:
+        numbers = np.array([*self.eye, *self.target, *self.up])
+        if numbers.shape != (9,) or not np.isfinite(numbers).all():
+            raise ValueError("a View's eye, target and up are three finite numbers each")
+        if self.eye == self.target or not any(self.up):
+            raise ValueError("a View's eye is apart from its target, and its up has a length")
+
+    def seen_from(self) -> np.ndarray:
+        """Return the eye, moved aside by a thousandth of its distance where it looks along `up`.
+
+        Straight down or up no direction of the picture would be decided: +y points up in it then, +z where y is vertical
+        itself (-z from above, so that +x is on the right).
+        """
+        eye, target, up = (np.array(triple, float) for triple in (self.eye, self.target, self.up))
+        away, up = eye - target, up / np.linalg.norm(up)
+        aside = np.cross(away, up)
+        if np.linalg.norm(aside) > 1e-3 * np.linalg.norm(away):
+            return eye
+        above = np.sign(away @ up)
+        upwards = np.array([0.0, 1.0, 0.0]) if abs(up[1]) < 0.9 else np.array([0.0, 0.0, -above * np.sign(up[1])])
+        return eye - above * 2e-3 * np.linalg.norm(away) * upwards
 
 
 @dataclass(frozen=True)

@@ -339,24 +339,45 @@ def caption_of(scene: Scene) -> Caption:
 
 
 def ghost(scene: Scene, beside: Scene, opacity: float = 0.25) -> dict[str, Primitive]:
-    """Return what another scene has elsewhere in space, faded, under `ghost/`, to stand behind the scene `beside`.
+    """Return what another scene has elsewhere, faded, under `ghost/`, to stand behind the scene `beside`.
 
-    What is at the same place in both is left out: a ghost over it would only pale it.
+    What is at the same place in both is left out: a ghost over it would only pale it. A ghost hides nothing: points and
+    lines, which are drawn opaque, are finer than those they stand behind, a camera is its frustum alone, and a picture
+    that differs from one at its place in space is left out. A picture beside the scene stands there as pinned.
     """
     return {
-        f"ghost/{path}": replace(primitive, opacity=primitive.opacity * opacity)
+        f"ghost/{path}": _faint(primitive, opacity)
         for path, primitive in scene.items()
-        if in_space(primitive)
-        and not isinstance(primitive, Label | Scalar | Curve | Table | Caption)
+        if isinstance(primitive, Points | Segments | Mesh | Axes | Camera | Picture)
         and not _same_place(primitive, beside.get(path))
     }
 
 
+def _faint(primitive: Spatial, opacity: float) -> Spatial:
+    if isinstance(primitive, Picture) and not in_space(primitive):
+        return replace(primitive, title=f"{primitive.title}, pinned" if primitive.title else "pinned")
+    faint = replace(primitive, opacity=primitive.opacity * opacity)
+    if isinstance(faint, Points):
+        return replace(faint, radius=0.4 * faint.radius)
+    if isinstance(faint, Segments):
+        return replace(faint, width=0.6 * faint.width)
+    return replace(faint, image=None) if isinstance(faint, Camera) else faint
+
+
 def _same_place(a: Primitive, b: Primitive | None) -> bool:
-    looks = ("color", "opacity", "name", "title")
+    """Tell whether b is where a is and like it, up to round-off and how it is coloured and named."""
+    looks = {"color", "opacity", "name", "title"}
+    if isinstance(a, Camera) or (isinstance(a, Picture) and in_space(a)):
+        looks.add("image")
     return type(a) is type(b) and all(
-        same(getattr(a, field.name), getattr(b, field.name)) for field in fields(a) if field.name not in looks
+        _near(getattr(a, field.name), getattr(b, field.name)) for field in fields(a) if field.name not in looks
     )
+
+
+def _near(a: Any, b: Any) -> bool:
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray) and a.dtype.kind == b.dtype.kind == "f":
+        return a is b or (a.shape == b.shape and np.allclose(a, b, rtol=1e-9, atol=1e-9, equal_nan=True))
+    return same(a, b)
 
 
 def same(a: object, b: object) -> bool:

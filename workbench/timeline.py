@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from workbench.authors import Blaming, at
+from workbench.axis import settled
 from workbench.errors import AuthorError, InputError
 from workbench.knobs import Field, Pick, fields_of
 from workbench.lesson import Lesson
@@ -36,7 +37,10 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """A scalar over the steps of a run: how it is drawn, and its value per step, NaN where a step has none."""
+    """A scalar over the steps of a run: how it is drawn, and its value per step, NaN where a step has none.
+
+    What is below round-off is zero.
+    """
 
     scalar: Scalar
     values: np.ndarray
@@ -225,7 +229,7 @@ class Columns:
                 self._values[path] = values = np.concatenate([values, np.full(len(values), np.nan)])
             primitive = scene.get(path)
             if isinstance(primitive, Scalar):
-                values[k] = primitive.value
+                values[k] = settled(primitive.value)
 
     def until(self, steps: int) -> dict[str, Series]:
         """Return every scalar of the first steps, as read-only views."""
@@ -267,6 +271,12 @@ def _kind(value: object) -> str:
         return "None"
     name = type(value).__name__
     return f"an {name}" if name[0].lower() in "aeiou" else f"a {name}"
+
+
+def plotted_values(scalar: Scalar, values: np.ndarray) -> np.ndarray:
+    """Return what is plotted of a scalar's values: they or their logarithm; NaN where there is none."""
+    values = np.asarray(values, float)
+    return np.log10(np.where(values > 0, values, np.nan)) if scalar.log else values
 
 
 class Timelines:

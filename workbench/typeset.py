@@ -5,20 +5,45 @@ themselves; they need a font with a MATH table, which `math_font_css` supplies.
 """
 
 import base64
+import contextlib
 import functools
 import html
 import importlib.util
 import io
 import re
+from collections.abc import Callable, Iterator
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 
 import workbench
 from workbench.atomic import write_atomic
+from workbench.errors import InputError
+
+PICTURES = {".svg": "svg+xml", ".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".webp": "webp"}
+LARGEST_PICTURE = 300_000  # bytes
 
 
-def page_html(markdown: str) -> str:
-    """Return the HTML of a page; every second-level heading and what follows it is one `<section class="s-...">`."""
+def page_of(markdown: str, file: Path | None) -> str:
+    """Return the HTML of a lesson's page, with the pictures it names below the folder of its file.
+
+    Raises:
+        InputError: If a picture is not there, is of another kind than PICTURES, or larger than LARGEST_PICTURE.
+    """
+    return page_html(markdown, None if file is None else lambda name: _picture_data(file, name))
+
+
+def page_html(markdown: str, picture: Callable[[str], str] | None = None) -> str:
+    """Return the HTML of a page; every second-level heading and what follows it is one `<section class="s-...">`.
+
+    `picture` returns the address of a picture by the name that the page gives it; without it pictures are their words.
+    """
+    with _pictures_by(picture):
+        return _sections(markdown)
+
+
+def _sections(markdown: str) -> str:
     parts = re.split(r"(?m)^(?=## )", markdown)
     sections = [_parser().render(parts[0])] if parts[0].strip() else []
     for part in parts[1:]:
@@ -41,7 +66,45 @@ def _parser() -> Any:
     parser = MarkdownIt("commonmark", {"html": False, "typographer": True}).enable(
         ["table", "replacements", "smartquotes"]
     )
+    parser.add_render_rule("image", _image)
     return parser.use(dollarmath_plugin, renderer=_math, double_inline=True)
+
+
+_picture: ContextVar[Callable[[str], str] | None] = ContextVar("picture", default=None)
+
+
+@contextlib.contextmanager
+def _pictures_by(picture: Callable[[str], str] | None) -> Iterator[None]:
+    before = _picture.set(picture)
+    try:
+        yield
+    finally:
+        _picture.reset(before)
+
+
+def _image(renderer: Any, tokens: Any, i: int, options: Any, env: Any) -> str:
+    words = html.escape(renderer.renderInlineAsText(tokens[i].children, options, env))
+    address = _picture.get()
+    if address is None:
+        return words
+    return f'<img class="wb-picture" src="{html.escape(address(unquote(tokens[i].attrs["src"])))}" alt="{words}">'
+
+
+def _picture_data(page: Path, name: str) -> str:
+    """Return a picture below a page's folder as a data address; names are looked up, one part after the other."""
+    place: Path | None = page.parent.resolve()
+    for part in name.removeprefix("./").split("/"):
+        entries = {entry.name: entry for entry in place.iterdir()} if place is not None and place.is_dir() else {}
+        place = entries.get(part)
+    if place is None or not place.is_file() or not place.resolve().is_relative_to(page.parent.resolve()):
+        raise InputError(f"{page}: there is no picture {name!r} in the page's folder; name it relative to the page")
+    kind = PICTURES.get(place.suffix.lower())
+    if kind is None:
+        raise InputError(f"{page}: the picture {name!r} is none of {', '.join(PICTURES)}")
+    if place.stat().st_size > LARGEST_PICTURE:
+        size = f"{place.stat().st_size / 1e3:,.0f} kB, over the limit of {LARGEST_PICTURE / 1e3:,.0f} kB"
+        raise InputError(f"{page}: the picture {name!r} has {size}")
+    return f"data:image/{kind};base64,{base64.b64encode(place.read_bytes()).decode()}"
 
 
 def _math(tex: str, options: dict[str, Any]) -> str:

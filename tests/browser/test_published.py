@@ -91,16 +91,16 @@ EVERY_STEP = """() => {
 }"""
 
 
-def said(caption: str) -> dict[str, float]:
+def said(caption: str, head: str = "") -> dict[str, float]:
     """Return the numbers above the curves of a chart, by name."""
     return {
-        found["name"]: float(found["value"])
-        for part in caption.split(" · ")
+        found["name"]: float(found["value"].replace("−", "-").replace(",", ""))
+        for part in caption.removeprefix(f"{head}: ").split(" · ")
         if (found := NAMED.match(part)) is not None
     }
 
 
-NAMED = re.compile(r"(?P<name>.+?) (?P<value>-?[0-9.]+(e[+-][0-9]+)?)( \S+)?$")
+NAMED = re.compile(r"(?P<name>.+?) (?P<value>−?[0-9.,]+(e−?[0-9]+)?)( \S+)?$")
 
 
 @pytest.mark.parametrize("name", catalog())
@@ -146,7 +146,9 @@ def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out, n
         for one in timeline.series().values():
             known = {one.scalar.name: one.values[k]} if np.isfinite(one.values[k]) else {}
             charts.setdefault(one.scalar.chart, {}).update(known)
-        assert [said(caption) for caption in captions] == [pytest.approx(c, rel=0.0051) for c in charts.values()]
+        assert [said(caption, chart) for caption, chart in zip(captions, charts, strict=True)] == [
+            pytest.approx(c, rel=0.0051) for c in charts.values()
+        ]
     assert barriers(page) == []
 
 

@@ -17,8 +17,6 @@ from workbench.recording.chart import (
     frame_key,
     legend_height,
     legend_names,
-    number,
-    ticks,
 )
 from workbench.scene import PALETTE, Curve, Field, color_map
 
@@ -27,25 +25,6 @@ finite = st.floats(-1e6, 1e6)
 
 def curve(x, y, **looks) -> Curve:
     return Curve(np.array(x, float), np.array(y, float), "a", "chart", "x", **looks)
-
-
-@given(finite, st.floats(1e-6, 1e6), st.integers(2, 8))
-def test_ticks_are_few_round_and_inside(low, span, most):
-    high = low + span
-    if not high - low > 1e-9 * abs(low):
-        return
-    found = ticks(low, high, most)
-    assert 1 <= len(found) <= most
-    assert (found >= low - 1e-6 * span).all()
-    assert (found <= high + 1e-6 * span).all()
-    if len(found) > 1:
-        step = found[1] - found[0]
-        first = float(f"{step:.6e}"[0])
-        assert first in (1, 2, 5, 9)  # 9: a one that rounding took down
-
-
-def test_a_zero_tick_has_no_sign():
-    assert [number(tick) for tick in ticks(-1.0, 1.0, 3)] == ["−1", "0", "1"]
 
 
 @given(

@@ -15,7 +15,7 @@ from workbench.recording.contents import contents_of, places
 from workbench.recording.sink import Place, RerunSink
 from workbench.recording.spatial import FADED
 from workbench.recording.streams import stream_bytes
-from workbench.scene import PALETTE, Camera, Classes, Field, Mesh, Points, Scene, Segments, Table
+from workbench.scene import PALETTE, Axes, Camera, Classes, Field, Mesh, Points, Scene, Segments, Table
 
 
 def recorded(scenes: list[Scene], path: Path) -> Path:
@@ -177,6 +177,25 @@ def test_a_camera_that_loses_its_image_shows_none(tmp_path):
     path = recorded([{"c": camera}, {"c": replace(camera, image=None)}], tmp_path / "a.rrd")
     assert "/world/c/image" in shown_at(path, 0)
     assert "/world/c/image" not in shown_at(path, 1)
+
+
+def test_another_kind_of_thing_at_a_path_leaves_nothing_of_the_one_before(tmp_path):
+    p = np.eye(3)
+    things = [
+        Points(p, "source"),
+        Segments(np.zeros((3, 2, 3)), "source"),
+        Mesh(p, np.array([[0, 1, 2]]), "source"),
+        Mesh(p, np.array([[0, 1, 2]]), "source", wireframe=True),
+        Axes(name="frame"),
+        Axes(),
+        Camera(fake.K, 64, 48, color="source"),
+        Points(p, "source"),
+    ]
+    alone = [shown_at(recorded([{"x": thing}], tmp_path / "alone.rrd"), 0) for thing in things]
+    for order in (range(len(things)), range(len(things) - 1, -1, -1)):
+        path = recorded([{"x": things[i]} for i in order], tmp_path / "history.rrd")
+        for k, i in enumerate(order):
+            assert shown_at(path, k) == alone[i], f"{things[i]} as number {k}"
 
 
 def test_what_is_not_there_at_every_step_is_announced(tmp_path):

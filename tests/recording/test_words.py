@@ -73,6 +73,11 @@ def test_code_is_left_alone_and_formulas_become_words():
     assert page == "Take α₁ and `$x$`.\n\n\n    a = b\n\n\n```\n$y$\n```\n"
 
 
+def test_a_picture_is_its_words():
+    page = plain_page("See ![a circle of $r_1$](figures/a.svg) and `![b](c.png)`.")
+    assert page == "See a circle of r₁ and `![b](c.png)`."
+
+
 @pytest.mark.parametrize("lesson", catalog().values(), ids=lambda lesson: lesson.name)
 def test_every_page_is_free_of_tex(lesson):
     page = plain_page(lesson.page.read_text(encoding="utf-8"))

@@ -8,8 +8,9 @@ import viser
 from trimesh.visual import TextureVisuals
 from trimesh.visual.material import PBRMaterial
 
-from tests.fake import Params, lesson
-from workbench.scene import Field, Mesh, Points, color_rows, in_space, same
+from tests.fake import PHOTO, K, Params, lesson
+from tests.viewer.browser_scene import Windows, all_pairs, difference
+from workbench.scene import Axes, Camera, Field, Label, Mesh, Picture, Points, Segments, color_rows, in_space, same
 from workbench.timeline import Timeline
 from workbench.viewer.sink import ROOT, ViserSink
 
@@ -73,6 +74,44 @@ def test_showing_one_scene_after_another_leaves_exactly_the_other(server, scenes
             server.scene.reset()
             ViserSink(server.scene).show(scenes[after])
             assert_equal_nodes(got, nodes(server))
+
+
+MOVED = np.array([[0.0, -1, 0, 0.3], [1, 0, 0, 0.2], [0, 0, 1, 0.1], [0, 0, 0, 1]])
+KINDS: list[dict] = [
+    {"x": Points(np.eye(3), "source", T_world_object=MOVED)},
+    {"x": Points(np.eye(3)[:2], "target")},
+    {"x": Segments(np.zeros((2, 2, 3)), "source", T_world_object=MOVED)},
+    {"x": Segments(np.zeros((0, 2, 3)))},
+    {"x": Mesh(np.eye(3), np.array([[0, 1, 2]]), "source", MOVED)},
+    {"x": Mesh(np.eye(3), np.array([[0, 1, 2]]), Field(np.arange(3.0), 0, 2, "h"))},
+    {"x": Axes(MOVED)},
+    {"x": Camera(K, 64, 48, MOVED, image=PHOTO)},
+    {"x": Camera(K, 64, 48)},
+    {"x": Camera(K, 64, 48, image=PHOTO, opacity=0.5)},
+    {"x": Label("a", np.ones(3), T_world_object=MOVED)},
+    {"x": Label("b", np.zeros(3))},
+    {"x": Picture(PHOTO, width=0.5, T_world_object=MOVED)},
+    {"x": Picture(PHOTO, width=0.5, opacity=0.5)},
+    {},
+]
+
+
+@pytest.mark.parametrize("batch", [1, 2, 3], ids=["each sent", "two in a batch", "three in a batch"])
+def test_whatever_was_at_a_path_before_leaves_nothing_in_the_browser(server, monkeypatch, batch):
+    alone = []
+    for scene in KINDS:
+        with monkeypatch.context() as patch:
+            windows, sink = Windows(server, patch), ViserSink(server.scene)
+            sink.show(scene)
+            alone.append(windows.send().seen(ROOT))
+            sink.show({})
+    windows, sink = Windows(server, monkeypatch), ViserSink(server.scene)
+    for k, i in enumerate(all_pairs(len(KINDS))):
+        sink.show(KINDS[i])
+        if k % batch == 0:
+            assert difference(windows.send().seen(ROOT), alone[i]) == "", f"{KINDS[i]} as number {k}"
+        if k % 7 == 0:
+            sink.repaint((255, 255, 255))
 
 
 def test_an_empty_scene_leaves_nothing(server, sink, scenes):

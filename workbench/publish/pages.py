@@ -10,7 +10,7 @@ from workbench.questions import answer
 from workbench.recording import file_name
 from workbench.session import SPEEDS
 from workbench.timeline import Timelines
-from workbench.typeset import inline_html, page_html
+from workbench.typeset import inline_html, page_of
 
 HEAD = """<!doctype html>
 <html lang="en">
@@ -56,7 +56,7 @@ def lesson_page(lesson: Lesson, runs: Mapping[str, tuple[str, str]], timelines: 
         timelines: Where the runs that answer the questions are kept.
         extra: More for the head, such as a canonical address.
     """
-    text = page_html(lesson.text())
+    text = page_of(lesson.text(), lesson.page)
     before, after = _around_predict(text.replace('<div class="math block">', '<div class="math block" tabindex="0">'))
     questions = "".join(_question(lesson, question, timelines) for question in lesson.questions)
     buttons = "".join(

@@ -4,17 +4,18 @@ import base64
 import contextlib
 import io
 import re
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
 import viser
 
+from workbench.axis import labelled
 from workbench.errors import InputError
 from workbench.images import webp
 from workbench.scene import PALETTE, Curve, Field, Picture, Scene, Table, in_space
-from workbench.timeline import Timeline
-from workbench.viewer.charts import table_html
+from workbench.timeline import Series, Timeline, plotted_values
+from workbench.viewer.charts import axes_of, outline, table_html, titled
 from workbench.viewer.sink import ViserSink
 from workbench.viewer.stage import add_floor
 from workbench.viewer.style import bar_html, css_color, legend_html
@@ -46,7 +47,7 @@ class Renderer:
         self._server.scene.reset()
         camera = self._server.initial_camera
         camera.position, camera.look_at, camera.up, camera.fov = (
-            view.eye,
+            view.seen_from(),
             view.target,
             view.up,
             float(np.radians(view.fov_degrees)),
@@ -98,7 +99,22 @@ def beside(timeline: Timeline) -> dict[str, Any]:
         }
         for path, one in timeline.series().items()
     ]
-    return {"steps": steps, "series": series, "things": things}
+    return {"steps": steps, "series": series, "charts": _series_charts(timeline), "things": things}
+
+
+def _series_charts(timeline: Timeline) -> dict[str, Any]:
+    """Return the axes and words of every chart over steps."""
+    charts: dict[str, list[Series]] = {}
+    for one in timeline.series().values():
+        charts.setdefault(one.scalar.chart, []).append(one)
+    steps = np.arange(len(timeline), dtype=float)
+    found = {}
+    for chart, lines in charts.items():
+        scalar = lines[0].scalar
+        head, label = labelled(chart, scalar.unit, scalar.log)
+        across, up = axes_of([steps], [plotted_values(one.scalar, one.values) for one in lines])
+        found[chart] = {"head": head, "yLabel": label, "x": asdict(across), "y": asdict(up)}
+    return found
 
 
 def _things(scene: Scene) -> list[tuple[Any, Any]]:
@@ -114,8 +130,8 @@ def _things(scene: Scene) -> list[tuple[Any, Any]]:
             image = primitive.rgb() if isinstance(primitive.image, np.ndarray) else _coarse(primitive.image).rgb()
             bar = bar_html(primitive.image) if isinstance(primitive.image, Field) else ""
             found.append((_picture(image, primitive.title, bar), (image.shape, image.tobytes(), primitive.title, bar)))
-    for chart, curves in charts.items():
-        drawn = {"kind": "curves", "chart": chart, "curves": [_curve(curve) for curve in curves]}
+    for curves in charts.values():
+        drawn = _chart(curves)
         found.append((drawn, repr(drawn)))
     return found
 
@@ -138,6 +154,15 @@ def _picture(image: np.ndarray, title: str, bar: str) -> dict[str, Any]:
     }
 
 
+def _chart(curves: list[Curve]) -> dict[str, Any]:
+    """Return a chart of curves with its axes; bars and all else keep an x of their own."""
+    outlines = [outline(curve) for curve in curves]
+    across, up = axes_of([x for x, _ in outlines], [y for _, y in outlines])
+    title, label = titled(curves)
+    drawn = {"kind": "curves", "title": title, "xLabel": curves[0].x_label, "yLabel": label}
+    return drawn | {"x": asdict(across), "y": asdict(up), "curves": [_curve(curve) for curve in curves]}
+
+
 def _curve(curve: Curve) -> dict[str, Any]:
     order = np.argsort(curve.x, kind="stable")
     return {
@@ -146,8 +171,6 @@ def _curve(curve: Curve) -> dict[str, Any]:
         "color": css_color(PALETTE[curve.color]),
         "x": [_number(v) for v in curve.x[order]],
         "y": [_number(v) for v in curve.y[order]],
-        "xLabel": curve.x_label,
-        "yLabel": curve.y_label,
         "marks": [_number(v) for v in curve.marks],
     }
 

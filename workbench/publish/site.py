@@ -19,7 +19,7 @@ from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
-PAGE_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = 300_000, 4_000_000, 3_000_000
+PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = 300_000, 1_000_000, 4_000_000, 3_000_000
 COURSE_PAGE = "index.html"
 
 Progress = Callable[[str, int, int], object]
@@ -161,8 +161,11 @@ def checked(out: Path, names: Iterable[str]) -> list[tuple[str, int]]:
     for name, size in sizes:
         if not name.endswith(".html"):
             continue
-        page, weight = out / name, size
+        page, weight, pictures = out / name, size, 0
         for link in links_in(page.read_text(encoding="utf-8")):
+            if link.startswith("data:image/"):
+                pictures += len(link)
+                continue
             parts = urlsplit(link)
             if parts.scheme or parts.netloc or not parts.path:
                 continue
@@ -171,6 +174,9 @@ def checked(out: Path, names: Iterable[str]) -> list[tuple[str, int]]:
                 raise InputError(f"{name}: the link {link} leads nowhere")
             if linked.suffix in (".css", ".js"):
                 weight += linked.stat().st_size
+        if pictures > PICTURES_BUDGET:
+            raise InputError(_over(f"the pictures of {name}", pictures, PICTURES_BUDGET))
+        weight -= pictures
         if weight > PAGE_BUDGET:
             raise InputError(_over(f"{name} with its styles and scripts", weight, PAGE_BUDGET))
     return sizes

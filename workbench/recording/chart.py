@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import rerun as rr
 
+from workbench.axis import Axis, axis, number, value_axis
 from workbench.recording.glyphs import safe
 from workbench.scene import PALETTE, Curve, Field, color_map
 
@@ -24,15 +25,15 @@ GREY = (115, 121, 129)
 
 @dataclass(frozen=True)
 class _Scale:
-    """Numbers from `low` to `high` laid onto `start` to `end` of the canvas."""
+    """An axis laid onto `start` to `end` of the canvas."""
 
-    low: float
-    high: float
+    axis: Axis
     start: float
     end: float
 
     def __call__(self, value: Any) -> Any:
-        return self.start + (np.asarray(value) - self.low) / (self.high - self.low) * (self.end - self.start)
+        share = (np.asarray(value) - self.axis.low) / (self.axis.high - self.axis.low)
+        return self.start + share * (self.end - self.start)
 
 
 def frame_key(curves: Sequence[Curve]) -> tuple[object, ...]:
@@ -121,38 +122,13 @@ def _legend_places(entries: Sequence[tuple[str, tuple[int, int, int]]]) -> tuple
     return places, row + 1 if places else 0
 
 
-def ticks(low: float, high: float, most: int = 5) -> np.ndarray:
-    """Return round numbers inside [low, high], at most `most` of them."""
-    power = 10.0 ** np.floor(np.log10((high - low) / most))
-    for step in power * np.array([1.0, 2.0, 5.0, 10.0, 20.0]):
-        first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
-        if last - first < most:
-            return np.arange(first, last + 1) * step + 0.0  # + 0.0 makes -0.0 a plain zero
-    return np.array([low, high])
-
-
-def number(value: float) -> str:
-    """Return a number in few characters, with a true minus sign."""
-    return f"{value:.4g}".replace("-", "−")
-
-
 def _scales(curves: Sequence[Curve]) -> tuple[_Scale, _Scale]:
     xs = np.concatenate([*(curve.x for curve in curves), *(np.array(curve.marks) for curve in curves)]).astype(float)
-    ys = np.concatenate([curve.y for curve in curves]).astype(float)
-    ys = ys[np.isfinite(ys)] if np.isfinite(ys).any() else np.array([0.0])
     widths = [_bar_width(curve) / 2 for curve in curves if curve.kind == "bars"]
-    x_low, x_high = _apart(xs.min() - max(widths, default=0.0), xs.max() + max(widths, default=0.0))
-    y_low, y_high = _apart(min(ys.min(), 0.0) if widths else ys.min(), ys.max())
-    room = 0.04 * (y_high - y_low)
-    y_low, y_high = y_low - (room if y_low < 0 or not widths else 0.0), y_high + room
-    return _Scale(x_low, x_high, LEFT, RIGHT), _Scale(y_low, y_high, BOTTOM, TOP)
-
-
-def _apart(low: float, high: float) -> tuple[float, float]:
-    if high - low > 1e-12 * max(abs(low), abs(high)) and high > low:
-        return float(low), float(high)
-    room = max(abs(high) * 0.1, 1e-6)
-    return float(low - room), float(high + room)
+    half = max(widths, default=0.0)
+    along = axis(xs.min() - half, xs.max() + half)
+    up = value_axis([curve.y.astype(float) for curve in curves], from_zero=bool(widths), most=4)
+    return _Scale(along, LEFT, RIGHT), _Scale(up, BOTTOM, TOP)
 
 
 def _bar_width(curve: Curve) -> float:
@@ -166,7 +142,7 @@ def _bars(curve: Curve, x: _Scale, y: _Scale) -> list[np.ndarray]:
     half, pieces = 0.45 * _bar_width(curve), []
     for at, value in zip(curve.x, curve.y, strict=True):
         if np.isfinite(value):
-            left, right, top, foot = x(at - half), x(at + half), y(value), y(max(min(0.0, y.high), y.low))
+            left, right, top, foot = x(at - half), x(at + half), y(value), y(max(min(0.0, y.axis.high), y.axis.low))
             pieces.append(np.array([[left, foot], [left, top], [right, top], [right, foot], [left, foot]]))
     return pieces
 
@@ -180,15 +156,15 @@ def _pieces(at: np.ndarray, known: np.ndarray) -> list[np.ndarray]:
 
 def _frame(x: _Scale, y: _Scale) -> Any:
     strips = [np.array([[LEFT, TOP], [LEFT, BOTTOM], [RIGHT, BOTTOM]])]
-    strips += [np.array([[x(tick), BOTTOM], [x(tick), BOTTOM + 4]]) for tick in ticks(x.low, x.high)]
-    strips += [np.array([[LEFT - 4, y(tick)], [LEFT, y(tick)]]) for tick in ticks(y.low, y.high, 4)]
+    strips += [np.array([[x(tick), BOTTOM], [x(tick), BOTTOM + 4]]) for tick in x.axis.ticks]
+    strips += [np.array([[LEFT - 4, y(tick)], [LEFT, y(tick)]]) for tick in y.axis.ticks]
     return rr.LineStrips2D(strips, colors=GREY, radii=rr.Radius.ui_points(0.5), draw_order=10.0)
 
 
 def _words(x: _Scale, y: _Scale, curves: Sequence[Curve]) -> Any:
-    along, up = ticks(x.low, x.high), ticks(y.low, y.high, 4)
+    along, up = x.axis.ticks, y.axis.ticks
     places = [(x(tick), BOTTOM + 3) for tick in along] + [(LEFT - 20, y(tick) - 8) for tick in up]
-    words = [number(tick) for tick in (*along, *up)]
+    words = [*x.axis.words, *y.axis.words]
     places.append(((LEFT + RIGHT) / 2, BOTTOM + 24))
     words.append(curves[0].x_label)
     colors: list[tuple[int, int, int]] = [GREY] * len(places)

@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 import rerun as rr
 
-from workbench.recording.contents import plotted_values
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import plotted
 from workbench.recording.sink import entity_of, markdown
 from workbench.scene import PALETTE, Caption, Scalar
-from workbench.timeline import Series
+from workbench.timeline import Series, plotted_values
 
 TONES = {"info": "", "good": "✓ ", "wrong": "✗ "}
 

@@ -6,8 +6,6 @@ from dataclasses import asdict, dataclass, field, replace
 from itertools import takewhile
 from typing import Any
 
-import numpy as np
-
 from workbench.errors import InputError
 from workbench.lesson import View
 from workbench.recording.chart import HEIGHT, WIDTH, legend_height
@@ -76,12 +74,6 @@ def places(contents: Contents) -> dict[str, Place]:
         entity: Place(canvas.first, (canvas.width / 2, canvas.height / 2))
         for entity, canvas in canvases(contents).items()
     }
-
-
-def plotted_values(scalar: Scalar, values: np.ndarray) -> np.ndarray:
-    """Return what is plotted of a scalar's values: they or their logarithm; NaN where there is none."""
-    values = np.asarray(values, float)
-    return np.log10(np.where(values > 0, values, np.nan)) if scalar.log else values
 
 
 def to_json(contents: Contents, view: View) -> str:

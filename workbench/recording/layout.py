@@ -8,16 +8,16 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
+from workbench.axis import value_axis
 from workbench.lesson import View
 from workbench.recording.chart import LEGEND_WIDTH
-from workbench.recording.contents import Canvas, Contents, canvases, plotted_values
+from workbench.recording.contents import Canvas, Contents, canvases
 from workbench.recording.glyphs import safe
 from workbench.recording.sink import entity_of
 from workbench.scene import Scalar
+from workbench.timeline import plotted_values
 
 RERUN_FOV = 55.0  # degrees, of the viewer's eye, from top to bottom
-TINY = 1e-9
-"""A plot does not zoom in on differences below this: they are rounding, whatever the unit."""
 LATE = 0.5
 """Share of a run after which what appears for the first time stands behind a tab."""
 MOST_ROWS = 5.2
@@ -183,8 +183,8 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
     x = np.concatenate([np.arange(len(curve)) for curve in curves])
     y = np.concatenate(curves)
     x, y = (x[np.isfinite(y)], y[np.isfinite(y)]) if np.isfinite(y).any() else (np.zeros(1), np.zeros(1))
-    low, high = float(y.min()), float(y.max())
-    room = 0.06 * (high - low) if high - low > TINY else 0.5 * max(abs(high), 1e-3)
+    up = value_axis([y])
+    low, high = up.low, up.high
     beyond = 1 + steps // 40  # so that the cursor can be seen at the last step too
     end, infinite = rrb.TimeRangeBoundary.absolute(seq=steps - 1 + beyond), rrb.TimeRangeBoundary.infinite()
     return rrb.TimeSeriesView(
@@ -192,11 +192,9 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
         contents=[root + plotted(path, scalar) for root in runs for path, scalar in scalars.items()],
         name=safe(f"{chart} ({unit})" if unit else chart),
         axis_x=rrb.TimeAxis(view_range=rr.TimeRange(start=rrb.TimeRangeBoundary.absolute(seq=0), end=end)),
-        axis_y=rrb.ScalarAxis(range=(low - room, high + room)),
+        axis_y=rrb.ScalarAxis(range=(low, high)),
         time_ranges=[rrb.VisibleTimeRange("step", start=infinite, end=infinite)],
-        plot_legend=rrb.PlotLegend(
-            visible=True, corner=_emptiest(x / max(steps - 1, 1), (y - low) / ((high - low) or 1.0))
-        ),
+        plot_legend=rrb.PlotLegend(visible=True, corner=_emptiest(x / max(steps - 1, 1), (y - low) / (high - low))),
     )
 
 
@@ -215,7 +213,7 @@ def _eye(view: View) -> np.ndarray:
     """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's does."""
     target = np.array(view.target)
     share = np.tan(np.radians(view.fov_degrees) / 2) / np.tan(np.radians(RERUN_FOV) / 2)
-    return target + (np.array(view.eye) - target) * share
+    return target + (view.seen_from() - target) * share
 
 
 def _canvas_view(entity: str, canvas: Canvas, root: str = "") -> Any:

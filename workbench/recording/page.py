@@ -30,9 +30,16 @@ _LOWERED = dict(zip("0123456789+-aeoxhklmnpstijruv", "₀₁₂₃₄₅₆₇�
 
 
 def plain_page(markdown: str) -> str:
-    """Return a page as Markdown with its formulas in plain signs; code is left as it is."""
+    """Return a page as Markdown with its formulas in plain signs and pictures as their words; code is left as it is."""
+    markdown = _without_pictures(markdown)
     parts = re.split(r"(```.*?```|`[^`\n]*`|\$\$.*?\$\$|\$[^$\n]+\$)", markdown, flags=re.DOTALL)
     return safe("".join(_part(part) for part in parts))
+
+
+def _without_pictures(markdown: str) -> str:
+    """Return Markdown with the words of a picture in its place, code apart: Rerun shows no picture in a document."""
+    code_or_picture = r"(```.*?```|`[^`\n]*`)|!\[([^\]]*)\]\([^)]*\)"
+    return re.sub(code_or_picture, lambda found: found[1] or found[2], markdown, flags=re.DOTALL)
 
 
 def _part(part: str) -> str:

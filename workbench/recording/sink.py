@@ -1,7 +1,7 @@
 """Makes a Rerun stream equal to scenes, one step after another, and says only what has changed since the step before."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -84,11 +84,13 @@ class RerunSink:
 
     def _entities(self, k: int, scene: Scene) -> Iterator[tuple[str, Iterable[Aspect]]]:
         for path, primitive in scene.items():
+            if not in_space(primitive):
+                continue
             union = self._unions.get(path)
-            if isinstance(primitive, Points) and union is not None and id(primitive) in union.shown:
-                yield entity_of("world", path), gathered(primitive, union)
-            elif in_space(primitive):
-                yield entity_of("world", path), aspects(primitive, self._numbers)
+            whole = isinstance(primitive, Points) and union is not None and id(primitive) in union.shown
+            said = gathered(primitive, union) if whole else aspects(primitive, self._numbers)
+            kind = type(primitive).__name__  # another kind at this path has no aspect in common with it
+            yield entity_of("world", path), [replace(aspect, name=f"{kind} {aspect.name}") for aspect in said]
         beside = dict(_beside(scene))
         yield from beside.items()
         for entity, place in self._places.items():

@@ -130,12 +130,14 @@ def _mesh(primitive: Mesh, numbers: ClassNumbers) -> Iterator[Aspect]:
 
 @aspects.register
 def _axes(axes: Axes, numbers: ClassNumbers) -> Iterator[Aspect]:
-    def arrows() -> list[Any]:
-        colors = np.array([PALETTE[role] for role in ("x", "y", "z")])
-        say: list[Any] = [rr.Arrows3D(vectors=np.eye(3) * axes.length, colors=_faded(colors, axes.opacity))]
-        return say + ([_name_tag(axes.name, PALETTE["neutral"])] if axes.name else [])
-
-    yield Aspect("arrows", (axes.length, axes.opacity, axes.name), arrows)
+    colors = _faded(np.array([PALETTE[role] for role in ("x", "y", "z")]), axes.opacity)
+    yield Aspect(
+        "arrows",
+        (axes.length, axes.opacity),
+        lambda: [rr.Arrows3D(vectors=np.eye(3) * axes.length, colors=colors)],
+    )
+    if axes.name:
+        yield Aspect("name", (axes.name,), lambda: [_name_tag(axes.name, PALETTE["neutral"])])
     yield pose(axes.T_world_object)
 
 

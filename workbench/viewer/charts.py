@@ -1,17 +1,32 @@
 """What stands beside the scene: curves over steps, curves of the step, tables and pictures."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import viser
 
+from workbench.axis import Axis, axis, labelled, number, value_axis
 from workbench.scene import PALETTE, Curve, Field, Picture, Scene, Table, in_space, same
 from workbench.session import Look
-from workbench.timeline import Series
+from workbench.timeline import Series, plotted_values
 from workbench.viewer.style import bar_html, css_color, escape
 
 HEIGHT = 150
+NARROW_BAR = 0.96
+"""How much of the room between two bars a bar takes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """What is drawn in one colour: y over an x of its own. NaN in y is left out."""
+
+    name: str
+    color: str
+    x: np.ndarray
+    y: np.ndarray
+    kind: str = "line"  # or dots, bars, pinned
 
 
 class Beside:
@@ -45,7 +60,7 @@ class Beside:
     def _show_series(self, look: Look) -> None:
         for chart, paths in _groups(look.series).items():
             x = np.arange(look.known, dtype=float)
-            lines: list[tuple[str, str, np.ndarray, bool]] = []
+            lines: list[Line] = []
             said = []
             for path in paths:
                 one = look.series[path]
@@ -53,15 +68,15 @@ class Beside:
                 scalar = one.scalar
                 color = css_color(PALETTE[scalar.color])
                 if other is not None:
-                    lines.append((f"{scalar.name}, pinned", color + "66", _fitted(other, len(x)), True))
-                lines.append((scalar.name, color, _scaled(one), False))
+                    lines.append(Line(f"{scalar.name}, pinned", color + "66", x, _fitted(other, len(x)), "pinned"))
+                lines.append(Line(scalar.name, color, x, plotted_values(scalar, one.values)))
                 value = one.values[look.k] if look.k < len(one.values) else np.nan
                 if np.isfinite(value):
-                    said.append(f"{scalar.name} {value:.3g} {scalar.unit}".rstrip())
+                    said.append(f"{scalar.name} {number(value)} {scalar.unit}".rstrip())
             first = look.series[paths[0]].scalar
-            y_label = ("log₁₀ " if first.log else "") + chart + (f" ({first.unit})" if first.unit else "")
-            title = " · ".join(said) if said else chart
-            self._chart("series/" + chart, title, x, lines, y_label, (float(look.k),), "step")
+            head, label = labelled(chart, first.unit, first.log)
+            title = ": ".join(part for part in (head, " · ".join(said)) if part) or chart
+            self._chart("series/" + chart, title, lines, label, (float(look.k),), "step")
         self._drop("series/", [f"series/{chart}" for chart in _groups(look.series)])
 
     # curves of this step --------------------------------------------------------------------------------------------
@@ -72,57 +87,31 @@ class Beside:
             if isinstance(primitive, Curve):
                 groups.setdefault(primitive.chart, []).append(primitive)
         for chart, curves in groups.items():
-            drawn = [(curve, *_outline(curve)) for curve in curves]
-            x = np.unique(np.concatenate([xs for _, xs, _ in drawn])) if len(drawn) > 1 else drawn[0][1]
-            lines = []
-            for curve, xs, ys in drawn:
-                y = ys if len(drawn) == 1 else _at(x, xs, ys)
-                lines.append((curve.name, css_color(PALETTE[curve.color]), y, curve.kind == "dots"))
+            lines = [Line(curve.name, css_color(PALETTE[curve.color]), *outline(curve), curve.kind) for curve in curves]
             marks = tuple(mark for curve in curves for mark in curve.marks)
-            self._chart("curve/" + chart, chart, x, lines, curves[0].y_label, marks, curves[0].x_label)
+            title, label = titled(curves)
+            self._chart("curve/" + chart, title, lines, label, marks, curves[0].x_label)
         self._drop("curve/", [f"curve/{chart}" for chart in groups])
 
     def _chart(
-        self,
-        key: str,
-        title: str,
-        x: np.ndarray,
-        lines: list[tuple[str, str, np.ndarray, bool]],
-        y_label: str,
-        marks: tuple[float, ...],
-        x_label: str,
+        self, key: str, title: str, lines: Sequence[Line], y_label: str, marks: tuple[float, ...], x_label: str
     ) -> None:
-        low, high = _range(line[2] for line in lines)
-        x, columns = _with_marks(x, [line[2] for line in lines], [m for m in marks if x[0] <= m <= x[-1]], low, high)
-        series: list[Any] = [{"label": x_label}]
-        for name, color, _, thin in lines:
-            dots = thin and "pinned" not in name
-            style: dict[str, Any] = {"label": name, "stroke": color, "width": 0 if dots else 2, "spanGaps": False}
-            style["points"] = {"show": dots or len(x) < 40, "size": 5, "fill": color, "stroke": color}
-            if thin and not dots:
-                style |= {"dash": [5, 4], "points": {"show": False}}
-            series.append(style)
-        series.append(
-            {"label": "here", "stroke": css_color(PALETTE["highlight"]), "width": 2, "points": {"show": False}}
-        )
-        span = (float(x[0]), float(x[-1]) if x[-1] > x[0] else float(x[0]) + 1.0)
-        scales = {"x": {"time": False, "range": span}, "y": {"range": (low, high)}}
-        grey = {"stroke": "#8a8f98", "width": 1}
-        axis = {"stroke": "#808790", "grid": grey | {"stroke": "rgba(128,128,128,.22)"}, "font": "11px sans-serif"}
-        axes = (
-            axis | {"label": x_label, "labelSize": 16, "size": 26, "labelFont": "11px sans-serif"},
-            axis | {"label": y_label, "labelSize": 18, "size": 46, "labelFont": "11px sans-serif"},
-        )
-        data = (x, *columns)
+        across, up = axes_of([line.x for line in lines], [line.y for line in lines])
+        here = [mark for mark in marks if across.low <= mark <= across.high]
+        data = joined([*((line.x, line.y) for line in lines), _posts(here, up)])
+        series = ({"label": x_label}, *map(_style, lines), _HERE)
+        scales = {"x": {"time": False, "range": (across.low, across.high)}, "y": {"range": (up.low, up.high)}}
+        axes = (_drawn_axis(across, x_label, labelSize=16, size=26), _drawn_axis(up, y_label, labelSize=18, size=50))
         chart = self._charts.get(key)
         if chart is not None:
-            if list(chart.series) != series:
-                chart.series = tuple(series)
-            chart.title, chart.data, chart.scales = title, data, scales
+            for name, value in {"series": series, "axes": axes, "scales": scales, "title": title}.items():
+                if getattr(chart, name) != value:
+                    setattr(chart, name, value)
+            chart.data = data
             return
         self._charts[key] = self.gui.add_uplot(
             data,
-            tuple(series),
+            series,  # type: ignore[arg-type]
             scales=scales,  # type: ignore[arg-type]
             axes=axes,  # type: ignore[arg-type]
             title=title,
@@ -181,6 +170,20 @@ class Beside:
             self._others[path] = (primitive, handle, extra)
 
 
+def axes_of(xs: Sequence[np.ndarray], ys: Sequence[np.ndarray]) -> tuple[Axis, Axis]:
+    """Return the axes of a chart in which all these points are."""
+    x = np.concatenate(xs)
+    whole = bool(np.array_equal(x, np.rint(x)))
+    return axis(float(x.min()), float(x.max()), whole=whole), value_axis(ys, most=4)
+
+
+def titled(curves: Sequence[Curve]) -> tuple[str, str]:
+    """Return the title of a chart of curves and the label of its values."""
+    chart = curves[0].chart
+    above, label = labelled(curves[0].y_label, "", False)
+    return f"{chart}: {above}" if above and above != chart else chart, label
+
+
 def table_html(table: Table) -> str:
     """Return a table as HTML, its text escaped."""
     head = "".join(f"<th>{escape(cell)}</th>" for cell in table.header)
@@ -196,63 +199,74 @@ def _groups(series: Mapping[str, Series]) -> dict[str, list[str]]:
     return groups
 
 
-def _scaled(series: Series) -> np.ndarray:
-    if not series.scalar.log:
-        return series.values
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(series.values > 0, np.log10(series.values), np.nan)
-
-
 def _fitted(series: Series, n: int) -> np.ndarray:
     values = np.full(n, np.nan)
-    kept = _scaled(series)[:n]
+    kept = plotted_values(series.scalar, series.values)[:n]
     values[: len(kept)] = kept
     return values
 
 
-def _range(columns: Iterable[np.ndarray]) -> tuple[float, float]:
-    known = [column[np.isfinite(column)] for column in columns]
-    values = np.concatenate([k for k in known if len(k)]) if any(len(k) for k in known) else np.array([0.0, 1.0])
-    low, high = float(values.min()), float(values.max())
-    if low >= 0 and low < 0.5 * high:
-        low = 0.0  # magnitudes are read against zero
-    pad = 0.06 * (high - low) if high > low else 0.5 * abs(high) or 1.0
-    return (low if low == 0.0 else low - pad), high + pad
+def joined(curves: Sequence[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, ...]:
+    """Return one x for all curves and a column for each, NaN where another curve's point stands.
+
+    The browser draws one x for all, and passes over NaN: every curve goes through its own points and no others. Curves with
+    one x in common keep it as it is.
+    """
+    grids: list[np.ndarray] = []
+    for x, _ in curves:
+        if not any(x is grid or np.array_equal(x, grid) for grid in grids):
+            grids.append(x)
+    x = np.concatenate(grids).astype(float)
+    order = np.argsort(x, kind="stable")
+    starts = np.cumsum([0, *map(len, grids)])
+    columns = []
+    for own, y in curves:
+        column = np.full(len(x), np.nan)
+        at = next(i for i, grid in enumerate(grids) if own is grid or np.array_equal(own, grid))
+        column[starts[at] : starts[at + 1]] = y
+        columns.append(column[order])
+    return (x[order], *columns)
 
 
-def _with_marks(x: np.ndarray, columns: list[np.ndarray], marks: list[float], low: float, high: float) -> tuple:
-    """Insert every mark twice into x, the curves passing through it, and one column that is a vertical line there."""
-    xs = np.concatenate([x, np.repeat(marks, 2)]) if marks else x
-    order = np.argsort(xs, kind="stable")
-    line = np.full(len(xs), np.nan)
-    line[len(x) :] = np.tile([low, high], len(marks))
-    full = [np.concatenate([c, np.repeat([_nearest(x, c, m) for m in marks], 2)]) if marks else c for c in columns]
-    return xs[order].astype(float), [*(c[order] for c in full), line[order]]
+def _posts(marks: Sequence[float], up: Axis) -> tuple[np.ndarray, np.ndarray]:
+    """Return vertical lines at the marks."""
+    return np.repeat(np.array(marks, float), 3), np.tile([up.low, up.high, np.nan], len(marks))
 
 
-def _nearest(x: np.ndarray, y: np.ndarray, mark: float) -> float:
-    known = np.isfinite(y)
-    at = int(np.argmin(np.abs(x - mark)))
-    if x[at] == mark or known.sum() < 2:
-        return float(y[at])
-    return float(np.interp(mark, x[known], y[known], left=np.nan, right=np.nan))
-
-
-def _at(x: np.ndarray, xs: np.ndarray, ys: np.ndarray) -> np.ndarray:
-    known = np.isfinite(ys)
-    return np.interp(x, xs[known], ys[known], left=np.nan, right=np.nan) if known.sum() > 1 else np.full(len(x), np.nan)
-
-
-def _outline(curve: Curve) -> tuple[np.ndarray, np.ndarray]:
-    """Return x and y sorted by x; bars become their outline."""
+def outline(curve: Curve) -> tuple[np.ndarray, np.ndarray]:
+    """Return x and y sorted by x; bars become their outline, each on the ground at both ends."""
     order = np.argsort(curve.x, kind="stable")
     x, y = curve.x[order].astype(float), curve.y[order].astype(float)
-    if curve.kind != "bars" or len(x) < 2:
+    if curve.kind != "bars":
         return x, y
-    half = 0.5 * np.diff(x).min() * 0.96
-    return np.column_stack([x - half, x - half, x + half, x + half]).ravel(), np.column_stack(
-        [0 * y, y, y, 0 * y]
-    ).ravel()
+    gaps = np.diff(x)
+    half = 0.5 * NARROW_BAR * (gaps[gaps > 0].min() if (gaps > 0).any() else 1.0)
+    x, y = x[np.isfinite(y)], y[np.isfinite(y)]
+    sides = np.column_stack([x - half, x - half, x + half, x + half])
+    return sides.ravel(), np.column_stack([0 * y, y, y, 0 * y]).ravel()
+
+
+def _style(line: Line) -> dict[str, Any]:
+    """Return how the browser draws a line, dots, bars, or the dashed line of a pinned run."""
+    few = line.kind == "line" and len(line.x) < 40
+    points = {"show": line.kind == "dots" or few, "size": 5, "fill": line.color, "stroke": line.color}
+    style: dict[str, Any] = {"label": line.name, "stroke": line.color, "width": 0 if line.kind == "dots" else 2}
+    style |= {"spanGaps": False, "points": points}
+    if line.kind == "pinned":
+        return style | {"dash": [5, 4]}
+    return style | {"fill": line.color + "66", "width": 1} if line.kind == "bars" else style
+
+
+_HERE = {"label": "here", "stroke": css_color(PALETTE["highlight"]), "width": 2, "points": {"show": False}}
+
+
+def _drawn_axis(along: Axis, label: str, **sizes: int) -> dict[str, Any]:
+    """Return how the browser draws an axis, with the ticks and words that every home has."""
+    grid = {"stroke": "rgba(128,128,128,.22)", "width": 1}
+    ticks = grid | {"size": 4}
+    fonts = {"font": "11px sans-serif", "labelFont": "11px sans-serif"}
+    words = {"label": label, "splits": along.ticks, "values": along.words}
+    return {"stroke": "#808790", "grid": grid, "ticks": ticks, **words, **fonts, **sizes}
 
 
 def _enlarged(image: np.ndarray, least: int = 300) -> np.ndarray:

@@ -1,13 +1,15 @@
 """The Lesson tab: the page, and the questions that are answered before the run is shown."""
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 import viser
 
+from workbench.errors import InputError
 from workbench.lesson import Lesson, Question
 from workbench.questions import Answer
-from workbench.typeset import inline_html, page_html
+from workbench.typeset import inline_html, page_of
 from workbench.viewer.style import escape
 
 Predict = Callable[[Question, Any], None]
@@ -26,7 +28,11 @@ class Reading:
     def __init__(self, gui: viser.GuiApi, lesson: Lesson, predict: Predict, answers: dict[str, Any]):
         self.gui, self._predict = gui, predict
         self._results: dict[str, Any] = {}
-        before, break_, after = _around_questions(page_html(lesson.text()))
+        try:
+            page = page_of(lesson.text(), lesson.page)
+        except InputError as error:
+            page = f'<div class="wb-result">{escape(str(error))}</div>'
+        before, break_, after = _around_questions(page)
         gui.add_html(f'<div class="wb wb-pad">{before}</div>')
         for number, question in enumerate(lesson.questions, 1):
             self._ask(number, question, answers.get(question.name))
@@ -56,8 +62,8 @@ class Reading:
                     self._button(choice, question, lambda choice=choice: choice, color=(86, 110, 140))
             else:
                 unit = f" ({question.unit})" if question.unit else ""
-                number_input = self.gui.add_number("Your prediction" + unit, 0.0, step=0.001)
-                self._button("Answer", question, lambda: number_input.value, color=(86, 110, 140))
+                typed = self.gui.add_text("Your prediction" + unit, "")
+                self._button("Answer", question, lambda: number_in(typed.value), color=(86, 110, 140))
             self._button("Skip and show me", question, lambda: None, color=(150, 155, 163))
             said = f'<div class="wb-result">You answered: {escape(str(before))}.</div>' if before is not None else ""
             self._results[question.name] = self.gui.add_html(said)
@@ -67,8 +73,29 @@ class Reading:
 
         @button.on_click
         async def _(event: Any) -> None:
-            if event.client is not None:
-                self._predict(question, value())
+            if event.client is None:
+                return
+            try:
+                given = value()
+            except InputError as error:
+                self.say(question, str(error))
+            else:
+                self._predict(question, given)
+
+
+def number_in(text: Any) -> float:
+    """Return the number that a person typed, with a point or a comma before its decimals.
+
+    Raises:
+        InputError: If it is none; the line is for the person.
+    """
+    try:
+        number = float(str(text).strip().replace("−", "-").replace(",", "."))
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError("Type a number first, or skip.")
+    return number
 
 
 def _around_questions(html: str) -> tuple[str, str, str]:

@@ -1,6 +1,10 @@
 """Makes a viser scene equal to a Scene, sending only what differs from what is shown.
 
 A thing that moved is sent as a pose; a thing that is drawn with the same arrays is not sent again.
+
+What the browser knows of a node outlives the node: viser drops a removal that an addition under the same name follows at
+once, and the browser then keeps the pose it has. So a node is replaced under its name without being removed (viser sends
+its pose then, whatever it is), and a name whose node was removed is never used again.
 """
 
 from collections.abc import Callable
@@ -39,6 +43,7 @@ _IDENTITY = np.eye(4)
 class _Node:
     shown: Spatial
     handle: Any
+    name: str
 
 
 class ViserSink:
@@ -52,12 +57,13 @@ class ViserSink:
     def __init__(self, scene: viser.SceneApi, backdrop: tuple[int, int, int] = (255, 255, 255)):
         self.scene, self.backdrop = scene, backdrop
         self._nodes: dict[str, _Node] = {}
+        self._removed: dict[str, int] = {}  # how many nodes of a path are gone, each with a name of its own
 
     def show(self, scene: Scene) -> None:
         """Make what is shown equal to the spatial part of `scene`."""
         wanted = {path: primitive for path, primitive in scene.items() if in_space(primitive)}
         for path in [path for path in self._nodes if path not in wanted]:
-            self._nodes.pop(path).handle.remove()
+            self._remove(path)
         for path, primitive in wanted.items():
             self._show(path, primitive)  # type: ignore[arg-type]
 
@@ -73,9 +79,8 @@ class ViserSink:
     def repaint(self, backdrop: tuple[int, int, int]) -> None:
         """Draw everything again before another backdrop."""
         self.backdrop = backdrop
-        shown = self.shown()
-        self.show({})
-        self.show(shown)
+        for node in self._nodes.values():
+            node.handle = self._add(node.name, node.shown)
 
     def _show(self, path: str, wanted: Spatial) -> None:
         node = self._nodes.get(path)
@@ -85,8 +90,19 @@ class ViserSink:
             if self._moved(node, wanted) or self._changed(node, wanted):
                 node.shown = wanted
                 return
-            node.handle.remove()
-        self._nodes[path] = _Node(wanted, self._add(ROOT + path.replace("/", "·"), wanted))  # no parents: poses compose
+            if _parts(node.shown) != _parts(wanted):
+                self._remove(path)
+        name = node.name if path in self._nodes and node is not None else self._new_name(path)
+        self._nodes[path] = _Node(wanted, self._add(name, wanted), name)
+
+    def _remove(self, path: str) -> None:
+        self._nodes.pop(path).handle.remove()
+        self._removed[path] = self._removed.get(path, 0) + 1
+
+    def _new_name(self, path: str) -> str:
+        """Return a name that no node had, and without a parent: poses compose."""
+        again = self._removed.get(path, 0)
+        return ROOT + path.replace("/", "·") + (f"~{again}" if again else "")
 
     def _moved(self, node: _Node, wanted: Spatial) -> bool:
         """Set the pose where nothing but a rigid pose differs."""
@@ -216,10 +232,9 @@ class ViserSink:
         up = corners[:2].mean(0) - 0.12 * (corners[3] - corners[0])
         roof = np.array([[corners[0], up], [up, corners[1]]])
         ends = np.concatenate([rim, spokes, roof])
-        frame = self.scene.add_frame(name, show_axes=False)
         color = _as_light(self._faded(np.array(PALETTE[camera.color]), camera.opacity))
-        self.scene.add_line_segments(
-            name + "/lines",
+        frustum = self.scene.add_line_segments(
+            name,
             _placed(camera, ends).astype(np.float32),
             color,
             thickness=2.0,
@@ -230,32 +245,23 @@ class ViserSink:
             image = camera.image if camera.image.ndim == 3 else np.repeat(camera.image[:, :, None], 3, 2)
             self.scene.add_image(
                 name + "/image",
-                image,
+                self._faded(image, camera.opacity),
                 float(size[0]),
                 float(size[1]),
                 position=(corners[0] + corners[2]) / 2,
                 cast_shadow=False,
                 receive_shadow=False,
             )
-        return frame
+        return frustum
 
     def _label(self, name: str, label: Label) -> Any:
         return self.scene.add_label(name, label.text, font_screen_scale=1.0, anchor="bottom-center")
 
     def _picture(self, name: str, picture: Picture) -> Any:
-        image = picture.rgb()
+        image = self._faded(picture.rgb(), picture.opacity)
         width = picture.width or 1.0
         height = width * image.shape[0] / image.shape[1]
-        frame = self.scene.add_frame(name, show_axes=False)
-        self.scene.add_image(
-            name + "/image",
-            image,
-            width,
-            height,
-            cast_shadow=False,
-            receive_shadow=False,
-        )
-        return frame
+        return self.scene.add_image(name, image, width, height, cast_shadow=False, receive_shadow=False)
 
     def _colors(self, primitive: Points, n: int) -> np.ndarray:
         if isinstance(primitive.color, str):
@@ -273,6 +279,11 @@ class ViserSink:
         if opacity >= 1:
             return np.asarray(rgb, np.uint8)
         return (opacity * rgb + (1 - opacity) * np.array(self.backdrop)).round().astype(np.uint8)
+
+
+def _parts(primitive: Spatial) -> bool:
+    """Tell whether a primitive has a node below its own, which would stay when its own is replaced."""
+    return isinstance(primitive, Camera) and primitive.image is not None
 
 
 def _as_light(rgb: np.ndarray) -> np.ndarray:

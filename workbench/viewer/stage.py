@@ -29,7 +29,7 @@ def framed(view: View, back: float, raised: float) -> tuple[np.ndarray, np.ndarr
         raised: How far above the middle the lesson's target stands, in half heights of the picture.
     """
     target = np.array(view.target)
-    ahead = back * (target - np.array(view.eye))
+    ahead = back * (target - view.seen_from())
     right = np.cross(ahead, view.up)
     up = np.cross(right, ahead)
     shift = raised * np.tan(np.radians(view.fov_degrees) / 2) * np.linalg.norm(ahead) * up / np.linalg.norm(up)
@@ -37,8 +37,11 @@ def framed(view: View, back: float, raised: float) -> tuple[np.ndarray, np.ndarr
 
 
 def add_floor(scene: viser.SceneApi, view: View) -> None:
-    """Draw the grid and the labelled axes of a lesson."""
-    scene.set_up_direction(view.up)
+    """Draw the grid and the labelled axes of a lesson.
+
+    What is up is the camera's affair. The scene itself is not turned: the browser would take the camera's place for one in
+    the frame before the turn.
+    """
     _light(scene, view)
     axis = int(np.argmax(np.abs(view.up)))
     if view.grid is None:

@@ -125,22 +125,21 @@ function showSeries(data) {
   $("#series").replaceChildren(...[...charts].map(([chart, lines]) => {
     const said = lines.filter((l) => l.values[current.k] !== null)
       .map((l) => `${l.name} ${number(l.values[current.k])} ${l.unit}`.trim()).join(" · ");
-    const log = lines[0].log;
-    return plot(said || chart, "step", (log ? "log₁₀ " : "") + chart + (lines[0].unit ? ` (${lines[0].unit})` : ""),
-      lines.map((l) => ({
-        name: l.name, color: l.color, kind: "line", x: l.values.map((_, i) => i),
+    const log = lines[0].log, axes = data.charts[chart];
+    return plot({
+      ...axes, title: [axes.head, said].filter(Boolean).join(": ") || chart, xLabel: "step",
+      curves: lines.map((l) => ({
+        name: l.name, color: l.color, kind: "line", marks: [], x: l.values.map((_, i) => i),
         y: l.values.map((v) => (log ? (v > 0 ? Math.log10(v) : null) : v)),
-      })), [current.k]);
+      })),
+    }, [current.k]);
   }));
 }
 
 function showThings(things) {
   $("#things").replaceChildren(...things.map((thing) => {
     if (thing.kind === "html") return element("div", { innerHTML: thing.html });
-    if (thing.kind === "curves") {
-      const [first] = thing.curves;
-      return plot(thing.chart, first.xLabel, first.yLabel, thing.curves, thing.curves.flatMap((c) => c.marks));
-    }
+    if (thing.kind === "curves") return plot(thing, thing.curves.flatMap((c) => c.marks));
     const figure = element("figure", {});
     figure.append(element("img", { src: thing.url, alt: thing.title, className: thing.width < 200 ? "pixels" : "" }),
       element("figcaption", { innerHTML: thing.bar || "" }));
@@ -153,27 +152,17 @@ function showThings(things) {
 
 const WIDTH = 340, HEIGHT = 170, LEFT = 52, RIGHT = 10, TOP = 8, BOTTOM = 34;
 
-function plot(title, xLabel, yLabel, curves, marks) {
-  const known = curves.flatMap((c) => c.y.filter((v) => v !== null));
-  let [low, high] = known.length ? [Math.min(...known), Math.max(...known)] : [0, 1];
-  if (low >= 0 && low < 0.5 * high) low = 0; // magnitudes are read against zero
-  const pad = high > low ? 0.06 * (high - low) : 0.5 * Math.abs(high) || 1;
-  if (low !== 0) low -= pad;
-  high += pad;
-  const xs = curves.flatMap((c) => c.x);
-  let [left, right] = [Math.min(...xs), Math.max(...xs)];
-  if (right <= left) right = left + 1;
-  const px = (x) => LEFT + ((x - left) / (right - left)) * (WIDTH - LEFT - RIGHT);
-  const py = (y) => HEIGHT - BOTTOM - ((y - low) / (high - low)) * (HEIGHT - TOP - BOTTOM);
+// the axes, their ticks and words come with the data: every home has the same
+function plot({ title, xLabel, yLabel, curves, x: across, y: up }, marks) {
+  const px = (x) => LEFT + ((x - across.low) / (across.high - across.low)) * (WIDTH - LEFT - RIGHT);
+  const py = (y) => HEIGHT - BOTTOM - ((y - up.low) / (up.high - up.low)) * (HEIGHT - TOP - BOTTOM);
   const parts = [];
-  for (const y of ticks(low, high)) {
-    parts.push(`<line class="grid" x1="${LEFT}" x2="${WIDTH - RIGHT}" y1="${py(y)}" y2="${py(y)}"/>`,
-      `<text x="${LEFT - 5}" y="${py(y) + 4}" text-anchor="end">${number(y)}</text>`);
-  }
-  for (const x of ticks(left, right)) {
-    parts.push(`<text x="${px(x)}" y="${HEIGHT - BOTTOM + 14}" text-anchor="middle">${number(x)}</text>`);
-  }
-  for (const curve of curves) parts.push(...drawn(curve, px, py, low));
+  up.ticks.forEach((y, i) => parts.push(
+    `<line class="grid" x1="${LEFT}" x2="${WIDTH - RIGHT}" y1="${py(y)}" y2="${py(y)}"/>`,
+    `<text x="${LEFT - 5}" y="${py(y) + 4}" text-anchor="end">${escape(up.words[i])}</text>`));
+  across.ticks.forEach((x, i) => parts.push(
+    `<text x="${px(x)}" y="${HEIGHT - BOTTOM + 14}" text-anchor="middle">${escape(across.words[i])}</text>`));
+  for (const curve of curves) parts.push(...drawn(curve, px, py));
   for (const mark of marks) {
     parts.push(`<line class="mark" x1="${px(mark)}" x2="${px(mark)}" y1="${TOP}" y2="${HEIGHT - BOTTOM}"/>`);
   }
@@ -188,16 +177,16 @@ function plot(title, xLabel, yLabel, curves, marks) {
   return box;
 }
 
-function drawn(curve, px, py, low) {
+function drawn(curve, px, py) {
   if (curve.kind === "dots") {
     return curve.x.map((x, i) => curve.y[i] === null ? "" : `<circle r="2.5" cx="${px(x)}" cy="${py(curve.y[i])}" fill="${curve.color}"/>`);
   }
-  if (curve.kind === "bars") {
-    const step = Math.min(...curve.x.slice(1).map((x, i) => x - curve.x[i]), Infinity);
-    const wide = Number.isFinite(step) ? Math.max(1, (px(step) - px(0)) * 0.96) : 6;
+  if (curve.kind === "bars") { // each stands on zero at its own x, as wide as the nearest two are apart
+    const gaps = curve.x.slice(1).map((x, i) => x - curve.x[i]).filter((gap) => gap > 0);
+    const half = 0.48 * (gaps.length ? Math.min(...gaps) : 1);
     return curve.x.map((x, i) => curve.y[i] === null ? "" :
-      `<rect x="${px(x) - wide / 2}" width="${wide}" y="${py(Math.max(curve.y[i], low))}" ` +
-      `height="${Math.max(0, py(Math.max(0, low)) - py(curve.y[i]))}" fill="${curve.color}"/>`);
+      `<rect x="${px(x - half)}" width="${px(x + half) - px(x - half)}" y="${py(Math.max(curve.y[i], 0))}" ` +
+      `height="${Math.abs(py(0) - py(curve.y[i]))}" fill="${curve.color}" fill-opacity="0.6"/>`);
   }
   const pieces = [[]];
   curve.x.forEach((x, i) => {
@@ -209,17 +198,10 @@ function drawn(curve, px, py, low) {
     : `<polyline points="${p.join(" ")}" stroke="${curve.color}"/>`);
 }
 
-function ticks(low, high) {
-  const rough = (high - low) / 4, unit = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((m) => m * unit).find((s) => s >= rough);
-  const found = [];
-  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i++) found.push(i * step);
-  return found;
-}
-
 function number(value) {
-  const text = Number(value).toPrecision(3);
-  return text.includes("e") ? Number(text).toExponential() : String(Number(text));
+  const said = Number(Number(value).toPrecision(3)), size = Math.abs(said);
+  const text = size && (size < 1e-3 || size >= 1e6) ? said.toExponential().replace("e+", "e") : said.toLocaleString("en", { maximumFractionDigits: 6 });
+  return text.replaceAll("-", "−");
 }
 
 // controls ----------------------------------------------------------------------------------------------------------

@@ -1,0 +1,57 @@
+"""In a real browser a preset looks the same after other presets as on its own, pixel by pixel."""
+
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from workbench.lesson import catalog
+from workbench.timeline import Timeline
+
+pytestmark = pytest.mark.browser
+WAIT = 60_000  # milliseconds
+MOST = 60  # pictures, until two in a row are the same
+TRANSFORMS = catalog()["transforms"]
+FIRST, *OTHERS = ("conventions", "mirror", "perspective", "inverse")
+
+
+def opened(chromium, app):
+    page = chromium.new_page(viewport={"width": 1100, "height": 640})
+    page.goto(f"{app.address}/?lesson=transforms")
+    page.wait_for_selector("canvas[data-engine]", timeout=WAIT)
+    page.locator(".mantine-Notification-closeButton").click(timeout=WAIT)  # that there is no graphics card
+    return page
+
+
+def seen(page, name: str) -> np.ndarray:
+    """Choose a preset and return the pixels of its scene, above the panel of steps, as soon as they stay as they are."""
+    preset = TRANSFORMS.preset(name)
+    step = TRANSFORMS.first_step if preset.step is None else preset.step
+    caption = Timeline(TRANSFORMS, preset.params).complete()[step].caption.text
+    page.get_by_role("button", name=preset.title, exact=True).first.click(timeout=WAIT)
+    page.locator(".wb-caption", has_text=caption).wait_for(timeout=WAIT)
+    page.mouse.move(0, 0)
+    between = {"x": 320.0, "y": 0.0, "width": 450.0, "height": 380.0}
+    before = b""
+    for _ in range(MOST):
+        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        now = page.screenshot(clip=between)
+        if now == before:
+            return np.asarray(Image.open(io.BytesIO(now)).convert("RGB")).astype(int)
+        before = now
+    raise AssertionError("the scene does not come to rest")
+
+
+def test_presets_after_each_other_look_as_alone(chromium, app):
+    page = opened(chromium, app)
+    seen(page, FIRST)
+    after = {name: seen(page, name) for name in OTHERS}
+    page.close()
+    for name in OTHERS:
+        page = opened(chromium, app)
+        alone = seen(page, name)
+        page.close()
+        others = [np.abs(alone - after[other]).max() for other in OTHERS if other != name]
+        assert min(others) > 64, "what is compared would look the same for another preset"
+        assert (np.abs(alone - after[name]).max(-1) > 16).mean() < 0.001, name

@@ -1,0 +1,179 @@
+"""Whatever was shown before leaves no trace: for all ordered pairs of a lesson's presets, A then B shows what B shows.
+
+A sink sends what differs, so what it holds can be stale. Every pair goes through the live browser, through the player of
+an export and through a recording: all presets at the step at which they open, and some steps later.
+"""
+
+import itertools
+from dataclasses import replace
+from typing import Any
+
+import pytest
+import rerun as rr
+import viser
+
+from tests.viewer.browser_scene import Browser, Seen, Windows, all_pairs, difference
+from workbench.lesson import catalog
+from workbench.recording.sink import RerunSink
+from workbench.scene import Camera, Classes, Field, Mesh, Picture, Points, Scene, Segments
+from workbench.timeline import Timeline
+from workbench.viewer.sink import ROOT, ViserSink
+
+LESSONS = list(catalog())
+MORE = 8  # steps
+SPARSE = 25  # one point or segment of so many is kept
+
+
+def scenes_of(name: str) -> tuple[list[Scene], list[Scene]]:
+    """Return every preset's scene where it opens, and up to MORE steps later."""
+    lesson = catalog()[name]
+    opening, later = [], []
+    for preset in lesson.presets:
+        timeline = Timeline(lesson, preset.params)
+        k = lesson.first_step if preset.step is None else preset.step
+        while (k < 0 or len(timeline) <= k + MORE) and timeline.extend():
+            pass
+        opening.append(thinned(timeline[k].scene))
+        later.append(thinned(timeline[-1].scene))
+    return opening, later
+
+
+def thinned(scene: Scene) -> Scene:
+    """Return a scene with few points and small images, the same in everything that a sink decides by."""
+    return {path: _thinned(primitive) for path, primitive in scene.items()}
+
+
+def _thinned(primitive: Any) -> Any:
+    if isinstance(primitive, Points):
+        return replace(primitive, p=primitive.p[::SPARSE], color=_every(primitive.color))
+    if isinstance(primitive, Segments):
+        return replace(primitive, ends=primitive.ends[::SPARSE], color=_every(primitive.color))
+    if isinstance(primitive, Mesh):
+        return replace(primitive, faces=primitive.faces[::SPARSE])
+    if isinstance(primitive, (Camera, Picture)) and primitive.image is not None:
+        return replace(primitive, image=_coarse(primitive.image))
+    return primitive
+
+
+def _every(color: Any) -> Any:
+    if isinstance(color, Field):
+        return replace(color, values=color.values[::SPARSE])
+    if isinstance(color, Classes):
+        return replace(color, ids=color.ids[::SPARSE])
+    return color if isinstance(color, str) else color[::SPARSE]
+
+
+def _coarse(image: Any) -> Any:
+    return replace(image, values=image.values[::16, ::16]) if isinstance(image, Field) else image[::16, ::16]
+
+
+def test_each_follows_each():
+    walk = list(all_pairs(5))
+    assert {(a, b) for a in range(5) for b in range(5) if a != b} <= set(itertools.pairwise(walk))
+
+
+@pytest.fixture(scope="module")
+def server():
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    yield server
+    server.stop()
+
+
+def walk_live(server, monkeypatch, scenes: list[Scene]) -> None:
+    """Show scenes in all orders; hold a browser that gets all, one that gets every third, and a player to each alone."""
+    alone = [in_browser(server, monkeypatch, [scene]) for scene in scenes]
+    with monkeypatch.context() as patch:
+        windows = Windows(server, patch, browsers=2)
+        sink, ends = ViserSink(server.scene), []
+        for k, i in enumerate(all_pairs(len(scenes))):
+            sink.show(scenes[i])
+            ends.append((i, len(windows.recorded)))
+            assert difference(windows.send(0).seen(ROOT), alone[i]) == "", f"preset {i} as number {k}"
+            if k % 3 == 0:
+                assert difference(windows.send(1).seen(ROOT), alone[i]) == "", f"preset {i} as number {k}, in one batch"
+        player = Browser()
+        for i, end in (ends[-1], ends[len(ends) // 2], ends[3], ends[len(ends) // 3]):
+            player.hide_all()
+            player.handle(windows.recorded[:end])
+            assert difference(player.seen(ROOT), alone[i]) == "", f"preset {i}, sought"
+        sink.show({})
+
+
+def in_browser(server, monkeypatch, scenes: list[Scene]) -> Seen:
+    with monkeypatch.context() as patch:
+        windows = Windows(server, patch)
+        sink = ViserSink(server.scene)
+        for scene in scenes:
+            sink.show(scene)
+        seen = windows.send().seen(ROOT)
+        sink.show({})
+    return seen
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_a_preset_after_another_shows_what_it_shows_alone(server, monkeypatch, name):
+    opening, later = scenes_of(name)
+    walk_live(server, monkeypatch, opening)
+    walk_live(server, monkeypatch, later)
+    walk_recorded(opening)
+
+
+def test_a_walk_through_all_lessons_shows_each_as_alone(server, monkeypatch):
+    scenes = []
+    for lesson in catalog().values():
+        timeline = Timeline(lesson, lesson.params())
+        assert timeline.extend()
+        scenes.append(thinned(timeline[0].scene))
+    walk_live(server, monkeypatch, scenes)
+
+
+class Stream:
+    """A recording stream that keeps the latest value of every component, as a viewer looks it up."""
+
+    def __init__(self) -> None:
+        self._latest: dict[str, dict[str, Any]] = {}
+        self._classes: dict[int, Any] = {}
+
+    def set_time(self, *_: Any, **__: Any) -> None:
+        """Steps come in order."""
+
+    def log(self, entity: str, *archetypes: Any, static: bool = False) -> None:
+        for archetype in archetypes:
+            if isinstance(archetype, rr.Clear):
+                self._latest.pop(entity, None)
+                continue
+            for batch in archetype.as_component_batches():
+                values = batch.as_arrow_array()
+                if isinstance(archetype, rr.AnnotationContext):
+                    infos = [one["class_description"]["info"] for one in values.to_pylist()[0]]
+                    self._classes = {info["id"]: (info["label"], info["color"]) for info in infos}
+                else:
+                    self._latest.setdefault(entity, {})[str(batch.component_descriptor())] = values
+
+    def seen(self) -> dict[str, dict[str, Any]]:
+        """Return what is shown by entity and component, classes by name and colour; nothing of what was emptied."""
+        return {
+            entity: {
+                name: [self._classes[i] for i in values.to_pylist()] if name.endswith("class_ids") else values
+                for name, values in components.items()
+                if len(values) or not name.startswith("EncodedImage")
+            }
+            for entity, components in self._latest.items()
+            if len(components.get("EncodedImage:blob", "there"))
+        }
+
+
+def walk_recorded(scenes: list[Scene]) -> None:
+    """Record scenes in all orders; hold what a viewer shows to what it shows of each alone."""
+    alone = [recorded(scene) for scene in scenes]
+    stream = Stream()
+    sink = RerunSink(stream)
+    for k, i in enumerate(all_pairs(len(scenes))):
+        sink.show(k, scenes[i])
+        assert stream.seen() == alone[i], f"preset {i} as number {k}"
+
+
+def recorded(scene: Scene) -> dict[str, dict[str, Any]]:
+    stream = Stream()
+    RerunSink(stream).show(0, scene)
+    return stream.seen()
