@@ -24,7 +24,7 @@ LARGE = Params(smoothness=0.0, noise=8.0, window=21, pixel=(120, 20))
 HALF = Params(scene="planes", baseline=0.05, pixel=(80, 50))
 PLANES = Params(scene="planes", pixel=(80, 50))
 DOUBLE = Params(scene="planes", baseline=0.2, pixel=(80, 50))
-BOARDS = Params(scene="boards at three depths", focal_length=640.0, baseline=0.125, max_disparity=90, pixel=(118, 30))
+BOARDS = Params(scene="boards at three depths", focal_length=640.0, baseline=0.125, max_disparity=84, pixel=(118, 30))
 ONE_PIXEL = replace(BOARDS, disparity_error=1.0)
 SKY = replace(BOARDS, pixel=(80, 5))
 DARK = Params(mistake="right picture darker")
@@ -40,8 +40,8 @@ LAST_CHOICE, CHECKED, SMOOTHED, DEPTH, LAST = -6, -5, -3, -2, -1
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "spheres", "Three balls",
-        "One pixel alone matches by chance: over 70 % wrong. Windows of 3 × 3 leave 12 %, the paths 2 %, and the check finds"
-        " most of what is hidden.",
+        "One pixel alone matches by chance: over 70 % wrong. Windows of 3 × 3 leave about a tenth, the paths 2 %, and the"
+        " check finds most of what is hidden.",
         HOME,
     ),
     Preset(
@@ -112,13 +112,14 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "darker-census", "The same with census",
-        "Census only asks which neighbours are darker than the middle, and a darker picture does not change that: 2 %"
-        " wrong.",
+        "Census only asks which neighbours are darker than the middle, and a darker picture does not change that: about"
+        " 2 % are wrong.",
         DARK_CENSUS, LAST_CHOICE,
     ),
     Preset(
         "exchanged", "The sign: pictures exchanged",
-        "With left and right exchanged the partner lies at u + |d|, and the search runs the other way: nothing is found.",
+        "With left and right exchanged the partner lies at u + |d|, and the search runs the other way: over 90 % of the"
+        " map is wrong.",
         EXCHANGED, LAST_CHOICE,
     ),
     Preset(
@@ -228,7 +229,7 @@ def _hidden(states: Sequence[State]) -> float:
 def _hidden_why(states: Sequence[State]) -> str:
     return (
         f"{100 * hidden(PLANES):.1f} % became {100 * hidden(states[0].setup.params):.1f} %. The depths of the rest are"
-        " twice as exact: a longer baseline is a trade, not a gain."
+        " about twice as exact: a longer baseline is a trade, not a gain."
     )
 
 

@@ -116,15 +116,14 @@ def _of_depth(state: State) -> Caption:
     depth = float(state.depth[v, u])
     d = "d" if camera.doffs == 0 else f"(d + {camera.doffs:.3g})"
     law = f"Z = f B / {d} with f = {setup.f:.4g} px, B = {camera.baseline:.3g} m"
+    true = _true_depth(state)
+    truth = f" (truth {true:.3f} m)" if math.isfinite(true) else " (truth: infinitely far)" if math.isinf(true) else ""
     if math.isnan(depth):
         here = f"left pixel ({u}, {v}) is unknown and stays so"
     elif math.isinf(depth):
-        here = f"left pixel ({u}, {v}) has d = 0: infinitely far, not missing"
+        here = f"left pixel ({u}, {v}) has d = 0, which means infinitely far, not missing{truth}"
     else:
-        true = _true_depth(state)
-        here = f"left pixel ({u}, {v}), d = {state.chosen:.2f} px, is {depth:.3f} m away" + (
-            f" (truth {true:.3f} m)" if math.isfinite(true) else ""
-        )
+        here = f"left pixel ({u}, {v}), d = {state.chosen:.2f} px, is {depth:.3f} m away{truth}"
     infinite = int(np.isinf(state.depth).sum())
     more = f" {infinite:,} pixels are infinitely far." if infinite else ""
     extra = (
@@ -217,7 +216,7 @@ def _true_depth(state: State) -> float:
         return math.nan
     u, v = setup.pixel
     d = float(setup.pair.disparity[v, u]) + setup.pair.camera.doffs
-    return setup.pair.camera.f * setup.pair.camera.baseline / d if d > 0 else math.nan
+    return math.inf if d == 0 else setup.pair.camera.f * setup.pair.camera.baseline / d if d > 0 else math.nan
 
 
 def _tone(state: State) -> Tone:

@@ -194,7 +194,10 @@ class TestPresets:
         assert np.isinf(state.depth[v, u])
         assert np.isinf(state.depth).sum() > 5000
         assert np.isnan(state.depth).any()
-        assert "infinitely far, not missing" in timeline(lesson.preset("sky").params)[DEPTH].caption.text
+        assert (
+            "infinitely far, not missing (truth: infinitely far)"
+            in timeline(lesson.preset("sky").params)[DEPTH].caption.text
+        )
 
     def test_exposure(self):
         assert preset("darker")[LAST_CHOICE].wrong > 0.9

@@ -57,9 +57,14 @@ def test_what_repeats_is_kept_once():
     assert len(photos) == 1
 
 
-def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered):
+def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered, monkeypatch):
     out, _ = published
+    pages = []
+    original = site.lesson_page
+    monkeypatch.setattr(site, "lesson_page", lambda *args: pages.append(args[-1]) or original(*args))
     site.publish(out, [SMALL])
+    site.publish(out, [SMALL])
+    assert pages == [""]  # once without the address that it had
     assert rendered == []
     other = replace(SMALL, presets=(replace(SMALL.presets[0], params=fake.Params(angle=170.0)),))
     site.publish(out, [other])

@@ -229,7 +229,7 @@ CAPTIONS = (
 # preset lines -------------------------------------------------------------------------------------------------------
 
 
-@functools.cache
+@functools.lru_cache(maxsize=4)
 def states(params) -> tuple:
     return tuple(lesson.run(params))
 
@@ -266,19 +266,19 @@ def clutter_votes(run: Run) -> bool:
     return bool((off <= state.inlier_distance).mean() > 1 / 3)
 
 
-def kept(params) -> float:
+def kept(found: tuple) -> float:
     """Return the error of the best before the refit."""
-    best = [state for state in states(params) if state.now.phase == "best"][-1]
+    best = [state for state in found if state.now.phase == "best"][-1]
     return error(best, best.now.best.estimate)
 
 
 def no_farther(run: Run, k: int, found: re.Match[str]) -> bool:
-    return kept(run.params) <= kept(dataclasses.replace(run.params, score="count"))
+    return kept(run.states) <= kept(states(dataclasses.replace(run.params, score="count")))
 
 
 def ten_times(run: Run, k: int, found: re.Match[str]) -> bool:
     params = dataclasses.replace(run.params, seed=0)
-    return kept(params) < kept(dataclasses.replace(params, score="count")) / 10
+    return kept(states(params)) < kept(states(dataclasses.replace(params, score="count"))) / 10
 
 
 def twice_as_many(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -293,9 +293,8 @@ def sooner(run: Run, k: int, found: re.Match[str]) -> bool:
     return drawn(run) < states(dataclasses.replace(run.params, local_refit=False))[-1].now.iteration
 
 
-def reached(params) -> int:
+def reached(found: tuple) -> int:
     """Return after how many samples the best has four fifths of the inliers it ends with."""
-    found = states(params)
     enough = 0.8 * np.count_nonzero(found[-1].now.best.inliers)
     return next(
         state.now.iteration
@@ -307,12 +306,12 @@ def reached(params) -> int:
 @functools.cache
 def hundreds_by_chance(params) -> float:
     """Return how often chance needs a hundred samples at least, of five seeds."""
-    return float(np.mean([reached(dataclasses.replace(params, seed=seed)) >= 100 for seed in range(5)]))
+    return float(np.mean([reached(states(dataclasses.replace(params, seed=seed))) >= 100 for seed in range(5)]))
 
 
 def few_dozens(run: Run, k: int, found: re.Match[str]) -> bool:
     by_chance = dataclasses.replace(run.params, sampler="uniform", steps="improvements", seed=0)
-    return reached(run.params) <= 48 and hundreds_by_chance(by_chance) > 0.6
+    return reached(run.states) <= 48 and hundreds_by_chance(by_chance) > 0.6
 
 
 def picked_are_inliers(run: Run, k: int, found: re.Match[str]) -> bool:

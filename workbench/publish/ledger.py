@@ -41,7 +41,7 @@ class Ledger:
 
     Attributes:
         lessons: By name.
-        runs: `lesson/run` to the digest of all that the published run depends on.
+        runs: `lesson/run` to the digest of all that the published run depends on, `lesson/` to that of its page.
         made_by: What wrote the site.
         files: Name within the site to the digest of its content, as it was written.
 

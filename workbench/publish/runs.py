@@ -134,6 +134,16 @@ def digest_of(lesson: Lesson, run: Run) -> str:
     return hashlib.sha256(said.encode()).hexdigest()
 
 
+def page_digest(lesson: Lesson, address: str) -> str:
+    """Return what a lesson's page must agree with."""
+    questions = [
+        (one.name, one.text, one.choices, one.unit, one.tolerance, one.step, knobs.to_json(one.params))
+        for one in lesson.questions
+    ]
+    said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{questions}\0{address}\0{sources_digest(lesson)}"
+    return hashlib.sha256(said.encode()).hexdigest()
+
+
 def _script(value: Any) -> str:
     """Return JSON that may stand in a script."""
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))

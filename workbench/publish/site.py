@@ -13,7 +13,7 @@ from workbench.lesson import Lesson
 from workbench.publish.ledger import NAME, Ledger, Listed
 from workbench.publish.lock import only_writer
 from workbench.publish.pages import course_page, lesson_page
-from workbench.publish.runs import VISER_PAGE, Run, digest_of, files_of, render_all, runs_of
+from workbench.publish.runs import VISER_PAGE, Run, digest_of, files_of, page_digest, render_all, runs_of
 from workbench.recording import equal_content
 from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
@@ -91,9 +91,7 @@ def _publish(
     ledger.write(shared)
     timelines = Timelines()
     for lesson in lessons:
-        titles = {run.name: (run.title, run.line) for run in runs_of(lesson)}
-        page = lesson_page(lesson, titles, timelines, canonical(base_url, f"{lesson.name}/"))
-        ledger.write({f"{lesson.name}/{COURSE_PAGE}": page.encode()})
+        _write_page(ledger, lesson, timelines, canonical(base_url, f"{lesson.name}/"))
     listed = others | {lesson.name: Listed(lesson.title, lesson.summary, lesson.order) for lesson in lessons}
     ledger.lessons = dict(sorted(listed.items(), key=lambda item: (item[1].order, item[0])))
     ledger.write({COURSE_PAGE: course_page(ledger.lessons, canonical(base_url, "")).encode()})
@@ -123,6 +121,18 @@ def _render(ledger: Ledger, work: Sequence[tuple[Lesson, Run]], progress: Progre
         done += 1
         if progress is not None:
             progress(f"{lesson.name}/{run.name}", done, len(work))
+
+
+def _write_page(ledger: Ledger, lesson: Lesson, timelines: Timelines, address: str) -> None:
+    """Write a lesson's page if it is not there as it should be: its questions need runs."""
+    key, name = f"{lesson.name}/", f"{lesson.name}/{COURSE_PAGE}"
+    digest = page_digest(lesson, address)
+    if ledger.runs.get(key) == digest and ledger.is_ours(name):
+        return
+    titles = {run.name: (run.title, run.line) for run in runs_of(lesson)}
+    ledger.runs.pop(key, None)
+    ledger.write({name: lesson_page(lesson, titles, timelines, address).encode()})
+    ledger.runs[key] = digest
 
 
 def _is_equal(ledger: Ledger, name: str, data: bytes) -> bool:

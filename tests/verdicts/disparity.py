@@ -1,0 +1,486 @@
+"""What the disparity lesson says of its runs, decided from the pictures' truth and the maps that a state carries."""
+
+import dataclasses
+import functools
+import re
+
+import numpy as np
+
+from lessons.disparity.lesson import lesson
+from lessons.disparity.words import caption
+from tests.verdicts import Claim, Run
+from workbench.algorithms.disparity import Stage
+
+__all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
+
+CHOSEN, CHECKED = -6, -5  # from the end: the last map before the check, and the check
+UNITS = {"mm": 0.001, "cm": 0.01, "m": 1.0}
+
+
+def off(state, disparity: np.ndarray | None = None) -> np.ndarray:
+    """Return how far the pixels that both cameras see are off, pixels; NaN where a disparity is unknown."""
+    pair = state.setup.pair
+    return np.abs((state.disparity if disparity is None else disparity) - pair.disparity)[pair.visible]
+
+
+def wrong(state) -> float:
+    """Return the percentage of the pixels that both see whose disparity is over 1 px off."""
+    return 100.0 * float((off(state) > 1.0).mean())
+
+
+def mean_error(state) -> float:
+    """Return the mean error of those that are within 1 px."""
+    errors = off(state)
+    return float(errors[errors <= 1.0].mean())
+
+
+def true_depth(setup) -> np.ndarray:
+    camera, d = setup.pair.camera, setup.pair.disparity + setup.pair.camera.doffs
+    return np.where(d > 0, camera.f * camera.baseline / np.where(d > 0, d, 1.0), np.inf)
+
+
+def depths_off(state) -> tuple[np.ndarray, np.ndarray]:
+    """Return the errors of the depths, metres, and the true ones, where both are known and finite."""
+    true = true_depth(state.setup)
+    known = np.isfinite(state.depth) & np.isfinite(true)
+    return np.abs(state.depth[known] - true[known]), true[known]
+
+
+def right(run: Run, k: int) -> bool | None:
+    """The depths are right within 3 % in the median with few wrong pixels, wrong beyond 10 % or with many."""
+    state = run.states[k]
+    if state.stage is not None:
+        return None
+    errors, true = depths_off(state)
+    relative = float(np.median(errors / true))
+    if relative > 0.1 or wrong(state) > 20.0:
+        return False
+    return True if relative <= 0.03 and wrong(state) <= 5.0 else None
+
+
+def metres(text: str) -> float:
+    number, unit = text.split()
+    return float(number) * UNITS[unit]
+
+
+def about(said: str, value: float) -> bool:
+    """Whether a number as it is written is this one, to its last digit."""
+    digits = len(said.partition(".")[2])
+    return abs(float(said.replace(",", "")) - value) <= 0.51 * 10.0**-digits
+
+
+@functools.lru_cache(maxsize=2)
+def comparing(states: tuple) -> tuple[tuple[int, float], ...]:
+    """Return for every slice how many pixels it fits better than all before it, and the mean lowest cost after it."""
+    lowest, found = None, []
+    for state in states:
+        if state.stage is not Stage.COMPARE:
+            break
+        slice_ = np.where(np.isfinite(state.piece), state.piece, np.inf)
+        fresh = slice_.size if lowest is None else int((slice_ < lowest).sum())
+        lowest = slice_ if lowest is None else np.minimum(lowest, slice_)
+        found.append((fresh, float(lowest[np.isfinite(lowest)].mean())))
+    return tuple(found)
+
+
+def fits_better(run: Run, k: int, found: re.Match[str]) -> bool:
+    fresh = comparing(run.states)[k][0]
+    said, share = (
+        int(found["n"].replace(",", "")),
+        100 * int(found["n"].replace(",", "")) / run.states[k].disparity.size,
+    )
+    return abs(said - fresh) <= max(2, 0.001 * fresh) and about(found["share"], share)
+
+
+def lowest_cost(run: Run, k: int, found: re.Match[str]) -> bool:
+    mean = comparing(run.states)[k][1]
+    return bool(np.isclose(float(found["n"]), mean, rtol=6e-3)) and (k == 0 or mean <= comparing(run.states)[k - 1][1])
+
+
+def wrong_change(run: Run, k: int, found: re.Match[str]) -> bool:
+    return about(found["was"], wrong(run.states[k - 1])) and about(found["is"], wrong(run.states[k]))
+
+
+def wrong_now(run: Run, k: int, found: re.Match[str]) -> bool:
+    return about(found["is"], wrong(run.states[k]))
+
+
+def error_change(run: Run, k: int, found: re.Match[str]) -> bool:
+    return about(found["was"], mean_error(run.states[k - 1])) and about(found["is"], mean_error(run.states[k]))
+
+
+def given_up(run: Run, k: int, found: re.Match[str]) -> bool:
+    unknown = np.isnan(run.states[k].disparity)
+    return int(found["n"].replace(",", "")) == unknown.sum() and about(found["share"], 100 * unknown.mean())
+
+
+def hidden_given_up(run: Run, k: int, found: re.Match[str]) -> bool:
+    pair = run.states[k].setup.pair
+    hidden = np.isfinite(pair.disparity) & ~pair.visible
+    return about(found["n"], 100 * np.isnan(run.states[k].disparity)[hidden].mean())
+
+
+def between_pixels(run: Run, k: int, found: re.Match[str]) -> bool:
+    d = run.states[k].disparity[np.isfinite(run.states[k].disparity)]
+    return about(found["n"], float(np.abs(d - np.round(d)).mean())) and np.abs(d - np.round(d)).max() <= 0.5
+
+
+def energy_falls(run: Run, k: int, found: re.Match[str]) -> bool:
+    was, now = run.states[k - 1].energy, run.states[k].energy
+    return bool(np.isclose(float(found["was"]), was, rtol=1e-3) and np.isclose(float(found["is"]), now, rtol=1e-3))
+
+
+def law(run: Run, k: int, found: re.Match[str]) -> bool:
+    """The depth of the followed pixel by Z = f B / (d + doffs); and its true depth."""
+    state = run.states[k]
+    setup, (u, v) = state.setup, state.setup.pixel
+    f, B = float(found["f"]), float(found["B"])
+    doffs = float(found["doffs"] or 0.0)
+    true = true_depth(setup)[v, u]
+    return (
+        np.isclose(f * B / (float(found["d"]) + doffs), float(found["z"]), rtol=0.01)
+        and np.isclose(f * B, setup.f * setup.pair.camera.baseline, rtol=1e-3)
+        and about(found["d"], state.disparity[v, u])
+        and (found["true"] is None or about(found["true"], true))
+        and (found["true"] is not None or not np.isfinite(true))
+    )
+
+
+def is_infinite(run: Run, k: int, found: re.Match[str]) -> bool:
+    state = run.states[k]
+    u, v = state.setup.pixel
+    true = true_depth(state.setup)[v, u]
+    said = np.isinf(true) if found["true"] is None else about(found["true"], true)
+    return bool(state.disparity[v, u] == 0 and said)
+
+
+def first_order(run: Run, k: int, found: re.Match[str]) -> bool:
+    e, fB = float(found["e"]), run.states[k].setup.f * run.states[k].setup.pair.camera.baseline
+    pairs = [part.split(" by ") for part in found["list"].split(", ")]
+    return all(np.isclose(metres(moved), metres(z) ** 2 / fB * e, rtol=0.03, atol=6e-4) for z, moved in pairs)
+
+
+def measured(run: Run, k: int, found: re.Match[str]) -> bool:
+    """The boards, at 1, 5 and 20 m, moved by this in the median."""
+    state = run.states[k]
+    true = np.round(true_depth(state.setup), 6)
+    moved = []
+    for z in (1.0, 5.0, 20.0):
+        here = (true == z) & state.setup.pair.visible & np.isfinite(state.depth)
+        moved.append(abs(float(np.median(state.depth[here])) - z))
+    said = [metres(part) for part in found["list"].split(", ")]
+    return bool(np.allclose(said, moved, rtol=0.01, atol=6e-4))
+
+
+def half_within(run: Run, k: int, found: re.Match[str]) -> bool:
+    return bool(np.isclose(metres(found["z"]), np.median(depths_off(run.states[k])[0]), rtol=0.01, atol=6e-4))
+
+
+def exchanged(run: Run, k: int, found: re.Match[str]) -> bool:
+    return run.params.mistake == "pictures exchanged" and float(found["b"]) > float(found["a"]) + 5
+
+
+N = r"\d+(?:\.\d+)?"
+LENGTH = r"\d+(?:\.\d+)? (?:mm|cm|m)"
+CAPTIONS = (
+    Claim(r"(?P<n>[\d,]+) pixels \((?P<share>\d+(?:\.\d+)?) %\) fit better than at any smaller shift", fits_better),
+    Claim(r"the mean lowest cost is (?P<n>\d+(?:\.\d+)?)", lowest_cost),
+    Claim(r"energy (?P<was>\d+(?:\.\d+)?) → (?P<is>\d+(?:\.\d+)?) per pixel", energy_falls),
+    Claim(r"[Ww]rong pixels (?P<was>\d+(?:\.\d+)?) → (?P<is>\d+(?:\.\d+)?) %", wrong_change),
+    Claim(r"(?P<is>\d+(?:\.\d+)?) % are wrong", wrong_now),
+    Claim(r"the pixel is given up: (?P<n>[\d,]+) \((?P<share>\d+(?:\.\d+)?) %\)", given_up),
+    Claim(r"(?P<n>\d+) % of what the right camera cannot see", hidden_given_up),
+    Claim(r"(?P<n>\d+(?:\.\d+)?) px from whole ones on average", between_pixels),
+    Claim(r"mean error of the right ones (?P<was>\d+(?:\.\d+)?) → (?P<is>\d+(?:\.\d+)?) px", error_change),
+    Claim(
+        rf"Z = f B / (?:d|\(d \+ (?P<doffs>{N})\)) with f = (?P<f>{N}) px, B = (?P<B>{N}) m: left pixel \(\d+, \d+\),"
+        rf" d = (?P<d>{N}) px, is (?P<z>{N}) m away(?: \(truth (?P<true>{N}) m\))?",
+        law,
+    ),
+    Claim(
+        r"has d = 0, which means infinitely far, not missing \(truth(?:: infinitely far| (?P<true>\d+\.\d+) m)\)",
+        is_infinite,
+    ),
+    Claim(
+        r"(?P<n>[\d,]+) pixels are infinitely far",
+        lambda run, k, found: int(found["n"].replace(",", "")) == np.isinf(run.states[k].depth).sum(),
+    ),
+    Claim(
+        r"To first order (?P<e>\d+(?:\.\d+)?) px of error moves a depth by Z² / \(f B\) · \d+(?:\.\d+)? px:"
+        rf" (?P<list>(?:{LENGTH} by {LENGTH}(?:, )?)+)",
+        first_order,
+    ),
+    Claim(rf"Measured: (?P<list>{LENGTH}(?:, {LENGTH})*)", measured),
+    Claim(rf"Half of all points are within (?P<z>{LENGTH}) of the truth", half_within),
+    Claim(
+        r"more pixels find each other, (?P<b>\d+) % instead of (?P<a>\d+) %: is the left one the right one", exchanged
+    ),
+    Claim(
+        r"[Tt]he right picture chooses too|against right|to the right|down and right|up and right|what the right camera",
+        None,
+    ),
+)
+
+
+# preset lines -------------------------------------------------------------------------------------------------------
+
+BARE = (slice(30, 90), slice(46, 88))  # of the plain wall, well inside
+STRIPES = (slice(30, 90), slice(60, 110))
+
+
+@functools.lru_cache(maxsize=8)
+def states(params) -> tuple:
+    return tuple(lesson.run(params))
+
+
+def of_stage(run: Run, stage: Stage):
+    return [state for state in run.states if state.stage is stage][-1]
+
+
+def off_in(state, part: tuple[slice, slice]) -> float:
+    return float((np.abs(state.disparity - state.setup.pair.disparity) > 1.0)[part].mean())
+
+
+def hidden(state) -> np.ndarray:
+    return ~state.setup.pair.visible
+
+
+def given_up_of_hidden(run: Run) -> float:
+    return float(np.isnan(run.states[CHECKED].disparity)[hidden(run.states[0])].mean())
+
+
+def flat(run: Run, k: int, found: re.Match[str]) -> bool:
+    """The curve of the bare wall stays low at every shift, far below the median cost where there is texture."""
+    state = of_stage(run, Stage.AGGREGATE)
+    costs, textured = state.costs, state.setup
+    left, right_ = textured.left[:, 40:46], textured.right[:, 20:26]  # other parts of the wall, not each other's
+    return bool(
+        np.nanmax(costs) < 9 * 0.5 * np.abs(left - right_).mean() and np.nanmin(costs) > 0.4 * np.nanmedian(costs)
+    )
+
+
+def valleys(run: Run, k: int, found: re.Match[str]) -> bool:
+    costs = run.states[CHOSEN].costs
+    inner = costs[1:-1]
+    at = 1 + np.flatnonzero((inner < costs[:-2]) & (inner < costs[2:]))
+    apart = np.diff(at)  # noise moves a valley by a pixel at most
+    deep = costs[at].max() < 0.5 * np.nanmedian(costs)
+    return len(at) == 5 and bool(deep and (abs(apart - 6) <= 1).all() and abs(apart.mean() - 6) <= 0.25)
+
+
+def near_an_edge(run: Run) -> tuple[float, float]:
+    """Return the share of the wrong pixels, and of all, that have a jump of the true disparity within 10 px."""
+    state = run.states[CHOSEN]
+    truth, visible = state.setup.pair.disparity, state.setup.pair.visible
+    jump = np.zeros(truth.shape, bool)
+    for axis in (0, 1):
+        step = np.abs(np.diff(truth, axis=axis)) > 2.0
+        jump[tuple(slice(1, None) if a == axis else slice(None) for a in (0, 1))] |= step
+        jump[tuple(slice(None, -1) if a == axis else slice(None) for a in (0, 1))] |= step
+    rows, columns = np.nonzero(jump)
+    near = np.zeros(truth.shape, bool)
+    for v, u in zip(rows, columns, strict=True):
+        near[max(v - 10, 0) : v + 11, max(u - 10, 0) : u + 11] = True
+    bad = (np.abs(state.disparity - truth) > 1.0) & visible
+    return float(near[bad].mean()), float(near[visible].mean())
+
+
+def scattered(run: Run, k: int, found: re.Match[str]) -> bool:
+    of_wrong, of_all = near_an_edge(run)
+    return of_wrong < 1.3 * of_all
+
+
+def times_baseline(run: Run, times: float) -> bool:
+    """Every disparity is so many times that of the ordinary baseline."""
+    ordinary = dataclasses.replace(run.params, baseline=0.1)
+    one, other = (next(iter(lesson.run(params))).setup.pair.disparity for params in (ordinary, run.params))
+    return bool(np.allclose(other, times * one, rtol=1e-6))
+
+
+def darker(run: Run, k: int, found: re.Match[str]) -> bool:
+    mean = [float(picture.mean()) for picture in (run.states[0].setup.left, run.states[0].setup.right)]
+    return abs(mean[1] / mean[0] - 0.7) < 0.03
+
+
+def rows_off(run: Run, k: int, found: re.Match[str]) -> bool:
+    """Pushed up by two rows, the right picture is that of the same run without the mistake."""
+    true = next(iter(lesson.run(dataclasses.replace(run.params, mistake="none")))).setup.right
+    return bool(np.array_equal(run.states[0].setup.right[2:], true[:-2]))
+
+
+def four_times_too_far(run: Run, k: int, found: re.Match[str]) -> bool:
+    state = run.states[-2]
+    true = true_depth(state.setup)
+    known = np.isfinite(state.depth) & np.isfinite(true) & state.setup.pair.visible
+    return abs(float(np.median(state.depth[known] / true[known])) - 4.0) < 0.2
+
+
+LINES = {
+    "spheres": (
+        Claim("over 70 % wrong", lambda run, k, _: wrong(of_stage(run, Stage.COMPARE)) > 70),
+        Claim("leave about a tenth", lambda run, k, _: 8.5 < wrong(of_stage(run, Stage.AGGREGATE)) < 12.5),
+        Claim("the paths 2 %", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 2) <= 0.7),
+        Claim("the check finds most of what is hidden", lambda run, k, _: given_up_of_hidden(run) > 0.6),
+    ),
+    "textureless": (
+        Claim("On the bare wall the cost curve is flat", flat),
+        Claim("over 90 % of it is wrong at a low cost", lambda run, k, _: off_in(run.states[CHOSEN], BARE) > 0.9),
+    ),
+    "textureless-smooth": (
+        Claim("The bare wall is right", lambda run, k, _: off_in(run.states[CHOSEN], BARE) < 0.1),
+        Claim("its own costs still know nothing", flat),
+    ),
+    "repeated": (
+        Claim("Stripes 6 px apart give the curve a valley every 6 px", valleys),
+        Claim("on most of the pattern a wrong one wins", lambda run, k, _: off_in(run.states[CHOSEN], STRIPES) > 0.5),
+    ),
+    "repeated-paths": (
+        Claim("hardly a stripe stays wrong", lambda run, k, _: off_in(run.states[CHOSEN], STRIPES) < 0.05),
+    ),
+    "occlusion": (
+        Claim(
+            "Left of each post is a band that only the left camera sees",
+            lambda run, k, _: not run.states[0].setup.pair.visible[10:110, 71:76].any(),
+        ),
+        Claim("No answer there is right", None),
+        Claim("the check gives up most of it, not all", lambda run, k, _: 0.6 < given_up_of_hidden(run) < 1.0),
+    ),
+    "window-3": (
+        Claim("about a third of the map is wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 100 / 3) < 5),
+        Claim("scattered everywhere", scattered),
+    ),
+    "window-21": (Claim("which pixels are wrong now", None),),
+    "baseline-half": (Claim("half the disparity everywhere", lambda run, k, _: times_baseline(run, 0.5)),),
+    "baseline-double": (Claim("every disparity doubles", lambda run, k, _: times_baseline(run, 2.0)),),
+    "one-pixel": (
+        Claim("Every disparity is made 1 px too large", lambda run, k, _: run.params.disparity_error == 1.0),
+        Claim(
+            r"The last step tells how far each board moves: by Z² / \(f B\), and measured",
+            lambda run, k, _: "20 m by 5.00 m. Measured: " in caption(run.states[-1]).text,
+        ),
+    ),
+    "sky": (
+        Claim(
+            "The sky does not shift between the pictures: d = 0",
+            lambda run, k, _: (
+                (run.states[0].setup.pair.disparity == 0).sum() > 5000 and np.isinf(run.states[-2].depth[5, 80])
+            ),
+        ),
+    ),
+    "darker": (
+        Claim("The right picture is darker", None),
+        Claim("Another exposure changes every grey value by 30 %", darker),
+        Claim("over 90 % of the map is wrong", lambda run, k, _: wrong(run.states[CHOSEN]) > 90),
+    ),
+    "darker-census": (Claim("about 2 % are wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 2) < 1),),
+    "exchanged": (
+        Claim("over 90 % of the map is wrong", lambda run, k, _: wrong(run.states[CHOSEN]) > 90),
+        Claim("With left and right exchanged", None),
+    ),
+    "rows-off": (
+        Claim("The right picture is 2 rows too low", rows_off),
+        Claim("most is wrong", lambda run, k, _: wrong(run.states[CHOSEN]) > 55),
+    ),
+    "motorcycle": (
+        Claim("Over 90 % of what both see is right", lambda run, k, _: wrong(run.states[CHOSEN]) < 10),
+        Claim("a quarter of their size", lambda run, k, _: run.states[0].setup.left.shape[1] == 741 // 4),
+    ),
+    "f-not-rescaled": (Claim("everything is 4 times too far", four_times_too_far),),
+}
+
+
+# explanations -------------------------------------------------------------------------------------------------------
+
+
+def found_at(run: Run, step: int) -> dict[float, float]:
+    """Return the median depth found of what truly stands at 1, 5 and 20 m."""
+    state = run.states[step]
+    true = np.round(true_depth(state.setup), 6)
+    return {
+        z: float(np.median(state.depth[(true == z) & state.setup.pair.visible & np.isfinite(state.depth)]))
+        for z in (1.0, 5.0, 20.0)
+    }
+
+
+def came_nearer(run: Run, k: int, found: re.Match[str]) -> bool:
+    at = found_at(run, -1)
+    return (
+        about(found["far"], 20 - at[20])
+        and about(found["times"], (20 - at[20]) / (1 - at[1]))
+        and about(found["near"], 100 * (1 - at[1]))
+        and abs(20 - at[20] - (20 - 80 / 5)) < 0.05
+    )
+
+
+def means(run: Run, k: int, found: re.Match[str]) -> bool:
+    at = list(found_at(run, -2).values())
+    fB = 640 * 0.125
+    return about(found["z"], float(np.mean(at))) and about(found["d"], fB / float(np.mean([fB / z for z in at])))
+
+
+def hidden_share(params) -> float:
+    return 100 * float((~next(iter(lesson.run(params))).setup.pair.visible).mean())
+
+
+def more_hidden(run: Run, k: int, found: re.Match[str]) -> bool:
+    was, now = hidden_share(dataclasses.replace(run.params, baseline=0.1, seed=0)), hidden_share(run.params)
+    return about(found["was"], was) and about(found["is"], now) and 1.5 < now / was < 2.5
+
+
+def twice_as_exact(run: Run, k: int, found: re.Match[str]) -> bool:
+    ordinary = states(dataclasses.replace(run.params, baseline=0.1))[-1]
+    errors = [float(np.median(depths_off(state)[0])) for state in (ordinary, run.states[-1])]
+    return 1.6 < errors[0] / errors[1] < 2.5
+
+
+def beside_edges(run: Run, k: int, found: re.Match[str]) -> bool:
+    of_wrong, of_all = near_an_edge(run)
+    return (
+        about(found["wrong"], wrong(run.states[CHOSEN]))
+        and abs(float(found["near"]) - 100 * of_wrong) < 3  # what counts as an edge differs by a pixel
+        and abs(float(found["all"]) - 100 * of_all) < 5
+        and of_wrong > 1.5 * of_all
+    )
+
+
+WHYS = {
+    "quarter": (
+        Claim(
+            r"found at (?P<near>\d+(?:\.\d+)?) m and (?P<far>\d+(?:\.\d+)?) m",
+            lambda run, k, found: (
+                about(found["near"], found_at(run, -2)[5]) and about(found["far"], found_at(run, -2)[20])
+            ),
+        ),
+    ),
+    "nearer": (
+        Claim(
+            rf"it came (?P<far>{N}) m nearer, (?P<times>\d+) times as much as the board at 1 m \((?P<near>{N}) cm\)",
+            came_nearer,
+        ),
+        Claim(
+            r"Its 4 px became 5, and Z = f B / d with f B = 80 made of 20 m 80 / 5 = 16 m",
+            lambda run, k, _: abs(found_at(run, -1)[20] - 16) < 0.05,
+        ),
+        Claim(
+            r"which says 5 m, is the tangent: 1 px too small would have put it 6\.67 m further",
+            lambda run, k, _: 20**2 / 80 == 5 and abs(80 / 3 - 20 - 6.67) < 0.005,
+        ),
+    ),
+    "averages": (
+        Claim(
+            r"The mean of the depths is (?P<z>\d+(?:\.\d+)?) m, the mean disparity stands for (?P<d>\d+(?:\.\d+)?) m",
+            means,
+        ),
+    ),
+    "baseline": (
+        Claim(r"(?P<was>\d+(?:\.\d+)?) % became (?P<is>\d+(?:\.\d+)?) %", more_hidden),
+        Claim(r"The depths of the rest are about twice as exact", twice_as_exact),
+    ),
+    "window": (
+        Claim(
+            r"(?P<wrong>\d+) % of the map is wrong, and (?P<near>\d+) % of that lies within 10 px, half a window, of an"
+            r" edge, where only (?P<all>\d+) % of all pixels are",
+            beside_edges,
+        ),
+    ),
+}
