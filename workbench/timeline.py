@@ -229,7 +229,7 @@ class Columns:
                 self._values[path] = values = np.concatenate([values, np.full(len(values), np.nan)])
             primitive = scene.get(path)
             if isinstance(primitive, Scalar):
-                values[k] = settled(primitive.value)
+                values[k : k + 1] = settled(np.array([primitive.value]))
 
     def until(self, steps: int) -> dict[str, Series]:
         """Return every scalar of the first steps, as read-only views."""

@@ -87,8 +87,10 @@ class RerunSink:
             if not in_space(primitive):
                 continue
             union = self._unions.get(path)
-            whole = isinstance(primitive, Points) and union is not None and id(primitive) in union.shown
-            said = gathered(primitive, union) if whole else aspects(primitive, self._numbers)
+            if isinstance(primitive, Points) and union is not None and id(primitive) in union.shown:
+                said = gathered(primitive, union)
+            else:
+                said = aspects(primitive, self._numbers)
             kind = type(primitive).__name__  # another kind at this path has no aspect in common with it
             yield entity_of("world", path), [replace(aspect, name=f"{kind} {aspect.name}") for aspect in said]
         beside = dict(_beside(scene))
