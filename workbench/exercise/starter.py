@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from workbench.authors import Blaming
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
 from workbench.lesson import catalog
@@ -16,7 +17,11 @@ from workbench.lesson import catalog
 
 def exercises() -> dict[str, Exercise]:
     """Return the exercises of all lessons by name, in course order."""
-    return {exercise.name: exercise for lesson in catalog().values() for exercise in lesson.exercises()}
+    found: dict[str, Exercise] = {}
+    for lesson in catalog().values():
+        with Blaming(f"lesson {lesson.name}, exercises", lesson.exercises):
+            found |= {exercise.name: exercise for exercise in lesson.exercises()}
+    return found
 
 
 def find_exercise(name: str) -> Exercise:
