@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from workbench.authors import Blaming
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
 from workbench.lesson import catalog
@@ -17,11 +16,7 @@ from workbench.lesson import catalog
 
 def exercises() -> dict[str, Exercise]:
     """Return the exercises of all lessons by name, in course order."""
-    found: dict[str, Exercise] = {}
-    for lesson in catalog().values():
-        with Blaming(f"lesson {lesson.name}, exercises", lesson.exercises):
-            found |= {exercise.name: exercise for exercise in lesson.exercises()}
-    return found
+    return {exercise.name: exercise for lesson in catalog().values() for exercise in lesson.exercises()}
 
 
 def find_exercise(name: str) -> Exercise:
