@@ -90,8 +90,10 @@ def approach(p_source: np.ndarray, p_target: np.ndarray, params: Params, turn: T
     for k in range(params.steps):
         share = k / max(params.steps - 1, 1)
         T_world_source = turn(np.deg2rad(params.angle) * share)
-        if params.trouble != "none" and k == 2:
-            raise InputError("step 2 met a bad file") if params.trouble == "input" else RuntimeError("a\nbug")
+        if params.trouble == "input" and k == 2:
+            raise InputError("step 2 met a bad file")
+        if params.trouble == "crash" and k == 2:
+            raise RuntimeError("a\nbug")
         moved = p_source + 0.01 * np.sin(k) if params.wobble else p_source
         yield State(k, moved, p_target, T_world_source, 1.0 - share, params.colors, params.pixel)
 

@@ -93,6 +93,7 @@ INNOCENT: dict[tuple[str, str], str] = {
     ("pinhole", "predict-rails"): r"rails stay 1\.5 m apart",  # of the rails, not of where they seem to meet
     ("curvature", "which-sides"): r"H is half the normal's length",  # "H" is a choice, and has to be named
     ("ransac", "predict-two-planes"): r"beside a wall",  # the question's own words
+    ("disparity", "nearer"): r"A board 5 m away",  # where another question's board stands
     ("disparity", "baseline"): r"twice the baseline",  # the question's own words, and a choice's
 }
 
