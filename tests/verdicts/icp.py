@@ -37,7 +37,7 @@ def moved(T: np.ndarray, p: np.ndarray) -> np.ndarray:
 @lru_cache(maxsize=4)
 def _spacing(key: int, p: bytes) -> float:
     places = np.unique(np.frombuffer(p).reshape(-1, 3), axis=0)
-    return float(np.median(KDTree(places).query(places, k=2)[0][:, 1]))
+    return float(np.median(np.asarray(KDTree(places).query(places, k=2)[0])[:, 1]))
 
 
 def spacing(state: State) -> float:
