@@ -1,7 +1,7 @@
 """Iterative closest point: match every source point to its nearest target point, fit a motion, repeat.
 
-What it teaches: ICP walks downhill from where it starts. Its cost falls at every step whether it walks home or into
-another valley, so a small RMSE proves nothing; the start, the gate and the error measure decide.
+What it teaches: ICP walks downhill from where it starts, home or into another valley, so a small RMSE proves nothing; the
+start, the gate, the error measure and how evenly the scans are sampled decide.
 
 `params.py` has the inputs, `prepared.py` and `scans.py` the clouds, `draw.py` and `words.py` the picture, `presets.py` the
 experiments and questions.

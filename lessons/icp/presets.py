@@ -14,7 +14,7 @@ from workbench.lesson import Preset, Question
 HOME = Params()
 FAR = Params(start_angle=120.0)
 VASE = Params(shape="vase", start_angle=90.0, gate="all")
-CORNER = Params(shape="corner", start_angle=10.0, start_shift=0.3, fit="point-to-plane", gate="3-medians")
+CORNER = Params(shape="corner", start_angle=10.0, start_shift=0.3, fit="point-to-plane", keep=0.5)
 PLANE = Params(fit="point-to-plane")
 OVERLAP = Params(start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="max-distance")
 OVERLAP_TIGHT = Params(
@@ -55,8 +55,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "slide", "Two planes slide",
-        "A floor and a wall hold everything but the slide along their common line: the rotation is found, and about"
-        " 0.3 m of shift stay.",
+        "A floor and a wall hold everything but the slide along their common line: the rotation is found, and of the"
+        " 0.3 m of shift at least 0.2 m stay.",
         CORNER, 0,
     ),
     Preset(
@@ -73,14 +73,14 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "overlap-tight", "The same with a 0.02 m gate",
-        "A tight gate drops them too, but look at the basin: from 45° on, too few good matches pass and ICP no longer"
-        " comes home.",
+        "A tight gate drops them too, but look at the basin: from 60° on, too few good matches pass and no start comes"
+        " home.",
         OVERLAP_TIGHT, -1,
     ),
     Preset(
         "outliers", "Three in ten are outliers",
         "Squared distances listen most to the farthest points: with every match in use the outliers pull the source over"
-        " 5° astray.",
+        " 4° astray.",
         OUTLIERS, 0,
     ),
     Preset(

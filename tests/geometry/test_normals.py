@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.normals import _least_directions, point_normals
+from workbench.geometry.normals import _least_directions, on_a_line, point_normals
 
 
 def angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -95,3 +95,14 @@ def test_the_oracle_of_plain_principal_components():
     X = p[neighbours] - p[neighbours].mean(axis=1, keepdims=True)
     expected = np.linalg.svd(X)[2][:, 2]
     assert angles(point_normals(p, k=12), expected).max() < 1e-4
+
+
+def test_points_on_rings_lie_on_lines_and_points_on_a_surface_do_not():
+    rng = np.random.default_rng(0)
+    angle = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    rings = np.concatenate([r * np.column_stack([np.cos(angle), np.sin(angle), 0 * angle]) for r in (8.0, 10.0)])
+    plane, lump = rng.uniform(-1, 1, (600, 3)) * [1, 1, 0], rng.normal(size=(600, 3))
+    assert on_a_line(rings + 0.005 * rng.normal(size=rings.shape)).all()
+    assert on_a_line(plane).mean() < 0.03
+    assert on_a_line(lump).mean() < 0.1
+    assert on_a_line(np.ones((20, 3))).all()

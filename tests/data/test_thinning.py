@@ -1,0 +1,35 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from workbench.data.thinning import voxel_means
+
+
+@settings(max_examples=25, deadline=None)
+@given(seed=st.integers(0, 99), size=st.floats(0.05, 3.0))
+def test_one_mean_for_each_occupied_voxel(seed, size):
+    p = np.random.default_rng(seed).normal(size=(200, 3))
+    found = voxel_means(p, size)
+    voxels = {}
+    for row, voxel in zip(p, map(tuple, np.floor((p - p.min(axis=0)) / size).astype(int).tolist()), strict=True):
+        voxels.setdefault(voxel, []).append(row)
+    wanted = np.array([np.mean(voxels[voxel], axis=0) for voxel in sorted(voxels)])
+    np.testing.assert_allclose(found, wanted, atol=1e-12)
+
+
+def test_moved_points_have_moved_means_also_far_from_the_origin():
+    p, far = np.random.default_rng(0).uniform(0, 1, (500, 3)), np.array([512_000.0, 5_403_000.0, 310.0])
+    p = np.round(p * 4096) / 4096  # so that moving them away and back loses no digit
+    np.testing.assert_allclose(voxel_means(p + far, 0.25) - far, voxel_means(p, 0.25), atol=1e-9)
+
+
+def test_a_stray_point_does_not_overflow():
+    p = np.array([[0.0, 0.0, 0.0], [0.01, 0.0, 0.0], [1e200, 0.0, 0.0]])
+    np.testing.assert_allclose(voxel_means(p, 0.1), [[0.005, 0.0, 0.0], [1e200, 0.0, 0.0]])
+
+
+@pytest.mark.parametrize("size", [0.0, -1.0, np.nan])
+def test_a_voxel_has_a_size(size):
+    with pytest.raises(ValueError, match="positive size"):
+        voxel_means(np.zeros((2, 3)), size)
