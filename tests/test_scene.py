@@ -104,14 +104,12 @@ def test_a_ghost_leaves_out_what_did_not_move():
 
 def test_round_off_is_no_other_place():
     scene = Timeline(lesson, lesson.params()).complete()[3].scene
-    stirred = {
-        path: replace(p, T_world_object=p.T_world_object + 1e-16)
-        if getattr(p, "T_world_object", None) is not None
-        else p
-        for path, p in scene.items()
-    }
+    placed: dict[str, Any] = {path: p for path, p in scene.items() if getattr(p, "T_world_object", None) is not None}
+    stirred = {path: replace(p, T_world_object=p.T_world_object + 1e-16) for path, p in placed.items()}
+    assert stirred
     assert ghost(stirred, scene) == {}
-    moved = {**scene, "frame": replace(scene["frame"], T_world_object=scene["frame"].T_world_object + 1e-6)}  # type: ignore
+    frame = cast(Any, scene["frame"])
+    moved = {**scene, "frame": replace(frame, T_world_object=frame.T_world_object + 1e-6)}
     assert list(ghost(moved, scene)) == ["ghost/frame"]
 
 

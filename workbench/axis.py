@@ -57,7 +57,7 @@ def value_axis(columns: Iterable[np.ndarray], from_zero: bool = False, most: int
     if low == high == 0.0:
         return axis(0.0, 1.06, most)
     if not _differ(low, high):
-        return axis(*sorted((0.5 * low, 1.5 * high)), most)
+        return axis(min(0.5 * low, 1.5 * high), max(0.5 * low, 1.5 * high), most)
     room = 0.06 * (high - low)
     return axis(low if low == 0.0 else low - room, high if high == 0.0 else high + room, most)
 

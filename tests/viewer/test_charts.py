@@ -1,0 +1,61 @@
+"""Curves of one chart go through their own points and no others; every home shares the axes."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests import fake
+from workbench.publish.replay import beside
+from workbench.scene import Caption, Curve, Scalar
+from workbench.timeline import Timeline
+from workbench.viewer.charts import joined, outline
+
+
+def curve(x, y, kind: Any = "line") -> Curve:
+    return Curve(np.array(x, float), np.array(y, float), "a", "chart", "x", "y", kind=kind)
+
+
+@pytest.mark.parametrize("kinds", [("line", "line"), ("bars", "line"), ("bars", "bars")])
+def test_two_curves_of_a_chart_keep_their_own_points(kinds):
+    drawn = [outline(curve([3, 0, 1], [1, 2, 5], kinds[0])), outline(curve([0.5, 2.5], [4, 3], kinds[1]))]
+    x, *columns = joined(drawn)
+    assert (np.diff(x) >= 0).all()
+    for (own_x, own_y), column in zip(drawn, columns, strict=True):
+        known = np.isfinite(column)
+        np.testing.assert_array_equal(x[known], own_x)
+        np.testing.assert_array_equal(column[known], own_y)
+
+
+def test_curves_over_one_x_keep_it():
+    x, first, second = joined([(np.arange(3.0), np.arange(3.0)), (np.arange(3.0), np.array([1.0, np.nan, 3.0]))])
+    np.testing.assert_array_equal(x, [0, 1, 2])
+    np.testing.assert_array_equal(first, [0, 1, 2])
+    np.testing.assert_array_equal(second, [1, np.nan, 3])
+
+
+def test_bars_stand_on_zero_at_their_own_x_with_their_own_heights():
+    x, y = outline(curve([2, 0, 1], [7, 3, np.nan], "bars"))
+    np.testing.assert_allclose(x.reshape(-1, 4).mean(1), [0, 2])
+    np.testing.assert_array_equal(y, [0, 3, 3, 0, 0, 7, 7, 0])
+    assert (x.reshape(-1, 4)[:, 3] - x.reshape(-1, 4)[:, 0] < 1.0).all()
+    x, _ = outline(curve([5], [2], "bars"))
+    assert x.min() < 5 < x.max()
+
+
+def test_round_off_is_zero_in_what_is_plotted_recorded_and_published():
+    def draw(state):
+        return {
+            "off": Scalar(2.84e-14 * (state.k + 1), "median pixel error", "Error to the true picture", "px"),
+            "caption": Caption("Nothing but round-off."),
+        }
+
+    timeline = Timeline(replace(fake.lesson, draw=draw), fake.Params(steps=3, points=3)).complete()
+    assert timeline.series()["off"].values.tolist() == [0.0, 0.0, 0.0]
+    data = beside(timeline)
+    assert data["series"][0]["values"] == [0.0, 0.0, 0.0]
+    chart = data["charts"]["Error to the true picture"]
+    assert chart["y"]["words"] == ("0", "0.5", "1.0")
+    assert chart["head"] == "Error to the true picture"
+    assert chart["yLabel"] == "px"
