@@ -160,7 +160,7 @@ class TestRecord:
             ([FAKE, "--preset", "nope"], "no preset 'nope'; it has: "),
             ([FAKE, "--steps", "0"], "a whole number from 1 to 5000"),
             ([FAKE, "--stepps", "2"], "did you mean --steps?"),
-            ([FAKE, "--trouble", "crash"], "(at step 2); nothing was written"),
+            ([FAKE, "--trouble", "crash"], r'a bug in `raise RuntimeError("a\nbug")` (at step 2); nothing was written'),
             ([FAKE, "--scan", "/nowhere.npy"], "/nowhere.npy"),
         ],
     )

@@ -1,0 +1,58 @@
+"""Holds what lessons say of a run to the truth: per lesson, which sentences judge, and when each is true.
+
+A lesson's module in this folder has
+
+- `caption(state)`: the caption of a state, where that is cheaper than drawing it whole (optional);
+- `until_the_end(params)`: a lesson's run up to its algorithm's end, where it goes on with costly tries (optional): what
+  seeds other than a preset's own are held to in a quick audit;
+- `right(run, k)`: whether the state is truly right (True), truly wrong (False), or neither is claimed (None): what the
+  caption's tone says must agree;
+- `CAPTIONS`, `LINES`, `WHYS`: the claims that captions, preset lines (with titles) and questions' explanations make.
+
+Every claim is decided from the states alone, never by the function that wrote the sentence.
+"""
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+JUDGING = re.compile(
+    r"\b(right|wrong|wrongly|home|converge[sd]?|convergence|exact|exactly|better|best|worse|worst|correct|true|truly|perfect"
+    r"|perfectly|fails?|failed|settled|finds?|found)\b",
+    re.IGNORECASE,
+)
+"""A sentence with one of these words judges; no text may hold one outside the claims of its lesson."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished run: what was asked for, and all that came of it."""
+
+    params: Any
+    states: Sequence[Any]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A sentence that judges.
+
+    Attributes:
+        words: A regular expression that finds it in the text.
+        holds: Tells from the run, the step it is said at (of a line or an explanation: the last), and the match, whether
+            it is true. None: the words judge nothing (a term such as "right camera").
+    """
+
+    words: str
+    holds: Callable[[Run, int, re.Match[str]], bool] | None
+
+
+def untrue(text: str, claims: Sequence[Claim], run: Run, k: int) -> list[str]:
+    """Return what a text says that does not hold, and what judges without a claim that could be checked."""
+    found, rest = [], text
+    for claim in claims:
+        for match in re.finditer(claim.words, text):
+            if claim.holds is not None and not claim.holds(run, k, match):
+                found.append(f"not true: {match[0]!r}")
+        rest = re.sub(claim.words, " … ", rest)
+    return found + [f"nobody checks {word[0]!r} in: {rest}" for word in JUDGING.finditer(rest)]

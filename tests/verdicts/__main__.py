@@ -1,0 +1,82 @@
+"""Holds what lessons say to the truth: `python -m tests.verdicts [--whole] [LESSON ...]`; prints what does not hold.
+
+The whole audit takes every step of every preset and question at 20 seeds. The quick one takes three, and of other seeds
+than a preset's own only the steps up to the algorithm's end.
+"""
+
+import dataclasses
+import importlib
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from tests.verdicts import Claim, Run, untrue
+from workbench.lesson import Lesson, catalog
+from workbench.scene import Caption, caption_of
+
+WHOLE, QUICK = range(20), range(3)
+MOST = 5  # findings shown of a run
+
+Text = tuple[str, Callable[[Run], str], Sequence[Claim]]
+"""Whose text it is, how a run says it, and the claims it may make."""
+
+
+def main() -> int:
+    """Audit the lessons that are named, or all; return 1 where something is not true."""
+    names = [word for word in sys.argv[1:] if word != "--whole"]
+    found = [line for name in names or catalog() for line in audit(catalog()[name], whole="--whole" in sys.argv)]
+    print("\n".join(found))
+    return 1 if found else 0
+
+
+def audit(lesson: Lesson, *, whole: bool) -> Iterator[str]:
+    """Return what captions, preset lines and explanations of a lesson say that is not true."""
+    judge = importlib.import_module(f"tests.verdicts.{lesson.name}")
+    short: Callable[[Any], Iterator[Any]] = getattr(judge, "until_the_end", lesson.run)
+    for params, texts in experiments(lesson, judge):
+        for one in seeded(params, WHOLE if whole else QUICK):
+            states = lesson.run(one) if whole or one == params else short(one)
+            where = f"{lesson.name}, {texts[0][0] if texts else 'default'}, seed {getattr(one, 'seed', '-')}"
+            wrong = list(judged(lesson, judge, Run(one, tuple(states)), texts))
+            yield from (f"{where}, {line}" for line in wrong[:MOST])
+            if len(wrong) > MOST:
+                yield f"{where}: {len(wrong) - MOST} more"
+
+
+def experiments(lesson: Lesson, judge: Any) -> Iterator[tuple[Any, list[Text]]]:
+    """Return the params of the default, every preset and every question, equal ones once, with what is said of them."""
+    texts: dict[Any, list[Text]] = {lesson.params(): []}
+    for preset in lesson.presets:
+        line = f"{preset.title}. {preset.line}"
+        texts.setdefault(preset.params, []).append(
+            (preset.name, lambda run, line=line: line, judge.LINES.get(preset.name, ()))
+        )
+    for question in lesson.questions:
+        texts.setdefault(question.params, []).append(
+            (question.name, lambda run, q=question: q.why(run.states), judge.WHYS.get(question.name, ()))
+        )
+    yield from texts.items()
+
+
+def seeded(params: Any, seeds: Sequence[int]) -> Iterator[Any]:
+    """Return the params at their own seed and at others; alone where nothing is drawn by chance."""
+    yield params
+    if any(field.name == "seed" for field in dataclasses.fields(params)):
+        yield from (dataclasses.replace(params, seed=seed) for seed in seeds if seed != params.seed)
+
+
+def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Iterator[str]:
+    """Return what is not true of one run: in its captions, in their tone, and in what is said of it."""
+    caption: Callable[[Any], Caption] = getattr(judge, "caption", lambda state: caption_of(lesson.draw(state)))
+    for k, state in enumerate(run.states):
+        said = caption(state)
+        yield from (f"step {k}: {what}" for what in untrue(said.text, judge.CAPTIONS, run, k))
+        right = judge.right(run, k)
+        if said.tone != "info" and right is not None and right is not (said.tone == "good"):
+            yield f"step {k}: the tone is {said.tone}, the truth {right}: {said.text}"
+    for name, text, claims in texts:
+        yield from (f"{name}: {what}" for what in untrue(text(run), claims, run, len(run.states) - 1))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
