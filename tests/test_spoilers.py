@@ -27,7 +27,7 @@ GIVEAWAYS: dict[tuple[str, str], tuple[str, ...]] = {
     ("pinhole", "predict-behind"): (
         r"lands in the picture", r"pixel in the picture", r"has a pixel although", r"looks as valid",
     ),
-    ("pinhole", "predict-centre"): (r"\b1\.70? ?m\b", r"-?3(\.00)?, 1\.70?\)"),
+    ("pinhole", "predict-centre"): (r"2\.00, [−-]4\.00, 2\.50",),
     ("pinhole", "predict-rails"): (
         r"does not know t\b", r"where the camera stands does not matter", r"translation is not in",
         r"vanishing point[^.]*(stays|does not move|keeps its place)", r"rails[^.]*(stays? where|do(es)? not move)",
@@ -82,7 +82,7 @@ GIVEAWAYS: dict[tuple[str, str], tuple[str, ...]] = {
         r"Hausdorff is (that|\d+ times)", r"squares lean on", r"hardly notice",
     ),
     ("disparity", "quarter"): (r"board at 20 m", r"1, 5,? (and )?20 m", r"20 m, true 4\.2"),
-    ("disparity", "nearer"): (r"\b4\.[78]\d* m\b", r"\b3\.[38]\d? m\b", r"quadratic, not linear"),
+    ("disparity", "nearer"): (r"20 m by", r"\b[45](\.0+)? m nearer", r"80 / 5", r"quadratic, not linear"),
     ("disparity", "averages"): (r"mean (of the depths|depth) is (further|larger|greater)", r"depths? averages? (too )?far"),
     ("disparity", "baseline"): (r"twice as (much|many)[^.]*hidden", r"half as (much|many)[^.]*hidden"),
     ("disparity", "window"): (r"fattened edges", r"balls have grown", r"window across an edge", r"swallows? edges"),
@@ -91,7 +91,6 @@ GIVEAWAYS: dict[tuple[str, str], tuple[str, ...]] = {
 
 INNOCENT: dict[tuple[str, str], str] = {
     ("pinhole", "predict-rails"): r"rails stay 1\.5 m apart",  # of the rails, not of where they seem to meet
-    ("curvature", "which-sides"): r"H is half the normal's length",  # "H" is a choice, and has to be named
     ("ransac", "predict-two-planes"): r"beside a wall",  # the question's own words
     ("disparity", "nearer"): r"A board 5 m away",  # where another question's board stands
     ("disparity", "baseline"): r"twice the baseline",  # the question's own words, and a choice's
@@ -99,37 +98,10 @@ INNOCENT: dict[tuple[str, str], str] = {
 
 KNOWN: frozenset[tuple[str, str]] = frozenset(
     {
-        ("transforms", "which-order"),
-        ("transforms", "lost-direction"),
-        ("transforms", "sheared-volume"),
-        ("transforms", "mean-heading"),
-        ("transforms", "mean-matrix"),
-        ("pinhole", "predict-dolly"),
-        ("pinhole", "predict-behind"),
-        ("pinhole", "predict-centre"),
-        ("pinhole", "predict-rails"),
-        ("icp", "predict-matches"),
-        ("icp", "predict-far"),
-        ("icp", "predict-plane"),
-        ("icp", "predict-vase"),
-        ("ransac", "predict-needed"),
-        ("ransac", "predict-near-sample"),
-        ("ransac", "predict-two-planes"),
-        ("ransac", "predict-size"),
-        ("ransac", "predict-huber"),
-        ("curvature", "which-rolled"),
-        ("curvature", "which-double"),
-        ("curvature", "which-sides"),
-        ("curvature", "which-finer"),
-        ("curvature", "which-sum"),
         ("chamfer_emd", "predict-spread"),
         ("chamfer_emd", "predict-flip"),
         ("chamfer_emd", "predict-missing"),
         ("chamfer_emd", "predict-outlier"),
-        ("disparity", "quarter"),
-        ("disparity", "nearer"),
-        ("disparity", "baseline"),
-        ("disparity", "window"),
     }
 )
 """Questions that are given away today; whoever mends one takes it out here."""

@@ -1,5 +1,6 @@
 """Widgets for a Params class, made from its knobs; the scene's handles and picks included."""
 
+import itertools
 from collections.abc import Callable
 from typing import Any
 
@@ -12,6 +13,10 @@ from workbench.lesson import Lesson
 from workbench.viewer.style import escape
 
 Change = Callable[..., None]
+
+
+_NUMBERS = itertools.count()
+"""Of handles: the browser may take the pose of one that is gone for that of another with its name."""
 
 
 class KnobPanel:
@@ -38,6 +43,12 @@ class KnobPanel:
             self._gizmos[name] = self._gizmo(client.scene, field, value)
             with client.gui.add_folder(f"{field.label}: drag its handle in the scene", expand_by_default=False):
                 self._widgets[name] = self._add(client.gui, field, value)
+
+    def close(self) -> None:
+        """Take the handles out of the scene; the widgets go with the interface they stand in."""
+        for gizmo in self._gizmos.values():
+            gizmo.remove()
+        self._gizmos.clear()
 
     def show(self, params: Any) -> None:
         """Set every control to these params, without that counting as a wish."""
@@ -96,7 +107,11 @@ class KnobPanel:
     def _gizmo(self, scene: viser.SceneApi, field: Field, value: tuple[float, ...]) -> Any:
         size = field.knob.by.size if isinstance(field.knob.by, Gizmo) else 0.5
         gizmo = scene.add_transform_controls(
-            f"/gizmo/{field.name}", scale=size, disable_rotations=len(value) != 6, depth_test=False, line_width=3.0
+            f"/gizmo/{field.name}~{next(_NUMBERS)}",
+            scale=size,
+            disable_rotations=len(value) != 6,
+            depth_test=False,
+            line_width=3.0,
         )
 
         @gizmo.on_update

@@ -82,6 +82,7 @@ class Page:
         self._sides: list[Callable[[Look], None]] = []
         self._say: Callable[[Look], None] = lambda look: None  # shows the caption
         self._troubles: set[str] = set()  # what was told in a notification
+        self._knobs: KnobPanel | None = None
         self._tasks: set[asyncio.Task] = set()
         self._do(self._work())
 
@@ -188,6 +189,9 @@ class Page:
         self._sides, self._say = [], lambda look: None
         self._troubles.clear()
         self.sink.show({})
+        if self._knobs is not None:
+            self._knobs.close()
+            self._knobs = None
         self.session = session = Session(lesson, self.timelines)
         set_stage(self.client, lesson.view, self._framing)
         return session
@@ -255,7 +259,9 @@ class Page:
                 gui.add_html(f'<div class="wb-note">{escape(preset.line)}</div>')
                 on_click(button, lambda name=preset.name: self._wish(lambda: session.use_preset(name)))
         with tabs.add_tab("Parameters"):
-            knobs = KnobPanel(self.client, lesson, lambda **values: self._wish(lambda: session.change(**values)))
+            self._knobs = knobs = KnobPanel(
+                self.client, lesson, lambda **values: self._wish(lambda: session.change(**values))
+            )
 
         @speed.on_update
         async def _(event: Any) -> None:
