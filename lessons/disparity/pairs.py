@@ -51,8 +51,8 @@ class Setup:
 
         By census, on one row in four.
         """
-        pictures = self.left[::4], self.right[::4]
-        return _agreeing(*pictures, self.max_disparity), _agreeing(*pictures[::-1], self.max_disparity)
+        left, right = self.left[::4], self.right[::4]
+        return _agreeing(left, right, self.max_disparity), _agreeing(right, left, self.max_disparity)
 
     @property
     def seem_exchanged(self) -> bool:

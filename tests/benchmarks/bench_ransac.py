@@ -100,6 +100,8 @@ def plane_contenders(distance: float) -> dict[str, Contender]:
         class _PlaneModel:
             """A plane as scikit-image's loop wants it: through three points, or by least squares."""
 
+            params: np.ndarray
+
             @classmethod
             def from_estimate(cls, p: np.ndarray) -> "_PlaneModel":
                 made = cls()

@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import re
+from typing import Any
 
 import numpy as np
 
@@ -136,8 +137,8 @@ def law(run: Run, k: int, found: re.Match[str]) -> bool:
     setup, (u, v) = state.setup, state.setup.pixel
     f, B = float(found["f"]), float(found["B"])
     doffs = float(found["doffs"] or 0.0)
-    true = true_depth(setup)[v, u]
-    return (
+    true = float(true_depth(setup)[v, u])
+    return bool(
         np.isclose(f * B / (float(found["d"]) + doffs), float(found["z"]), rtol=0.01)
         and np.isclose(f * B, setup.f * setup.pair.camera.baseline, rtol=1e-3)
         and about(found["d"], state.disparity[v, u])
@@ -149,7 +150,7 @@ def law(run: Run, k: int, found: re.Match[str]) -> bool:
 def is_infinite(run: Run, k: int, found: re.Match[str]) -> bool:
     state = run.states[k]
     u, v = state.setup.pixel
-    true = true_depth(state.setup)[v, u]
+    true = float(true_depth(state.setup)[v, u])
     said = np.isinf(true) if found["true"] is None else about(found["true"], true)
     return bool(state.disparity[v, u] == 0 and said)
 
@@ -290,10 +291,15 @@ def scattered(run: Run, k: int, found: re.Match[str]) -> bool:
     return of_wrong < 1.3 * of_all
 
 
+def pair_of(params) -> Any:
+    """Return the made pair of a run, with its truth."""
+    return next(iter(lesson.run(params))).setup.pair
+
+
 def times_baseline(run: Run, times: float) -> bool:
     """Every disparity is so many times that of the ordinary baseline."""
     ordinary = dataclasses.replace(run.params, baseline=0.1)
-    one, other = (next(iter(lesson.run(params))).setup.pair.disparity for params in (ordinary, run.params))
+    one, other = (pair_of(params).disparity for params in (ordinary, run.params))
     return bool(np.allclose(other, times * one, rtol=1e-6))
 
 
@@ -419,7 +425,7 @@ def means(run: Run, k: int, found: re.Match[str]) -> bool:
 
 
 def hidden_share(params) -> float:
-    return 100 * float((~next(iter(lesson.run(params))).setup.pair.visible).mean())
+    return 100 * float((~pair_of(params).visible).mean())
 
 
 def more_hidden(run: Run, k: int, found: re.Match[str]) -> bool:

@@ -4,6 +4,7 @@ import dataclasses
 import functools
 import itertools
 import re
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -266,7 +267,7 @@ def clutter_votes(run: Run) -> bool:
     return bool((off <= state.inlier_distance).mean() > 1 / 3)
 
 
-def kept(found: tuple) -> float:
+def kept(found: Sequence) -> float:
     """Return the error of the best before the refit."""
     best = [state for state in found if state.now.phase == "best"][-1]
     return error(best, best.now.best.estimate)
@@ -293,7 +294,7 @@ def sooner(run: Run, k: int, found: re.Match[str]) -> bool:
     return drawn(run) < states(dataclasses.replace(run.params, local_refit=False))[-1].now.iteration
 
 
-def reached(found: tuple) -> int:
+def reached(found: Sequence) -> int:
     """Return after how many samples the best has four fifths of the inliers it ends with."""
     enough = 0.8 * np.count_nonzero(found[-1].now.best.inliers)
     return next(
@@ -317,8 +318,8 @@ def few_dozens(run: Run, k: int, found: re.Match[str]) -> bool:
 def picked_are_inliers(run: Run, k: int, found: re.Match[str]) -> bool:
     state = run.states[0]
     rows = state.now.sample
-    spread = np.linalg.norm(np.ptp(state.subject.p[rows], axis=0))
-    return state.chosen and bool(state.subject.is_inlier[rows].all()) and spread < 0.3
+    spread = float(np.linalg.norm(np.ptp(state.subject.p[rows], axis=0)))
+    return bool(state.chosen and state.subject.is_inlier[rows].all() and spread < 0.3)
 
 
 def on_a_wire(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -356,7 +357,7 @@ LINES = {
         ),
         Claim(
             "the answer rests on the few that are left",
-            lambda run, k, _: np.count_nonzero(run.states[-1].now.best.inliers) < 0.15 * len(run.states[-1].subject.p),
+            lambda run, k, _: bool(run.states[-1].now.best.inliers.mean() < 0.15),
         ),
     ),
     "loose": (
