@@ -30,6 +30,7 @@ ALLOWED = {
     "workbench.typeset": BASE,
     "workbench.images": set(),
     "workbench.progress": set(),
+    "workbench.numerals": set(),
     "workbench.session": LESSON | {"workbench.session"},
     "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
                                      "workbench.images", "workbench.progress"},
@@ -47,7 +48,7 @@ ALLOWED = {
     "workbench.__main__": None,
     "workbench": None,
     "lessons": DRAWING | {"workbench.geometry", "workbench.algorithms", "workbench.data", "workbench.lesson", "lessons",
-                          "workbench.exercise"},
+                          "workbench.exercise", "workbench.numerals"},
 }  # fmt: skip
 
 OUTSIDE = {"viser": ("workbench.viewer", "workbench.publish"), "rerun": ("workbench.recording",)}

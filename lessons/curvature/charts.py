@@ -3,7 +3,7 @@
 import numpy as np
 
 from lessons.curvature.state import State, surface_variation
-from lessons.curvature.words import short
+from workbench.numerals import short
 from workbench.scene import Curve, Primitive, Role, Scalar, Table
 
 SAMPLES = 300

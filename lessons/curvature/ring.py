@@ -3,8 +3,8 @@
 import numpy as np
 
 from lessons.curvature.state import State, two_rings
-from lessons.curvature.words import short
 from workbench.algorithms.curvature import Measured
+from workbench.numerals import short
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
 
 LIFT = 0.03  # how far things float above the surface, in edges

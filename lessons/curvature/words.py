@@ -4,6 +4,7 @@ import numpy as np
 
 from lessons.curvature.scales import H_SCALE, K_SCALE, reach, share_within
 from lessons.curvature.state import State
+from workbench.numerals import short
 from workbench.scene import Caption
 
 NOWHERE = "The vertex lies on the border, where {} is not defined: choose one inside."
@@ -205,12 +206,3 @@ def _percent(percent: float) -> str:
     if percent < 0.01:
         return "0 %" if percent < 1e-6 else "under 0.01 %"
     return f"{percent:.2g} %" if percent < 99.5 else f"{percent:,.0f} %"
-
-
-def short(value: float, digits: int = 3) -> str:
-    """Return a number with so many digits that count, never with an exponent; what is below 1e-9 is rounding, thus 0."""
-    if abs(value) < 1e-9:
-        return "0"
-    rounded = float(f"{value:.{digits}g}")
-    text = f"{rounded:,.0f}" if abs(rounded) >= 10 ** (digits - 1) else np.format_float_positional(rounded, trim="-")
-    return text.replace("-", "−")

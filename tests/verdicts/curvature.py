@@ -128,7 +128,9 @@ def _relative_error(run: Run, k: int, m: re.Match[str]) -> bool:
     true = getattr(truth, name)
     if (m[1] == "all vertices") is not bool(inside.all()):
         return False
-    if np.abs(true[inside]).max() < 1e-6:  # the truth is 0 everywhere: of the larger principal curvature, or of a sphere of 1 m
+    if (
+        np.abs(true[inside]).max() < 1e-6
+    ):  # the truth is 0 everywhere: of the larger principal curvature, or of a sphere of 1 m
         larger = np.maximum(np.abs(truth.k1), np.abs(truth.k2)) ** (2 if name == "gaussian" else 1)
         of = np.sqrt(np.mean(larger[inside] ** 2)) or 1.0
         return percent(m[2], float(np.sqrt(np.mean((estimate - true)[inside] ** 2)) / of))
