@@ -25,8 +25,8 @@ SPHERE = Params(shape="sphere", points=140)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
-        "clump", "One blob, two flows", "Both flows leave from one blob, each down its own distance. Where will the points be"
-        " when their number has become small? See the bars, and the mass astray.",
+        "clump", "One blob, two flows", "Both flows leave from one blob, each down its own distance. Where will the points"
+        " be when their number has become small? See the bars, and the mass astray.",
         CLUMP,
     ),
     Preset(
@@ -70,8 +70,8 @@ PRESETS: tuple[Preset[Params], ...] = (
         IDLE, -1,
     ),
     Preset(
-        "blurred", "Fast EMD is not exact", "Sinkhorn with a blur of 0.5 m says nearly 1 m where EMD is 0.8 m, and at the end"
-        " of the right flow 0.54 m where EMD is under 1 cm: its zero is not zero.",
+        "blurred", "Fast EMD is not exact", "Sinkhorn with a blur of 0.5 m says nearly 1 m where EMD is 0.8 m, and at the"
+        " end of the right flow 0.54 m where EMD is under 1 cm: its zero is not zero.",
         BLURRED, 0,
     ),
     Preset(
@@ -134,9 +134,9 @@ def back_share(side: Side) -> float:
 def _missing_why(states: Sequence[State]) -> str:
     side = states[0].left
     return (
-        f"{share(back_share(side))} of {squared(side.numbers.chamfer)}. Every source point lies on a target point, so that the"
-        f" other side is {squared(side.numbers.to_target)} and its flow, on the left, stays where it is: it cannot see what"
-        " the source lacks."
+        f"{share(back_share(side))} of {squared(side.numbers.chamfer)}. Every source point lies on a target point, so that"
+        f" the other side is {squared(side.numbers.to_target)} and its flow, on the left, stays where it is: it cannot see"
+        " what the source lacks."
     )
 
 

@@ -110,7 +110,7 @@ def numbers_table(state: State) -> Table:
             rows.append((f"Chamfer, {name}, {unit}", *_both(left.definitions[name], right.definitions[name])))
     rows += [
         ("Earth mover's, exact, m", *_both(left.earth_movers, right.earth_movers)),
-        (f"Sinkhorn, blur {params.blur:g} m, m", *_both(left.sinkhorn, right.sinkhorn)),
+        (f"Sinkhorn, blur {params.blur:g} m, m", *_both(state.left.sinkhorn, state.right.sinkhorn)),
         ("Hausdorff, m", *_both(left.hausdorff, right.hausdorff)),
         (f"F-score at {params.near:g} m", share(left.f_score), share(right.f_score)),
         ("Pairs by index, mean of squares, m²", *_both(left.index_mse, right.index_mse)),

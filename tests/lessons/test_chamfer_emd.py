@@ -133,10 +133,10 @@ class TestPresets:
         assert np.median(moved) == 0.0
 
     def test_blurred(self):
-        first, last = preset("blurred")[0].right.numbers, preset("blurred")[-1].right.numbers
-        assert (metres(first.sinkhorn), metres(first.earth_movers)) == ("0.99 m", "0.81 m")
+        first, last = preset("blurred")[0].right, preset("blurred")[-1].right
+        assert (metres(first.sinkhorn), metres(first.numbers.earth_movers)) == ("0.99 m", "0.81 m")
         assert metres(last.sinkhorn) == "0.54 m"
-        assert round(last.earth_movers, 3) == 0.004
+        assert round(last.numbers.earth_movers, 3) == 0.004
 
     def test_unequal(self):
         found = preset("unequal")

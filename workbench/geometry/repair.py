@@ -24,7 +24,7 @@ def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
 def oriented(faces: Faces) -> Faces:
     """Turn faces round until neighbours agree which side is outside; in each piece as few as possible.
 
-    A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an edge, are returned as they are.
+    A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an edge, stay as they are.
     """
     half, f = half_edges(faces), len(faces)
     keys = edge_keys(half)
