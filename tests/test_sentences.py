@@ -138,7 +138,7 @@ def test_what_was_found_is_mended(name: str):
 def written_of(lesson: Lesson) -> Iterator[str]:
     """Every text of a lesson that is there before it runs."""
     yield from (lesson.title, lesson.summary)
-    prose = re.sub(r"```.*?```|`[^`]*`|\$\$.*?\$\$|\$[^$]*\$", "…", lesson.page.read_text(encoding="utf-8"), flags=re.S)
+    prose = re.sub(r"```.*?```|`[^`]*`|\$\$.*?\$\$|\$[^$]*\$", "…", lesson.text(), flags=re.S)
     yield from prose.replace('"', "”").splitlines()  # the page sets its quotes itself
     for preset in lesson.presets:
         yield from (preset.title, preset.line)

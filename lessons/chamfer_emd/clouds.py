@@ -9,9 +9,9 @@ from lessons.chamfer_emd.params import Params, Start
 from workbench.data.files import read_cloud
 from workbench.data.point_sets import (
     blob,
+    bumped,
     bunched,
     crowded,
-    dented,
     doubled,
     grown,
     part_missing,
@@ -87,8 +87,8 @@ def changed(p_target: np.ndarray, start: Start, amount: float, params: Params, r
         return grown(p, amount)
     if start == "bunched":
         return crowded(p, share)
-    if start == "dented":
-        return dented(p, amount)
+    if start == "bump":
+        return bumped(p, amount)
     if start == "part missing":
         return part_missing(p, share)
     if start == "one outlier":
@@ -113,7 +113,7 @@ def _name(params: Params) -> str:
         "blob": f"a blob of radius {metres}",
         "larger": f"the target {100 * params.amount:.0f} % larger",
         "bunched": f"the target with {percent} of its points bunched at one place",
-        "dented": f"the target with an eighth of it pushed out by {metres}",
+        "bump": f"the target with an eighth of it pushed out by {metres}",
         "part missing": f"the target without {percent} of it",
         "one outlier": f"the target with one point {metres} off",
         "shuffled rows": f"the target with {percent} of its rows shuffled",

@@ -1,6 +1,7 @@
 """What one step looks like: both flows side by side, their matchings, curves and tables."""
 
 import numpy as np
+import scipy
 
 from lessons.chamfer_emd.states import Side, State
 from lessons.chamfer_emd.words import caption, left_label, numbers_table, right_label, yardstick_table
@@ -9,6 +10,7 @@ from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scal
 
 T_WORLD_LEFT = motion(np.eye(3), np.array([-1.25, 0.0, 0.0]))
 T_WORLD_RIGHT = motion(np.eye(3), np.array([1.25, 0.0, 0.0]))
+NEARER = 0.03  # metres towards the viewer, at which source points are drawn
 P_TITLE = np.array([0.0, 0.0, -1.2])
 MOST_SERVED = 10  # the last bar of the histogram holds all counts from here on
 
@@ -35,17 +37,45 @@ def draw(state: State) -> Scene:
 
 
 def _clouds(state: State) -> dict[str, Primitive]:
-    p_target, left = state.clouds.p_target, state.left
-    radius = float(np.clip(0.25 / np.sqrt(len(p_target)), 0.012, 0.03))
-    idle = Classes(
-        (left.served == 0).astype(np.uint8), ("source", "wrong"), ("source", "source, nearest to no target point")
-    )
+    """Return both clouds on both sides: each target point a disc, each source point a smaller one nearer to the viewer.
+
+    So a target point that is covered is an orange dot in a blue ring, however the two round.
+    """
+    p_target, left, right = state.clouds.p_target, state.left, state.right
+    radius = float(np.clip(0.3 / np.sqrt(len(p_target)), 0.016, 0.04))
+    dot, idle = 0.5 * radius, left.served == 0
+    who = Classes(idle.astype(np.uint8), ("source", "wrong"), ("source", "source, nearest to no target point"))
+    # Where several share a place, the one that is somebody's nearest lies on top.
+    p_left = nearer(left.flow.p_moving, np.where(idle, 0.75, 1.0))
     return {
         "left/target": Points(p_target, "target", radius, T_WORLD_LEFT, name="target"),
-        "left/source": Points(left.flow.p_moving, idle, 0.9 * radius, T_WORLD_LEFT, name="source"),
+        "left/source": Points(p_left, who, dot, T_WORLD_LEFT, name="source"),
         "right/target": Points(p_target, "target", radius, T_WORLD_RIGHT, name="target"),
-        "right/source": Points(state.right.flow.p_moving, "source", 0.9 * radius, T_WORLD_RIGHT, name="source"),
+        "right/source": Points(nearer(right.flow.p_moving, 1.0), "source", dot, T_WORLD_RIGHT, name="source"),
+        **_clumps("left", left.flow.p_moving, dot, T_WORLD_LEFT),
+        **_clumps("right", right.flow.p_moving, dot, T_WORLD_RIGHT),
     }
+
+
+def nearer(p: np.ndarray, share: np.ndarray | float) -> np.ndarray:
+    """Return points a share of NEARER closer to where the scene is first seen from."""
+    return p - np.outer(np.broadcast_to(share, len(p)), [0.0, NEARER, 0.0])
+
+
+def _clumps(side: str, p: np.ndarray, dot: float, T_world_side: np.ndarray) -> dict[str, Primitive]:
+    """Return a disc behind source points that share a place: its area is theirs, rounded up to 2, 4, 8, ... points."""
+    pairs = scipy.spatial.KDTree(p).sparse_distance_matrix(scipy.spatial.KDTree(p), 0.3 * dot, output_type="coo_matrix")
+    links = scipy.sparse.coo_array((np.ones(pairs.nnz), (pairs.row, pairs.col)), shape=(len(p), len(p)))
+    _, place = scipy.sparse.csgraph.connected_components(links, directed=False)
+    _, first, counts = np.unique(place, return_index=True, return_counts=True)
+    doublings = np.ceil(np.log2(counts)).astype(int)
+    return {
+        f"{side}/clumps of {2**k}": Points(
+            nearer(p[first[doublings == k]], 0.5), "source", dot * np.sqrt(2.0**k), T_world_side, 0.6,
+            name="" if k < doublings.max() else "several source points at one place, by area",
+        )
+        for k in np.unique(doublings[doublings > 0]).tolist()
+    }  # fmt: skip
 
 
 def _left_edges(state: State) -> dict[str, Primitive]:

@@ -68,7 +68,7 @@ def exercises() -> tuple[Any, ...]:
 lesson = Lesson(
     name="chamfer_emd",
     title="Chamfer and earth mover's",
-    summary="When are two shapes close? One cloud flows down two distances, and only one of them spreads it.",
+    summary="When are two shapes close? One cloud flows down two distances: see where each of them leads it.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

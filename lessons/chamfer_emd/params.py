@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from workbench.data.point_sets import Shape
 from workbench.knobs import Knob
 
-Start = Literal["blob", "larger", "bunched", "dented", "part missing", "one outlier", "shuffled rows", "doubled points"]
+Start = Literal["blob", "larger", "bunched", "bump", "part missing", "one outlier", "shuffled rows", "doubled points"]
 Lowers = Literal["both sides", "source to target", "target to source"]
 
 
@@ -19,7 +19,7 @@ class Params:
     start: Annotated[Start, Knob("A blob, or the target after one change", label="Source")] = "blob"
     amount: Annotated[
         float,
-        Knob("How much: blob, dent and outlier in metres; the others as a share, up to 1", 0, 3, step=0.001),
+        Knob("How much: blob, bump and outlier in metres; the others as a share, up to 1", 0, 3, step=0.001),
     ] = 0.3
     points: Annotated[
         int, Knob("Points of the target; an own cloud is thinned to them", 10, 200, label="Target points")

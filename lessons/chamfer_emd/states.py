@@ -1,5 +1,6 @@
 """What the lesson yields: both flows side by side, and everything that is measured of each cloud."""
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +21,6 @@ class Numbers:
         definitions: Two-sided Chamfer by the name of its definition.
         to_target, to_source: One-sided Chamfer by the function in its slot: from the cloud to the target, and back.
         earth_movers: By the function in the slot: ours is exact.
-        sinkhorn: Cost of the blurred plan.
         hausdorff, f_score: As named.
         index_mse: Mean squared distance of rows with the same index; NaN where the counts differ.
         astray: The share of the cloud's mass whose place in the best one-to-one matching is farther than `Params.near`.
@@ -31,7 +31,6 @@ class Numbers:
     to_target: float
     to_source: float
     earth_movers: float
-    sinkhorn: float
     hausdorff: float
     f_score: float
     index_mse: float
@@ -55,6 +54,13 @@ class Side:
     numbers: Numbers
     near: Nearest
     matching: Matching
+    p_target: np.ndarray
+    blur: float
+
+    @functools.cached_property
+    def sinkhorn(self) -> float:
+        """The cost of Sinkhorn's blurred plan, metres; found when first asked for: nothing else depends on it."""
+        return blurred_earth_movers(self.flow.p_moving, self.p_target, self.blur, max_sweeps=200, tolerance=1e-4)
 
     @property
     def served(self) -> np.ndarray:
@@ -92,7 +98,8 @@ def measured(now: Flow, before: Side | None, p_target: np.ndarray, params: Param
     if before is not None and before.flow is now:
         return before
     near, matching = nearest_both_ways(now.p_moving, p_target), best_matching(now.p_moving, p_target)
-    return Side(now, numbers(now.p_moving, p_target, near, matching, params, measures), near, matching)
+    now_numbers = numbers(now.p_moving, p_target, near, matching, params, measures)
+    return Side(now, now_numbers, near, matching, p_target, params.blur)
 
 
 def numbers(
@@ -105,7 +112,6 @@ def numbers(
         to_target=measures.one_sided(p, p_target),
         to_source=measures.one_sided(p_target, p),
         earth_movers=measures.earth_movers(p, p_target),
-        sinkhorn=blurred_earth_movers(p, p_target, params.blur, max_sweeps=200, tolerance=1e-4),
         hausdorff=near.hausdorff(),
         f_score=near.f_score(params.near),
         index_mse=index_mse(p, p_target) if len(p) == len(p_target) else float("nan"),

@@ -5,6 +5,7 @@ import numpy as np
 from lessons.chamfer_emd.states import Numbers, Side, State
 from workbench.algorithms.flow import Stop
 from workbench.geometry.shape_distances import DEFINITIONS
+from workbench.numerals import brief
 from workbench.scene import Caption, Table
 
 LOWERED = {
@@ -12,6 +13,8 @@ LOWERED = {
     "source to target": "one-sided Chamfer, source to target,",
     "target to source": "one-sided Chamfer, target to source,",
 }
+
+ALMOST_NONE = 0.1  # of the mass: who has less astray has come to the target
 
 
 def caption(state: State) -> Caption:
@@ -21,7 +24,7 @@ def caption(state: State) -> Caption:
 
 def _start(state: State) -> Caption:
     now, note, params = state.left.numbers, state.yardsticks["5 % larger"], state.params
-    size = "" if state.clouds.scale == 1 else f" A unit of your files is {state.clouds.scale:.3g} m of the picture."
+    size = "" if state.clouds.scale == 1 else f" A unit of your files is {brief(state.clouds.scale)} m of the picture."
     text = (
         f"The source is {state.clouds.name}: Chamfer {squared(now.chamfer)}, earth mover's {metres(now.earth_movers)}."
     )
@@ -59,7 +62,9 @@ def _step(state: State, before_left: Numbers, before_right: Numbers) -> Caption:
     if not state.last:
         return Caption(text)
     text += f" Left {_why(left)}; right {_why(right)}."
-    return Caption(text, "wrong" if left.numbers.astray > 0.1 + right.numbers.astray else "good")
+    if max(left.numbers.astray, right.numbers.astray) <= ALMOST_NONE:
+        return Caption(text, "good")
+    return Caption(text, "wrong" if left.numbers.astray > ALMOST_NONE + right.numbers.astray else "info")
 
 
 def _why(side: Side) -> str:
@@ -82,12 +87,13 @@ def _lowered_value(state: State) -> str:
 
 def left_label(state: State) -> str:
     """Return the title over the left flow."""
-    return f"{LOWERED[state.params.lowers].rstrip(',')} flow: {_lowered_value(state)}"
+    lowered = LOWERED[state.params.lowers].rstrip(",")
+    return f"{lowered[0].upper()}{lowered[1:]}: {_lowered_value(state)}"
 
 
 def right_label(state: State) -> str:
     """Return the title over the right flow."""
-    return f"Earth mover's flow: {metres(state.right.flow.value)}"
+    return f"Earth mover's: {metres(state.right.flow.value)}"
 
 
 def numbers_table(state: State) -> Table:
@@ -104,7 +110,7 @@ def numbers_table(state: State) -> Table:
             rows.append((f"Chamfer, {name}, {unit}", *_both(left.definitions[name], right.definitions[name])))
     rows += [
         ("Earth mover's, exact, m", *_both(left.earth_movers, right.earth_movers)),
-        (f"Sinkhorn, blur {params.blur:g} m, m", *_both(left.sinkhorn, right.sinkhorn)),
+        (f"Sinkhorn, blur {params.blur:g} m, m", *_both(state.left.sinkhorn, state.right.sinkhorn)),
         ("Hausdorff, m", *_both(left.hausdorff, right.hausdorff)),
         (f"F-score at {params.near:g} m", share(left.f_score), share(right.f_score)),
         ("Pairs by index, mean of squares, m²", *_both(left.index_mse, right.index_mse)),
@@ -153,4 +159,6 @@ def _digits(value: float, digits: int) -> str:
         return "0"
     if abs(value) < 1e-4:
         return "<0.0001"
-    return f"{value:.0f}" if value >= 10**digits else f"{value:#.{digits}g}".rstrip(".")
+    if float(f"{value:.{digits}g}") >= 10 ** (digits - 1):
+        return brief(value, digits)
+    return f"{value:#.{digits}g}"

@@ -3,7 +3,7 @@
 import numpy as np
 
 from lessons.curvature.state import State, surface_variation
-from lessons.curvature.words import short
+from workbench.numerals import brief
 from workbench.scene import Curve, Primitive, Role, Scalar, Table
 
 SAMPLES = 300
@@ -127,7 +127,7 @@ def vertex_table(state: State) -> Table:
 def _number(value: float) -> str:
     if not np.isfinite(value):
         return "–"
-    return short(value, 4)
+    return brief(value, 4)
 
 
 def _rounded(values: np.ndarray) -> np.ndarray:

@@ -6,7 +6,8 @@ from lessons.curvature import ring
 from lessons.curvature.charts import beside
 from lessons.curvature.scales import DEFECT_SCALE, ERROR_SCALE, H_SCALE, K_SCALE, arrow, reach, share_within
 from lessons.curvature.state import State
-from lessons.curvature.words import caption, short
+from lessons.curvature.words import caption
+from workbench.numerals import brief
 from workbench.scene import Color, Field, Mesh, Points, Primitive, Role, Scene, Segments
 
 MOST_EDGES, MOST_ARROWS, MOST_CROSSES = 6000, 3000, 1500
@@ -61,7 +62,9 @@ def _color(state: State) -> Color:
 
 def _signed(state: State, values: np.ndarray, fixed: float, title: str, unit: str) -> Field:
     scale = reach(state, values, fixed)
-    title = title if state.subject.truth is not None else f"{title}, {share_within(values, scale)} of the vertices within"
+    title = (
+        title if state.subject.truth is not None else f"{title}, {share_within(values, scale)} of the vertices within"
+    )
     return Field(values, -scale, scale, title, unit, "diverging")
 
 
@@ -71,7 +74,7 @@ def _arrows(state: State) -> Segments:
     rows = np.flatnonzero(np.isfinite(v).all(axis=1))
     rows = rows[:: max(1, -(-len(rows) // MOST_ARROWS))]
     p, metres = state.now.p[rows], arrow(state)
-    name = f"2 H n ({short(100 * metres)} cm for 1 m⁻¹)"
+    name = f"2 H n ({brief(100 * metres)} cm for 1 m⁻¹)"
     return Segments(np.stack([p, p + metres * v[rows]], axis=1), "source", 1.5, name=name)
 
 

@@ -72,8 +72,8 @@ PRESETS: tuple[Preset[Params], ...] = (
         BORDER_2_PI, TOTAL,
     ),
     Preset(
-        "coarse", "Coarse", "With 60 vertices the relative error of K is about 10 % (RMS): few triangles have to tell how the"
-        " tube bends.",
+        "coarse", "Coarse", "With 60 vertices the relative error of K is about 10 % (RMS): few triangles have to tell how"
+        " the tube bends.",
         COARSE, GAUSSIAN,
     ),
     Preset(

@@ -3,8 +3,8 @@
 import numpy as np
 
 from lessons.curvature.state import State, two_rings
-from lessons.curvature.words import short
 from workbench.algorithms.curvature import Measured
+from workbench.numerals import brief
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
 
 LIFT = 0.03  # how far things float above the surface, in edges
@@ -95,7 +95,7 @@ def cell(now: Measured) -> dict[str, Primitive]:
     return {
         "cell": Mesh(p, faces, "highlight", opacity=0.6, flat=True, name="its area"),
         "cell rim": Segments(rim, "highlight", 3, name="rim of its area"),
-        "cell label": Label(f"A = {short(now.areas[now.vertex])} m²", _lifted(now, 0.5), "highlight"),
+        "cell label": Label(f"A = {brief(now.areas[now.vertex])} m²", _lifted(now, 0.5), "highlight"),
     }
 
 
@@ -111,7 +111,7 @@ def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
             np.array([[start, start + scale * total]]), "highlight", 6, name="their sum: 2 H n"
         )
         tip = start + scale * total
-        scene["mean label"] = Label(f"|2 H n| = {short(float(np.linalg.norm(total)))} m⁻¹", tip, "highlight")
+        scene["mean label"] = Label(f"|2 H n| = {brief(float(np.linalg.norm(total)))} m⁻¹", tip, "highlight")
     return scene
 
 
@@ -143,9 +143,9 @@ def circles(now: Measured) -> dict[str, Primitive]:
             path = here + np.sin(s)[:, None] / k * t - (1 - np.cos(s))[:, None] / k * n
         else:
             path = here + 1.25 * (CIRCLE / np.pi - 1)[:, None] * t
-        radius = f"radius {short(1 / abs(k))} m" if abs(k) > 1e-3 else "straight"
+        radius = f"radius {brief(1 / abs(k))} m" if abs(k) > 1e-3 else "straight"
         scene[f"circle {name}"] = Segments(_path(path), role, 4, name=f"bends as {name}")
-        scene[f"label {name}"] = Label(f"{name} = {short(k)} m⁻¹, {radius}", path[30 if name == "k₁" else 66], role)
+        scene[f"label {name}"] = Label(f"{name} = {brief(k)} m⁻¹, {radius}", path[30 if name == "k₁" else 66], role)
     return scene
 
 

@@ -66,7 +66,9 @@ class _Made:
 def _meshes(name: str, *rest: Any) -> tuple[_Made, ...]:
     surfaces = [surface_of(name, count, *rest) for count in COUNTS]
     return tuple(
-        _Made(s, ~on_boundary(s.faces, len(s.p)), vertex_normals(s.p, s.faces), *fit_quadrics(s.p, s.faces).curvatures())
+        _Made(
+            s, ~on_boundary(s.faces, len(s.p)), vertex_normals(s.p, s.faces), *fit_quadrics(s.p, s.faces).curvatures()
+        )
         for s in surfaces
     )
 

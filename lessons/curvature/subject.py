@@ -15,7 +15,6 @@ from workbench.geometry.meshes import check_mesh, edges, on_boundary, vertex_nor
 from workbench.geometry.motions import exp_so3
 from workbench.geometry.repair import oriented, split_where_sheets_touch, without_repeats
 
-
 EYE = (2.5, -2.9, 2.3)
 UPWARD = np.array([0.46, -0.53, 0.71])
 OWN_SIZE = 2.0  # metres: how long the longest side of an own mesh is made, so that scales and colours fit it

@@ -4,6 +4,7 @@ import numpy as np
 
 from lessons.curvature.scales import H_SCALE, K_SCALE, reach, share_within
 from lessons.curvature.state import State
+from workbench.numerals import brief
 from workbench.scene import Caption
 
 NOWHERE = "The vertex lies on the border, where {} is not defined: choose one inside."
@@ -21,7 +22,7 @@ def _mesh(state: State) -> Caption:
     border = int(np.count_nonzero(subject.border))
     text += f", {border} vertices on the border." if border else ", no border."
     if subject.truth is None:
-        text += f" A length of 1 in its file is {short(subject.enlarged)} m here; its {subject.up} axis points up."
+        text += f" A length of 1 in its file is {brief(subject.enlarged)} m here; its {subject.up} axis points up."
         text += "".join(f" Mended: {', '.join(subject.mended)}." for _ in subject.mended[:1])
     elif params.jitter or params.noise:
         ways = [f"up to {params.jitter:g} cells along it"] * bool(params.jitter)
@@ -68,9 +69,9 @@ def _gaussian(state: State) -> Caption:
     if state.on_border:
         return Caption(NOWHERE.format("K") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²"))
     if state.params.mistake == "defect taken for K":
-        text = f"Without the division by the area, K at vertex {v:,} would be {short(now.K[v])}"
+        text = f"Without the division by the area, K at vertex {v:,} would be {brief(now.K[v])}"
         return Caption(text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}", "wrong")
-    text = f"K = defect / area = {short(now.defects[v])} rad / {short(now.areas[v])} m² = {short(now.K[v])} m⁻²"
+    text = f"K = defect / area = {brief(now.defects[v])} rad / {brief(now.areas[v])} m² = {brief(now.K[v])} m⁻²"
     return Caption(text + _truth(true, "m⁻²") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²"))
 
 
@@ -84,7 +85,7 @@ def _normal(state: State) -> Caption:
         return Caption(f"At vertex {now.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H n = 0.")
     return Caption(
         f"Each neighbour pushes the vertex away from itself, weighted by the cotangents opposite their edge; over twice the"
-        f" area the pushes at vertex {now.vertex:,} add up to 2 H n, {short(float(np.linalg.norm(v)))} m⁻¹ long and"
+        f" area the pushes at vertex {now.vertex:,} add up to 2 H n, {brief(float(np.linalg.norm(v)))} m⁻¹ long and"
         f" pointing {side}."
     )
 
@@ -95,9 +96,9 @@ def _mean(state: State) -> Caption:
         return Caption(NOWHERE.format("H") + _error(state, "H"))
     H, true = float(now.H[now.vertex]), state.true("mean")
     if state.params.mistake == "H without the half":
-        text = f"Taken whole, the normal's length gives H = {short(H)} m⁻¹"
+        text = f"Taken whole, the normal's length gives H = {brief(H)} m⁻¹"
         return Caption(text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), "wrong")
-    text = f"H is half the normal's length, positive where it points outward: {short(H)} m⁻¹"
+    text = f"H is half the normal's length, positive where it points outward: {brief(H)} m⁻¹"
     return Caption(text + _truth(true, "m⁻¹") + _error(state, "H") + _colors(state, now.H, H_SCALE, "m⁻¹"))
 
 
@@ -106,9 +107,9 @@ def _principal(state: State) -> Caption:
     k1, k2 = float(now.k1[now.vertex]), float(now.k2[now.vertex])
     if not np.isfinite([k1, k2]).all():
         return Caption(NOWHERE.format("K or H"))
-    text = f"H ± √(H² − K) gives k₁ = {short(k1)} and k₂ = {short(k2)} m⁻¹"
+    text = f"H ± √(H² − K) gives k₁ = {brief(k1)} and k₂ = {brief(k2)} m⁻¹"
     if np.isfinite(state.true("k1")):
-        text += f" (truth {short(state.true('k1'))}, {short(state.true('k2'))})"
+        text += f" (truth {brief(state.true('k1'))}, {brief(state.true('k2'))})"
     kind = "to both sides, as on a saddle" if k1 * k2 < -1e-6 else "to one side" if k1 * k2 > 1e-6 else "one way only"
     kind = kind if max(abs(k1), abs(k2)) > 1e-6 else "not at all"
     return Caption(f"{text}. The two circles have these curvatures: they bend {kind}.")
@@ -121,7 +122,7 @@ def _quadric(state: State) -> Caption:
     n = int(quadrics.neighbours[v])
     if not np.isfinite(K):
         return Caption(f"Another way, a quadric through two rings, needs six vertices in reach; here are {n}.")
-    text = f"Another way: a quadric fitted to {n} vertices bends by K = {short(K)} m⁻², H = {short(H)} m⁻¹."
+    text = f"Another way: a quadric fitted to {n} vertices bends by K = {brief(K)} m⁻², H = {brief(H)} m⁻¹."
     if state.errors:
         e = state.errors
         text += (
@@ -134,13 +135,13 @@ def _quadric(state: State) -> Caption:
 def _total(state: State) -> Caption:
     now = state.now
     expected = 2 * np.pi * now.chi
-    text = f"All {len(now.p):,} defects add up to {short(now.total)} rad = {short(now.total / np.pi)} π;"
-    text += f" V − E + F = {short(now.chi)} promises {short(2 * now.chi)} π."
+    text = f"All {len(now.p):,} defects add up to {brief(now.total)} rad = {brief(now.total / np.pi)} π;"
+    text += f" V − E + F = {brief(now.chi)} promises {brief(2 * now.chi)} π."
     if abs(now.total - expected) < 1e-6:
         return Caption(text + " Gauss-Bonnet: no noise or resolution changes this sum, only handles, pieces and borders do.",
                        "good")  # fmt: skip
     halves = (now.total - expected) / np.pi
-    text += f" The sum is {short(now.total - expected)} rad too large"
+    text += f" The sum is {brief(now.total - expected)} rad too large"
     if state.params.mistake == "2 pi on the border":
         return Caption(f"{text}: π for each of the {halves:.0f} border vertices.", "wrong")
     return Caption(f"{text}: some defects are wrong.", "wrong")
@@ -183,7 +184,7 @@ _CAPTIONS = {
 
 
 def _truth(true: float, unit: str) -> str:
-    return f"; the truth is {short(true)}{' ' if unit else ''}{unit}." if np.isfinite(true) else "."
+    return f"; the truth is {brief(true)}{' ' if unit else ''}{unit}." if np.isfinite(true) else "."
 
 
 def _error(state: State, name: str) -> str:
@@ -198,19 +199,10 @@ def _colors(state: State, values: np.ndarray, fixed: float, unit: str) -> str:
     if state.subject.truth is not None:
         return ""
     limit = reach(state, values, fixed)
-    return f" The colours reach to ±{short(limit)} {unit}; {share_within(values, limit)} of the vertices lie within."
+    return f" The colours reach to ±{brief(limit)} {unit}; {share_within(values, limit)} of the vertices lie within."
 
 
 def _percent(percent: float) -> str:
     if percent < 0.01:
         return "0 %" if percent < 1e-6 else "under 0.01 %"
     return f"{percent:.2g} %" if percent < 99.5 else f"{percent:,.0f} %"
-
-
-def short(value: float, digits: int = 3) -> str:
-    """Return a number with so many digits that count, never with an exponent; what is below 1e-9 is rounding, thus 0."""
-    if abs(value) < 1e-9:
-        return "0"
-    rounded = float(f"{value:.{digits}g}")
-    text = f"{rounded:,.0f}" if abs(rounded) >= 10 ** (digits - 1) else np.format_float_positional(rounded, trim="-")
-    return text.replace("-", "−")

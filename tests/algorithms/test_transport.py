@@ -84,7 +84,8 @@ def test_scalings_that_run_away_leave_the_optimum_exact(monkeypatch, relaxation)
 def test_potentials_are_computed_only_where_they_pay(monkeypatch):
     computed = []
     monkeypatch.setattr(
-        "workbench.algorithms.transport.blurred_potentials", lambda cost: computed.append(len(cost)) or np.zeros(len(cost))
+        "workbench.algorithms.transport.blurred_potentials",
+        lambda cost: computed.append(len(cost)) or np.zeros(len(cost)),
     )
     rng = np.random.default_rng(0)
     p = rng.normal(size=(300, 3))

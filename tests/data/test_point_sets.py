@@ -5,8 +5,8 @@ from workbench.algorithms.transport import earth_movers
 from workbench.data.point_sets import (
     SHAPES,
     blob,
+    bumped,
     bunched,
-    dented,
     doubled,
     grown,
     part_missing,
@@ -48,7 +48,7 @@ def test_what_is_done_to_a_cloud_is_what_it_says():
     p, rng = spread("ring", 80), np.random.default_rng(0)
     assert earth_movers(grown(p, 0.05), p) == pytest.approx(0.05)
     assert chamfer(grown(p, 0.05), p) == pytest.approx(0.005)
-    assert earth_movers(dented(p, 0.16), p) == pytest.approx(0.02)
+    assert earth_movers(bumped(p, 0.16), p) == pytest.approx(0.02)
     assert np.linalg.norm(with_outlier(p, 2.0) - p, axis=1).max() == pytest.approx(2.0)
     half = part_missing(p, 0.5)
     assert half.shape == p.shape
@@ -76,7 +76,7 @@ def test_small_clouds_survive_everything(count):
     p, rng = spread("spiral", count), np.random.default_rng(0)
     for changed in (
         grown(p, 1),
-        dented(p, 1),
+        bumped(p, 1),
         part_missing(p, 1),
         with_outlier(p, 1),
         shuffled(p, 1, rng),

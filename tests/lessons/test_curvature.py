@@ -351,7 +351,9 @@ def test_awkward_meshes_are_mended_and_the_caption_says_how(tmp_path, p, faces, 
 def test_a_mesh_in_any_unit_looks_the_same_and_its_size_is_said_without_exponents(tmp_path, unit):
     run = timeline(written(tmp_path, unit * BALL.vertices, BALL.faces))
     state = run.states()[-1]
-    np.testing.assert_allclose(state.now.K, timeline(written(tmp_path, BALL.vertices, BALL.faces, "1.off"))[-1].state.now.K)
+    np.testing.assert_allclose(
+        state.now.K, timeline(written(tmp_path, BALL.vertices, BALL.faces, "1.off"))[-1].state.now.K
+    )
     assert f"{1 / unit:,.10g} m here" in caption_of(run[0].scene).text.replace("1.00", "1")
     for step in run.known():
         assert "e+" not in caption_of(step.scene).text

@@ -8,42 +8,18 @@ import numpy as np
 from lessons.curvature.lesson import run as run_of
 from lessons.curvature.params import Params
 from lessons.curvature.words import caption as caption
+from tests.geometry.by_faces import measured_face_by_face
 from tests.verdicts import Claim, Run
 
 DIGITS = 0.006  # relative: what three digits that count may hide
 NUMBER = r"(−?[\d,]+(?:\.\d+)?)"
 
 
-@functools.lru_cache(maxsize=8)
-def _facts(p_bytes: bytes, faces_bytes: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
-    """Return angle sums, mixed areas, which vertices lie on the border, and V - E + F, face by face."""
-    p, faces = np.frombuffer(p_bytes).reshape(-1, 3), np.frombuffer(faces_bytes, dtype=np.int64).reshape(-1, 3)
-    angles, areas = np.zeros(len(p)), np.zeros(len(p))
-    a, b, c = p[faces].swapaxes(0, 1)
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    corner = []
-    for here, one, two in ((a, b, c), (b, c, a), (c, a, b)):
-        u, v = one - here, two - here
-        cosine = np.einsum("fx,fx->f", u, v) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)
-        corner.append(np.arccos(np.clip(cosine, -1, 1)))
-    obtuse = np.max(corner, axis=0) > np.pi / 2
-    for k, (here, one, two) in enumerate(((a, b, c), (b, c, a), (c, a, b))):
-        # The cell ends at the bisectors of the two edges: their halves, times the cotangent of the angle across.
-        across = [np.sum((one - here) ** 2, axis=1) / np.tan(corner[(k + 2) % 3]),
-                  np.sum((two - here) ** 2, axis=1) / np.tan(corner[(k + 1) % 3])]  # fmt: skip
-        share = np.where(obtuse, np.where(corner[k] > np.pi / 2, area / 2, area / 4), (across[0] + across[1]) / 8)
-        angles += np.bincount(faces[:, k], corner[k], len(p))
-        areas += np.bincount(faces[:, k], share, len(p))
-    ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    edges, times = np.unique(ends[:, 0] * len(p) + ends[:, 1], return_counts=True)
-    border = np.zeros(len(p), dtype=bool)
-    border[edges[times == 1] // len(p)] = border[edges[times == 1] % len(p)] = True
-    return angles, areas, border, len(np.unique(faces)) - len(edges) + len(faces)
-
-
 def facts(state):
     p, faces = state.subject.p, state.subject.faces
-    return _facts(np.ascontiguousarray(p).tobytes(), np.ascontiguousarray(faces, dtype=np.int64).tobytes())
+    return measured_face_by_face(
+        np.ascontiguousarray(p).tobytes(), np.ascontiguousarray(faces, dtype=np.int64).tobytes()
+    )
 
 
 def defects(state) -> np.ndarray:
@@ -128,7 +104,9 @@ def _relative_error(run: Run, k: int, m: re.Match[str]) -> bool:
     true = getattr(truth, name)
     if (m[1] == "all vertices") is not bool(inside.all()):
         return False
-    if np.abs(true[inside]).max() < 1e-6:  # the truth is 0 everywhere: of the larger principal curvature, or of a sphere of 1 m
+    if (
+        np.abs(true[inside]).max() < 1e-6
+    ):  # the truth is 0 everywhere: of the larger principal curvature, or of a sphere of 1 m
         larger = np.maximum(np.abs(truth.k1), np.abs(truth.k2)) ** (2 if name == "gaussian" else 1)
         of = np.sqrt(np.mean(larger[inside] ** 2)) or 1.0
         return percent(m[2], float(np.sqrt(np.mean((estimate - true)[inside] ** 2)) / of))
@@ -182,9 +160,11 @@ def _bends(run: Run, k: int, m: re.Match[str]) -> bool:
     k1, k2 = run.states[k].now.k1[run.states[k].now.vertex], run.states[k].now.k2[run.states[k].now.vertex]
     signs = {np.sign(x) for x in (k1, k2) if abs(x) > 1e-5}
     return {
-        "to both sides, as on a saddle": signs == {-1.0, 1.0}, "to one side": len(signs) == 1 and min(abs(k1), abs(k2)) > 0,
-        "one way only": len(signs) <= 1, "not at all": not signs,
-    }[m[1]]  # fmt: skip
+        "to both sides, as on a saddle": signs == {-1.0, 1.0},
+        "to one side": len(signs) == 1 and min(abs(k1), abs(k2)) > 0,
+        "one way only": len(signs) <= 1,
+        "not at all": not signs,
+    }[m[1]]
 
 
 def _fit_errors(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -220,38 +200,63 @@ def _defect_sum_of_all(run: Run, *_) -> bool:
 
 PERCENT = r"(under 0\.01|[\d,.]+) %"
 
+# fmt: off
 CAPTIONS = [
-    Claim(r"([\d,]+) vertices, ([\d,]+) triangles", lambda run, k, m: (number(m[1]), number(m[2])) == (len(run.states[k].subject.p), len(run.states[k].subject.faces))),
+    Claim(
+        r"([\d,]+) vertices, ([\d,]+) triangles",
+        lambda run, k, m: (
+            (number(m[1]), number(m[2])) == (len(run.states[k].subject.p), len(run.states[k].subject.faces))
+        ),
+    ),
     Claim(r"(\d+) vertices on the border", lambda run, k, m: int(m[1]) == facts(run.states[k])[2].sum()),
     Claim(r"no border\.", lambda run, k, m: not facts(run.states[k])[2].any()),
     Claim(r"(\d+) triangles meet at vertex ([\d,]+); their angles add up to ([\d.]+)°", _ring),
     Claim(r"It lies on the border", lambda run, k, m: bool(facts(run.states[k])[2][run.states[k].now.vertex])),
     Claim(r"In a plane they would", lambda run, k, m: not facts(run.states[k])[2][run.states[k].now.vertex]),
     Claim(r"(?:leaves a gap of|it overlaps by) ([\d.]+)°", _gap),
-    Claim(r"the ring closes: angle defect 0", lambda run, k, m: abs(defects(run.states[k])[run.states[k].now.vertex]) < 1e-7),
-    Claim(rf"a border vertex misses {NUMBER}°", lambda run, k, m: near(m[1], np.degrees(defects(run.states[k])[run.states[k].now.vertex] + np.pi))),
-    Claim(rf"from 180°: {NUMBER}° is how", lambda run, k, m: abs(number(m[1]) - np.degrees(defects(run.states[k])[run.states[k].now.vertex])) < 0.0051),
+    Claim(r"the ring closes: angle defect 0",
+          lambda run, k, m: abs(defects(run.states[k])[run.states[k].now.vertex]) < 1e-7),
+    Claim(rf"a border vertex misses {NUMBER}°",
+          lambda run, k, m: near(m[1], np.degrees(defects(run.states[k])[run.states[k].now.vertex] + np.pi))),
+    Claim(rf"from 180°: {NUMBER}° is how",
+          lambda run, k, m: abs(number(m[1]) - np.degrees(defects(run.states[k])[run.states[k].now.vertex])) < 0.0051),
     Claim(rf"K = defect / area = {NUMBER} rad / {NUMBER} m² = {NUMBER} m⁻²", _k_is),
-    Claim(rf"K at vertex [\d,]+ would be {NUMBER}(?=[;.])", lambda run, k, m: near(m[1], defects(run.states[k])[run.states[k].now.vertex])),
+    Claim(rf"K at vertex [\d,]+ would be {NUMBER}(?=[;.])",
+          lambda run, k, m: near(m[1], defects(run.states[k])[run.states[k].now.vertex])),
     Claim(rf"the truth is {NUMBER}(?=[ .])", _truth),
     Claim(rf"Relative error \(RMS over ([\w ]+)\): {PERCENT}", _relative_error),
     Claim(rf"2 H n, {NUMBER} m⁻¹ long and pointing (outward|inward)", _pointing),
-    Claim(r"pushes, weighted by cotangents, cancel", lambda run, k, m: float(np.linalg.norm(run.states[k].now.normals_2H[run.states[k].now.vertex])) < 1e-6),
+    Claim(r"pushes, weighted by cotangents, cancel",
+          lambda run, k, m: float(np.linalg.norm(run.states[k].now.normals_2H[run.states[k].now.vertex])) < 1e-6),
     Claim(rf"gives k₁ = {NUMBER} and k₂ = {NUMBER} m⁻¹ \(truth {NUMBER}, {NUMBER}\)", _principal),
     Claim(r"they bend (to both sides, as on a saddle|to one side|one way only|not at all)", _bends),
-    Claim(rf"Relative errors \(RMS over all vertices\): K {PERCENT} \(angles {PERCENT}\), H {PERCENT} \(cotangents {PERCENT}\)", _fit_errors),
-    Claim(rf"All ([\d,]+) defects add up to {NUMBER} rad = {NUMBER} π; V − E \+ F = {NUMBER} promises {NUMBER} π", _sum),
+    Claim(
+        rf"Relative errors \(RMS over all vertices\): K {PERCENT} \(angles {PERCENT}\), "
+        rf"H {PERCENT} \(cotangents {PERCENT}\)",
+        _fit_errors,
+    ),
+    Claim(
+        rf"All ([\d,]+) defects add up to {NUMBER} rad = {NUMBER} π; V − E \+ F = {NUMBER} promises {NUMBER} π", _sum
+    ),
     Claim(r"Gauss-Bonnet: no noise or resolution changes this sum", _defect_sum_of_all),
-    Claim(rf"The sum is {NUMBER} rad too large: π for each of the (\d+) border vertices", lambda run, k, m: int(m[2]) == facts(run.states[k])[2].sum() and near(m[1], np.pi * int(m[2]))),
+    Claim(rf"The sum is {NUMBER} rad too large: π for each of the (\d+) border vertices",
+          lambda run, k, m: int(m[2]) == facts(run.states[k])[2].sum() and near(m[1], np.pi * int(m[2]))),
     Claim(r"too large: some defects are wrong", lambda run, k, m: not _defect_sum_of_all(run)),
-    Claim(rf"From ([\d,]+) to ([\d,]+) vertices the error of K from angles \(RMS\) goes from {PERCENT} to {PERCENT}, by quadric fit from {PERCENT} to {PERCENT}", _study_numbers),
+    Claim(
+        rf"From ([\d,]+) to ([\d,]+) vertices the error of K from angles \(RMS\) goes from"
+        rf" {PERCENT} to {PERCENT}, by quadric fit from {PERCENT} to {PERCENT}",
+        _study_numbers,
+    ),
     Claim(r"No mesh is fine enough to mend a missing division", lambda run, k, m: study(run).K.min() > 0.9),
     Claim(r"No mesh is fine enough to mend a missing ½", lambda run, k, m: study(run).H.min() > 0.9),
     Claim(r"angles are exact", lambda run, k, m: study(run).K.max() < 1e-8),
-    Claim(r"Finer is worse: the same noise", lambda run, k, m: run.params.noise > 0 and slope(study(run).K, study(run).counts) > 0.2),
-    Claim(r"does not converge to K; the defects' sum stays exact", lambda run, k, m: slope(study(run).K, study(run).counts) > -0.5 and _exact_sum(run)),
+    Claim(r"Finer is worse: the same noise",
+          lambda run, k, m: run.params.noise > 0 and slope(study(run).K, study(run).counts) > 0.2),
+    Claim(r"does not converge to K; the defects' sum stays exact",
+          lambda run, k, m: slope(study(run).K, study(run).counts) > -0.5 and _exact_sum(run)),
     Claim(r"On such meshes angles converge", lambda run, k, m: slope(study(run).K, study(run).counts) < -0.8),
-]  # fmt: skip
+]
+# fmt: on
 
 
 def _inside(run: Run, stage: str, name: str) -> np.ndarray:
@@ -289,32 +294,67 @@ def _regular(run: Run, *_) -> bool:
     return error < 0.002 and -1.15 < slope(s.K, s.counts) < -0.85  # edges go with the root of the vertices
 
 
+# fmt: off
 LINES = {
     "cylinder": [
         Claim(r"H is 1/2r = 1 m⁻¹", lambda run, k, m: bool(np.allclose(_inside(run, "mean", "H"), 1, rtol=2e-3))),
     ],
     "catenoid": [
-        Claim(r"Catenoid: H = 0, K < 0", lambda run, k, m: bool((_inside(run, "gaussian", "K") < 0).all()) and np.abs(_inside(run, "mean", "H")).max() < 0.02),
+        Claim(
+            r"Catenoid: H = 0, K < 0",
+            lambda run, k, m: (
+                bool((_inside(run, "gaussian", "K") < 0).all()) and np.abs(_inside(run, "mean", "H")).max() < 0.02
+            ),
+        ),
         Claim(r"negative everywhere", lambda run, k, m: bool((_inside(run, "gaussian", "K") < 0).all())),
     ],
     "double": [
-        Claim(r"Every length is doubled", lambda run, k, m: np.ptp(run.states[0].subject.p) == 2 * np.ptp(next(iter(run_of(Params()))).subject.p)),
+        Claim(r"Every length is doubled",
+              lambda run, k, m: np.ptp(run.states[0].subject.p) == 2 * np.ptp(next(iter(run_of(Params()))).subject.p)),
     ],
     "no-area": [
-        Claim(r"over 50 times too small here, and about four times smaller still on a mesh four times as fine", _too_small),
+        Claim(
+            r"over 50 times too small here, and about four times smaller still on a mesh four times as fine", _too_small
+        ),
     ],
     "no-half": [
-        Claim(r"H = 2 m⁻¹, and H² − K = 3", lambda run, k, m: bool(np.allclose(_inside(run, "mean", "H"), 2, rtol=1e-2)) and bool(np.allclose(_inside(run, "mean", "H") ** 2 - angle_K(at(run, "mean")), 3, atol=0.15))),
+        Claim(
+            r"H = 2 m⁻¹, and H² − K = 3",
+            lambda run, k, m: (
+                bool(np.allclose(_inside(run, "mean", "H"), 2, rtol=1e-2))
+                and bool(np.allclose(_inside(run, "mean", "H") ** 2 - angle_K(at(run, "mean")), 3, atol=0.15))
+            ),
+        ),
     ],
     "border": [
-        Claim(r"K and H are left open \(grey\) there", lambda run, k, m: bool(facts(run.states[0])[2][run.states[0].now.vertex]) and bool((np.isnan(at(run, "mean").now.H) == facts(run.states[0])[2]).all())),
+        Claim(
+            r"K and H are left open \(grey\) there",
+            lambda run, k, m: (
+                bool(facts(run.states[0])[2][run.states[0].now.vertex])
+                and bool((np.isnan(at(run, "mean").now.H) == facts(run.states[0])[2]).all())
+            ),
+        ),
     ],
     "border-2pi": [
         Claim(r"should add up to 2π", lambda run, k, m: abs(defects(run.states[0]).sum() - 2 * np.pi) < 1e-9),
-        Claim(r"each border vertex adds π that is not there, and the sum is far off", lambda run, k, m: abs(at(run, "total").now.total - 2 * np.pi - np.pi * facts(run.states[0])[2].sum()) < 1e-6),
+        Claim(
+            r"each border vertex adds π that is not there, and the sum is far off",
+            lambda run, k, m: (
+                abs(at(run, "total").now.total - 2 * np.pi - np.pi * facts(run.states[0])[2].sum()) < 1e-6
+            ),
+        ),
     ],
     "coarse": [
-        Claim(r"With 60 vertices the relative error of K is about 10 %", lambda run, k, m: 0.09 < rms(angle_K(at(run, "gaussian")), at(run, "gaussian").subject.truth.gaussian, ~facts(run.states[0])[2]) < 0.11),
+        Claim(
+            r"With 60 vertices the relative error of K is about 10 %",
+            lambda run, k, m: (
+                0.09
+                < rms(
+                    angle_K(at(run, "gaussian")), at(run, "gaussian").subject.truth.gaussian, ~facts(run.states[0])[2]
+                )
+                < 0.11
+            ),
+        ),
     ],
     "fine": [Claim(r"under 0\.2 % \(RMS\): on a regular mesh it falls with the square of the edges", _regular)],
     "noise": [
@@ -327,27 +367,51 @@ LINES = {
         Claim(r"cancel to the last digit", lambda run, k, m: abs(at(run, "total").now.defects.sum()) < 1e-9),
         Claim(r"a handle", lambda run, k, m: facts(run.states[0])[3] == 0),
     ],
-}  # fmt: skip
+}
+# fmt: on
 
+# fmt: off
 WHYS = {
     "which-rolled": [
-        Claim(rf"K = {NUMBER} m⁻² and H = {NUMBER} m⁻¹", lambda run, k, m: abs(number(m[1]) - 0) < 5e-4 and abs(number(m[2]) - 1 / (2 * 0.5)) < 2e-3),
-        Claim(r"no angle changes", lambda run, k, m: bool(np.abs(defects(run.states[0])[~facts(run.states[0])[2]]).max() < 1e-9)),
+        Claim(rf"K = {NUMBER} m⁻² and H = {NUMBER} m⁻¹",
+              lambda run, k, m: abs(number(m[1]) - 0) < 5e-4 and abs(number(m[2]) - 1 / (2 * 0.5)) < 2e-3),
+        Claim(r"no angle changes",
+              lambda run, k, m: bool(np.abs(defects(run.states[0])[~facts(run.states[0])[2]]).max() < 1e-9)),
     ],
     "which-double": [
-        Claim(r"It is ([\d.]+) times what it was: the angles stay, and each vertex has four times the area\. H would be halved", lambda run, k, m: number(m[1]) == 0.25 and _scaled_by_two(run)),
+        Claim(
+            r"It is ([\d.]+) times what it was: the angles stay, and each vertex has four times the "
+            r"area\. H would be halved",
+            lambda run, k, m: number(m[1]) == 0.25 and _scaled_by_two(run),
+        ),
     ],
     "which-sides": [
-        Claim(r"H turns with the normal\. K is the product", lambda run, k, m: bool(np.allclose(angle_K(run.states[-1]), angle_K(_turned(run)))) and bool(np.allclose(at(run, "mean").now.H, -_mean_of(_params(run, inside_out=False))))),
+        Claim(
+            r"H turns with the normal\. K is the product",
+            lambda run, k, m: (
+                bool(np.allclose(angle_K(run.states[-1]), angle_K(_turned(run))))
+                and bool(np.allclose(at(run, "mean").now.H, -_mean_of(_params(run, inside_out=False))))
+            ),
+        ),
     ],
     "which-finer": [
-        Claim(r"from ([\d.]+) % to ([\d.]+) % \(RMS\)", lambda run, k, m: percent(m[1], study(run).K[0]) and percent(m[2], study(run).K[-1])),
-        Claim(r"so does the error of defect / area; that of the quadric fit falls to ([\d.]+) %", lambda run, k, m: abs(slope(study(run).K, study(run).counts)) < 0.15 and study(run).K_fit[-1] < study(run).K_fit[0] / 5 and percent(m[1], study(run).K_fit[-1])),
+        Claim(r"from ([\d.]+) % to ([\d.]+) % \(RMS\)",
+              lambda run, k, m: percent(m[1], study(run).K[0]) and percent(m[2], study(run).K[-1])),
+        Claim(
+            r"so does the error of defect / area; that of the quadric fit falls to ([\d.]+) %",
+            lambda run, k, m: (
+                abs(slope(study(run).K, study(run).counts)) < 0.15
+                and study(run).K_fit[-1] < study(run).K_fit[0] / 5
+                and percent(m[1], study(run).K_fit[-1])
+            ),
+        ),
     ],
     "which-sum": [
-        Claim(r"V − E \+ F = (\d+), and 2π times that is 4π", lambda run, k, m: int(m[1]) == facts(run.states[0])[3] == 2 and _exact_sum(run)),
+        Claim(r"V − E \+ F = (\d+), and 2π times that is 4π",
+              lambda run, k, m: int(m[1]) == facts(run.states[0])[3] == 2 and _exact_sum(run)),
     ],
-}  # fmt: skip
+}
+# fmt: on
 
 
 def _params(run: Run, **changes) -> Params:

@@ -1,4 +1,4 @@
-"""Evenly spread clouds of known shapes, and what can be done to them: grow, bunch, dent, lose a part, a point, the order.
+"""Evenly spread clouds of known shapes, and what can be done to them: grow, bunch, bulge, lose a part, a point, the order.
 
 A shape is a map from t in [0, 1) to points, so that the same shape can be taken with any density along t. Metres, about a
 metre in radius. Flat shapes stand upright in the plane y = 0, +Z up.
@@ -77,7 +77,7 @@ def grown(p: Cloud, share: float) -> Cloud:
     return middle + (1 + share) * (p - middle)
 
 
-def dented(p: Cloud, height: float, part: float = 0.125) -> Cloud:
+def bumped(p: Cloud, height: float, part: float = 0.125) -> Cloud:
     """Return the cloud with that part of its points which is nearest to its highest one pushed outward by `height`.
 
     Every pushed point moves by `height` metres away from the middle of the cloud.

@@ -24,7 +24,7 @@ def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
 def oriented(faces: Faces) -> Faces:
     """Turn faces round until neighbours agree which side is outside; in each piece as few as possible.
 
-    A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an edge, are returned as they are.
+    A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an edge, stay as they are.
     """
     half, f = half_edges(faces), len(faces)
     keys = edge_keys(half)
@@ -41,7 +41,9 @@ def oriented(faces: Faces) -> Faces:
     count, piece = scipy.sparse.csgraph.connected_components(links, directed=False)
     as_they_are = np.bincount(piece[:f], minlength=count)
     turn = (as_they_are[piece[f:]] > as_they_are[piece[:f]]) & (piece[:f] != piece[f:])
-    tie = (as_they_are[piece[f:]] == as_they_are[piece[:f]]) & (piece[f:] < piece[:f])  # either side of the piece will do
+    tie = (as_they_are[piece[f:]] == as_they_are[piece[:f]]) & (
+        piece[f:] < piece[:f]
+    )  # either side of the piece will do
     return np.where((turn | tie)[:, None], faces[:, ::-1], faces)
 
 

@@ -1,0 +1,398 @@
+"""Decides what the lesson on Chamfer and earth mover's says: by whole distance matrices and scipy's plain assignment."""
+
+import functools
+import re
+
+import numpy as np
+import scipy
+
+from lessons.chamfer_emd.words import caption as caption
+from tests.verdicts import Claim, Run
+from workbench.algorithms.flow import Stop
+
+NUMBER = r"(<?[\d,.]*\d)"
+SHARE = r"(\d+) %"
+
+
+def number(text: str) -> float:
+    return float(text.lstrip("<").replace(",", ""))
+
+
+def near(said: str, value: float) -> bool:
+    """Whether a number is said with its two digits that count."""
+    if said.startswith("<"):
+        return 0 < value < 1e-4
+    return abs(number(said) - value) <= 0.051 * abs(value) + 1e-12
+
+
+def percent(said: str, share: float) -> bool:
+    return abs(float(said) - 100 * share) <= 0.5 + 1e-9
+
+
+@functools.lru_cache(maxsize=512)
+def _measured(p_bytes: bytes, target_bytes: bytes) -> tuple[float, float, float, np.ndarray]:
+    """Return both sides of Chamfer, the earth mover's distance, and how far each share of mass goes under it."""
+    p, target = (np.frombuffer(b).reshape(-1, 3) for b in (p_bytes, target_bytes))
+    D = scipy.spatial.distance.cdist(p, target)
+    copies = np.lcm(*D.shape)
+    many = D.repeat(copies // D.shape[0], axis=0).repeat(copies // D.shape[1], axis=1)
+    moved = many[scipy.optimize.linear_sum_assignment(many)]
+    return float((D.min(axis=1) ** 2).mean()), float((D.min(axis=0) ** 2).mean()), float(moved.mean()), moved
+
+
+def measured(p: np.ndarray, run: Run) -> tuple[float, float, float, np.ndarray]:
+    return _measured(np.ascontiguousarray(p).tobytes(), np.ascontiguousarray(run.states[0].clouds.p_target).tobytes())
+
+
+def moving(run: Run, k: int, side: str) -> np.ndarray:
+    return getattr(run.states[k], side).flow.p_moving
+
+
+def lowered(run: Run, k: int) -> float:
+    to_target, to_source, _, _ = measured(moving(run, k, "left"), run)
+    return {"both sides": to_target + to_source, "source to target": to_target, "target to source": to_source}[
+        run.params.lowers
+    ]
+
+
+def emd(run: Run, k: int, side: str = "right") -> float:
+    return measured(moving(run, k, side), run)[2]
+
+
+def astray(run: Run, k: int, side: str) -> float:
+    return float(np.mean(measured(moving(run, k, side), run)[3] > run.params.near))
+
+
+def larger(run: Run) -> np.ndarray:
+    target = run.states[0].clouds.p_target
+    return target.mean(axis=0) + 1.05 * (target - target.mean(axis=0))
+
+
+def chamfer(p: np.ndarray, run: Run) -> float:
+    return sum(measured(p, run)[:2])
+
+
+def ranks_differ(run: Run) -> bool:
+    p, other = moving(run, 0, "left"), larger(run)
+    return (chamfer(p, run) < chamfer(other, run)) != (measured(p, run)[2] < measured(other, run)[2])
+
+
+def index_mse(run: Run) -> float:
+    p, target = moving(run, 0, "left"), run.states[0].clouds.p_target
+    return float(np.mean(np.sum((p - target) ** 2, axis=1))) if len(p) == len(target) else float("nan")
+
+
+def blind(run: Run) -> bool:
+    """Whether some number of the start says "equal" or "closer" of clouds that are not."""
+    p = moving(run, 0, "left")
+    to_target, to_source, moved, _ = measured(p, run)
+    one_way = {"source to target": to_target, "target to source": to_source}.get(run.params.lowers, 1.0)
+    return (
+        ranks_differ(run) or (to_target + to_source == 0 and (moved > 0 or index_mse(run) > 0)) or one_way == 0 < moved
+    )
+
+
+def right(run: Run, k: int) -> bool | None:
+    if k == 0:
+        return not blind(run)
+    left, other = astray(run, k, "left"), astray(run, k, "right")
+    return True if left < 0.15 and other < 0.15 else False if left > other + 0.05 else None
+
+
+def ended(run: Run, k: int, side: str) -> Stop | None:
+    """Return why a flow really ended by step k."""
+    flow = getattr(run.states[k], side).flow
+    if flow.step < k or k == len(run.states) - 1:
+        return flow.stop
+    return None
+
+
+def settled(run: Run, k: int, side: str) -> bool:
+    """Whether no short step of all points along their pulls lowers the distance; the pulls by differences of the matrix."""
+    p, target = moving(run, k, side), run.states[0].clouds.p_target
+    value = lowered(run, k) if side == "left" else emd(run, k)
+    if side == "right":
+        return (
+            True  # a kink: subgradients, tried by `flow` itself; that the value no longer falls is claimed by its steps
+        )
+    D = scipy.spatial.distance.cdist(p, target)
+    pull = np.zeros_like(p)
+    if run.params.lowers != "target to source":
+        pull += 2 / len(p) * (target[D.argmin(axis=1)] - p)
+    if run.params.lowers != "source to target":
+        np.add.at(pull, D.argmin(axis=0), 2 / len(target) * (target - p[D.argmin(axis=0)]))
+    steepness = float(np.sqrt((pull**2).sum() / len(p)))
+    for metres in (1e-2, 1e-3, 1e-4):
+        D = scipy.spatial.distance.cdist(p + metres / max(steepness, 1e-12) * pull, target)
+        to_target, to_source = (D.min(axis=1) ** 2).mean(), (D.min(axis=0) ** 2).mean()
+        now = {"both sides": to_target + to_source, "source to target": to_target, "target to source": to_source}
+        if now[run.params.lowers] < 0.995 * value - 1e-9:
+            return False
+    return True
+
+
+def _started(run: Run, k: int, m: re.Match[str]) -> bool:
+    return near(m[1], chamfer(moving(run, 0, "left"), run)) and near(m[2], emd(run, 0))
+
+
+def _larger(run: Run, k: int, m: re.Match[str]) -> bool:
+    return near(m[1], chamfer(larger(run), run)) and near(m[2], measured(larger(run), run)[2])
+
+
+def _left(run: Run, k: int, m: re.Match[str]) -> bool:
+    return near(m[1], lowered(run, k - 1)) and near(m[2], lowered(run, k)) and percent(m[3], astray(run, k, "left"))
+
+
+def _right(run: Run, k: int, m: re.Match[str]) -> bool:
+    return near(m[1], emd(run, k - 1)) and near(m[2], emd(run, k)) and percent(m[3], astray(run, k, "right"))
+
+
+def _why(side: str):
+    def holds(run: Run, k: int, m: re.Match[str]) -> bool:
+        stop = ended(run, k, side)
+        value = lowered(run, k) if side == "left" else emd(run, k)
+        return {
+            "arrived": stop is Stop.ARRIVED and value < 1e-9,
+            "settled where no step lowers it": stop is Stop.SETTLED and value > 1e-9 and settled(run, k, side),
+            "used up its steps": stop is Stop.MAX_STEPS and getattr(run.states[k], side).flow.step == run.params.steps,
+        }[m[1]]
+
+    return holds
+
+
+WHY = r"(arrived|settled where no step lowers it|used up its steps)"
+
+# fmt: off
+CAPTIONS = [
+    Claim(rf"Chamfer {NUMBER} m², earth mover's {NUMBER} m\.", _started),
+    Claim(rf"The ranking flips: to Chamfer this is closer than the target 5 % larger \({NUMBER} m², {NUMBER} m\)",
+          lambda run, k, m: _larger(run, k, m) and chamfer(moving(run, 0, "left"), run) < chamfer(larger(run), run)),
+    Claim(r"to earth mover's it is farther", lambda run, k, m: emd(run, 0) > measured(larger(run), run)[2]),
+    Claim(rf"Compare the target 5 % larger \({NUMBER} m², {NUMBER} m\)", _larger),
+    Claim(r"To Chamfer the two are equal: each point lies on one of the other cloud",
+          lambda run, k, m: chamfer(moving(run, 0, "left"), run) == 0 < emd(run, 0)),
+    Claim(rf"Only pairs by index see a change: {NUMBER} m²",
+          lambda run, k, m: near(m[1], index_mse(run)) and emd(run, 0) == 0 == chamfer(moving(run, 0, "left"), run)),
+    Claim(
+        rf"Every source point lies on the target, so that side of Chamfer is 0"
+        rf" and the left flow has nothing to do; the other side is {NUMBER} m²",
+        lambda run, k, m: (
+            measured(moving(run, 0, "left"), run)[0] == 0 and near(m[1], measured(moving(run, 0, "left"), run)[1])
+        ),
+    ),
+    Claim(rf"Left: [\w ,-]*? {NUMBER} m² → {NUMBER} m², {SHARE} of the mass astray", _left),
+    Claim(
+        rf"Left: ended at {NUMBER} m², {SHARE} of the mass astray",
+        lambda run, k, m: (
+            near(m[1], lowered(run, k)) and percent(m[2], astray(run, k, "left")) and ended(run, k, "left") is not None
+        ),
+    ),
+    Claim(rf"Right: earth mover's {NUMBER} m → {NUMBER} m, {SHARE} astray", _right),
+    Claim(
+        rf"Right: earth mover's ended at {NUMBER} m, {SHARE} astray",
+        lambda run, k, m: (
+            near(m[1], emd(run, k)) and percent(m[2], astray(run, k, "right")) and ended(run, k, "right") is not None
+        ),
+    ),
+    Claim(rf"Left {WHY}", _why("left")),
+    Claim(rf"right {WHY}", _why("right")),
+]
+# fmt: on
+
+
+def start(run: Run) -> np.ndarray:
+    return moving(run, 0, "left")
+
+
+def _idle(run: Run, *_) -> bool:
+    p, target = moving(run, -1, "left"), run.states[0].clouds.p_target
+    serving = np.unique(scipy.spatial.distance.cdist(p, target).argmin(axis=0))
+    idle = np.setdiff1d(np.arange(len(p)), serving)
+    moved = np.linalg.norm(p - start(run), axis=1)[idle]
+    return len(idle) >= 70 and len(p) == 80 == len(target) and float(np.median(moved)) == 0.0
+
+
+def plan_cost(p: np.ndarray, target: np.ndarray, blur: float) -> float:
+    """Return the cost of the entropic plan, in the log domain, row by row and column by column."""
+    D = scipy.spatial.distance.cdist(p, target)
+    f, g = np.zeros(len(p)), np.zeros(len(target))
+    for _ in range(300):
+        f = -blur * (scipy.special.logsumexp((g - D) / blur, axis=1) + np.log(len(p)))
+        g = -blur * (scipy.special.logsumexp((f[:, None] - D) / blur, axis=0) + np.log(len(target)))
+    return float(np.vdot(np.exp((f[:, None] + g - D) / blur), D))
+
+
+def _blurred(run: Run, *_) -> bool:
+    target = run.states[0].clouds.p_target
+    first, last = (plan_cost(moving(run, k, "right"), target, 0.5) for k in (0, -1))
+    return 0.97 < first < 1 and 0.79 < emd(run, 0) < 0.85 and abs(last - 0.54) < 0.005 and emd(run, -1) < 0.01
+
+
+def _midway(run: Run, *_) -> bool:
+    p, target = moving(run, -1, "right"), run.states[0].clouds.p_target
+    D = np.sort(scipy.spatial.distance.cdist(p, target), axis=1)
+    at_both = (np.abs(D[:, :2] - 0.04) < 0.01).all(axis=1)
+    return (len(p), len(target)) == (40, 80) and float(at_both.mean()) >= 0.9
+
+
+# fmt: off
+LINES = {
+    "larger": [
+        Claim(
+            r"Every point is 5 cm off",
+            lambda run, k, m: bool(
+                np.allclose(np.linalg.norm(start(run) - run.states[0].clouds.p_target, axis=1), 0.05)
+            ),
+        ),
+        Claim(r"0\.0050 m² by Chamfer, 0\.05 m by EMD",
+              lambda run, k, m: abs(chamfer(start(run), run) - 0.005) < 1e-9 and abs(emd(run, 0) - 0.05) < 1e-9),
+    ],
+    "flip": [
+        Claim(
+            r"80 % of the points in one bunch",
+            lambda run, k, m: (
+                float(np.mean(np.linalg.norm(start(run) - np.median(start(run), axis=0), axis=1) < 0.3)) >= 0.8
+            ),
+        )
+    ],
+    "bump": [
+        Claim(
+            r"A bump of 14\.7 cm on an eighth of the ring has the Chamfer distance of the ring 5 % larger, 0\.0050 m²",
+            lambda run, k, m: (
+                abs(chamfer(start(run), run) - chamfer(larger(run), run)) < 5e-5
+                and abs(chamfer(start(run), run) - 0.005) < 5e-5
+            ),
+        ),
+        Claim(
+            r"EMD 0\.019 against 0\.05 m, Hausdorff 0\.147 against 0\.05 m",
+            lambda run, k, m: (
+                abs(emd(run, 0) - 0.0189) < 5e-5
+                and abs(emd(run, 0) - 0.019) < 5e-4
+                and abs(scipy.spatial.distance.directed_hausdorff(start(run), run.states[0].clouds.p_target)[0] - 0.147)
+                < 1e-9
+            ),
+        ),
+    ],
+    "missing": [
+        Claim(
+            r"only the left half of the target, twice",
+            lambda run, k, m: (
+                set(np.unique(start(run), axis=0, return_counts=True)[1]) == {2}
+                and measured(start(run), run)[0] == 0
+                and float(start(run)[:, 0].max()) < 0.1
+            ),
+        )
+    ],
+    "outlier": [
+        Claim(
+            r"One point of 80 is 1 m off, the others are at home",
+            lambda run, k, m: (
+                np.sort(np.linalg.norm(start(run) - run.states[0].clouds.p_target, axis=1)).tolist()
+                == [0.0] * 79 + [1.0]
+            ),
+        )
+    ],
+    "shuffled": [
+        Claim(
+            r"all distances are 0 except the mean square of index pairs, over 1\.5 m²",
+            lambda run, k, m: chamfer(start(run), run) == 0 == emd(run, 0) and index_mse(run) > 1.5,
+        )
+    ],
+    "doubled": [
+        Claim(
+            r"Chamfer and Hausdorff are 0, EMD is 0\.21 m",
+            lambda run, k, m: (
+                chamfer(start(run), run) == 0 and abs(emd(run, 0) - 0.21) < 0.005 and len(start(run)) == 120
+            ),
+        )
+    ],
+    "idle": [
+        Claim(
+            r"70 points or more of 80 \(vermillion\) end as nearest to"
+            r" no target point, and nothing pulls them; the others serve all 80",
+            _idle,
+        )
+    ],
+    "blurred": [
+        Claim(r"not exact", _blurred),
+        Claim(
+            r"Sinkhorn with a blur of 0\.5 m says nearly 1 m where EMD is 0\.8 m, "
+            r"and at the end of the right flow 0\.54 m where EMD is under 1 cm",
+            _blurred,
+        ),
+    ],
+    "unequal": [
+        Claim(
+            r"Exact EMD splits masses: nearly every source point ends midway between"
+            r" the two target points it serves, 0\.04 m from both",
+            _midway,
+        )
+    ],
+}
+# fmt: on
+
+
+def _spread(run: Run, k: int, m: re.Match[str]) -> bool:
+    left, other = (float(np.mean(moving(run, -1, side)[:, 0] < 0)) for side in ("left", "right"))
+    few = np.unique(
+        scipy.spatial.distance.cdist(moving(run, -1, "left"), run.states[0].clouds.p_target).argmin(axis=0)[far(run)]
+    )
+    return percent(m[1], left) and percent(m[2], other) and 0.6 < left < 0.99 and 0.4 < other < 0.6 and len(few) <= 10
+
+
+def far(run: Run) -> np.ndarray:
+    """Tell which target points lie on the farther half."""
+    return run.states[0].clouds.p_target[:, 0] > 0
+
+
+def _missing(run: Run, k: int, m: re.Match[str]) -> bool:
+    to_target, to_source, _, _ = measured(start(run), run)
+    return percent(m[1], to_source / (to_target + to_source)) and near(m[2], to_target + to_source)
+
+
+# fmt: off
+WHYS = {
+    "predict-spread": [
+        Claim(
+            rf"{SHARE} of its points stay on the nearer half \({SHARE} for earth mover's\)\. "
+            rf"A few points near the far side serve all target points there",
+            _spread,
+        )
+    ],
+    "predict-flip": [
+        Claim(
+            rf"Bunched: Chamfer {NUMBER} m², EMD {NUMBER} m; 5 % larger: {NUMBER} m² and {NUMBER} m",
+            lambda run, k, m: (
+                near(m[1], chamfer(start(run), run))
+                and near(m[2], emd(run, 0))
+                and near(m[3], chamfer(larger(run), run))
+                and near(m[4], measured(larger(run), run)[2])
+                and ranks_differ(run)
+            ),
+        ),
+        Claim(
+            r"enough to have a neighbour nearby everywhere",
+            lambda run, k, m: (
+                float(scipy.spatial.distance.cdist(start(run), run.states[0].clouds.p_target).min(axis=0).max()) < 0.15
+            ),
+        ),
+    ],
+    "predict-missing": [
+        Claim(rf"{SHARE} of {NUMBER} m²", _missing),
+        Claim(rf"Every source point lies on a target point, so that the other side is {NUMBER} m²",
+              lambda run, k, m: number(m[1]) == measured(start(run), run)[0] == 0),
+        Claim(r"stays where it is", lambda run, k, m: bool(np.array_equal(moving(run, -1, "left"), start(run)))),
+    ],
+    "predict-outlier": [
+        Claim(
+            rf"Hausdorff: {NUMBER} m, (\d+) times that of the ring 5 % larger; Chamfer ([\d.]+) times; EMD ([\d.]+) times",
+            lambda run, k, m: (
+                number(m[1]) == 1.0
+                and int(m[2]) == 20
+                and abs(float(m[3]) - chamfer(start(run), run) / chamfer(larger(run), run)) < 0.051
+                and abs(float(m[4]) - emd(run, 0) / measured(larger(run), run)[2]) < 0.0051
+            ),
+        ),
+    ],
+}
+# fmt: on
