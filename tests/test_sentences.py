@@ -28,22 +28,6 @@ STEPS = 8  # of one run
 RUNS = {"transforms": 30, "pinhole": 25, "chamfer_emd": 2, "disparity": 3}  # where a run costs little, or much
 FEW = 5  # runs of every other lesson
 SMALL = 400  # the largest number of points or samples drawn, so that a run stays short
-SAID: dict[str, dict[str, Any]] = {  # knobs at which a lesson still says what is no number
-    "curvature": {"surface": "sphere", "jitter": 1e-7},
-    "ransac": {"model": "homography", "noise_pixels": 0.0, "sample": (236, 125, 125, 238), "seed": 22},
-    "icp": {"gate": "max-distance", "max_distance": 1.0, "guess": (0.0, 3.0, 0.0, 0.0, 0.0, 0.0)},
-}
-WRITTEN = {
-    "icp": "4x4 and 6x6 in a hint and a mistake's sentence",
-    "ransac": "1e-16 in a mistake's sentence",
-    "disparity": "straight quotes in a mistake's sentence",
-}
-
-
-def lessons(broken: dict[str, str]) -> list[Any]:
-    """All lessons; those with a finding are marked, and fail here once it is gone."""
-    marks = {name: pytest.mark.xfail(strict=True, reason=why) for name, why in broken.items()}
-    return [pytest.param(one, id=name, marks=marks.get(name, ())) for name, one in catalog().items()]
 
 
 def texts(scene: Scene) -> Iterator[str]:
@@ -112,7 +96,7 @@ def hear(lesson: Lesson, params: Any) -> None:
     assert not found, f"{len(found)} findings, such as:\n" + "\n".join(found[:5])
 
 
-@pytest.mark.parametrize("lesson", lessons({}))
+@pytest.mark.parametrize("lesson", catalog().values(), ids=catalog())
 def test_no_run_says_what_is_no_number(lesson: Lesson):
     @settings(
         max_examples=RUNS.get(lesson.name, FEW),
@@ -129,10 +113,17 @@ def test_no_run_says_what_is_no_number(lesson: Lesson):
     try_it()
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.xfail(strict=True)) for name in SAID])
+FOUND: dict[str, dict[str, Any]] = {  # knobs at which lessons once said what is no number
+    "curvature": {"surface": "sphere", "jitter": 1e-7},
+    "ransac": {"model": "homography", "noise_pixels": 0.0, "sample": (236, 125, 125, 238), "seed": 22},
+    "icp": {"gate": "max-distance", "max_distance": 1.0, "guess": (0.0, 3.0, 0.0, 0.0, 0.0, 0.0)},
+}
+
+
+@pytest.mark.parametrize("name", FOUND)
 def test_what_was_found_is_mended(name: str):
     lesson = catalog()[name]
-    hear(lesson, dataclasses.replace(lesson.params(), **SAID[name]))
+    hear(lesson, dataclasses.replace(lesson.params(), **FOUND[name]))
 
 
 def written_of(lesson: Lesson) -> Iterator[str]:
@@ -150,7 +141,7 @@ def written_of(lesson: Lesson) -> Iterator[str]:
         yield from (mistake.sentence for mistake in exercise.mistakes)
 
 
-@pytest.mark.parametrize("lesson", lessons(WRITTEN))
+@pytest.mark.parametrize("lesson", catalog().values(), ids=catalog())
 def test_no_text_has_a_typists_signs(lesson: Lesson):
     found = [fault for text in written_of(lesson) for fault in faults(text) if "number that is none" not in fault]
     assert not found, "\n".join(found)

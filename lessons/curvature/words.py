@@ -25,7 +25,7 @@ def _mesh(state: State) -> Caption:
         text += f" A length of 1 in its file is {brief(subject.enlarged)} m here; its {subject.up} axis points up."
         text += "".join(f" Mended: {', '.join(subject.mended)}." for _ in subject.mended[:1])
     elif params.jitter or params.noise:
-        ways = [f"up to {params.jitter:g} cells along it"] * bool(params.jitter)
+        ways = [f"up to {brief(params.jitter)} cells along it"] * bool(params.jitter)
         ways += [f"{1000 * params.noise:g} mm (sigma) off it"] * bool(params.noise)
         text += f" Its vertices stray by {' and '.join(ways)}."
     else:

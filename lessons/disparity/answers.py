@@ -319,7 +319,7 @@ VOLUME_MISTAKES = (
         "zeros around",
         zeros_around,
         "Your windows count 0 beyond the border, which makes matches there look better than they are. Repeat the border's "
-        'cells (np.pad, mode="edge").',
+        "cells (np.pad in mode edge).",
     ),
     Mistake(
         "pictures padded",

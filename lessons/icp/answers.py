@@ -349,7 +349,7 @@ STEP_MISTAKES = (
     Mistake(
         "singular",
         singular,
-        "All is right but where the planes leave a direction open: your 6x6 system is singular there. Use least squares "
+        "All is right but where the planes leave a direction open: your 6×6 system is singular there. Use least squares "
         "with the smallest norm (np.linalg.lstsq).",
     ),
     Mistake(

@@ -54,7 +54,7 @@ class Params:
     ] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz")] = None
     source: Annotated[Path | None, Knob("Own source scan, moved onto the target")] = None
-    truth: Annotated[Path | None, Knob("Known pose of the source in the target's frame: 4x4 or list of poses")] = None
+    truth: Annotated[Path | None, Knob("Known pose of the source in the target's frame: 4×4 or list of poses")] = None
     up: Annotated[Up, Knob("Which axis of own scans points up", of_files=True)] = "z"
     unit: Annotated[Unit, Knob("Unit of the numbers in own files", of_files=True)] = "m"
     thinning: Annotated[

@@ -543,7 +543,7 @@ NEEDED_MISTAKES = (
     Mistake(
         "digits lost",
         digits_lost,
-        "All is right until w^s is below 1e-16: then 1 - w^s is 1 to the computer, and its log is 0. Use np.log1p(-w^s).",
+        "All is right until w^s is below 10⁻¹⁶: then 1 - w^s is 1 to the computer, and its log is 0. Use np.log1p(-w^s).",
     ),
 )
 
