@@ -48,7 +48,7 @@ def compare_bytes(a: Path, b: Path) -> bytes:
         stream.log("/differences", document(_table(differences)), static=True)
         for root, run in runs.items():
             stream.send_chunks([moved for chunk in read_chunks(run.path) if (moved := _below(root, chunk)) is not None])
-        charts = Counter(scalar.chart for scalar in (one.curves | two.curves).values())
+        charts = Counter(scalar.chart for scalar in {**one.curves, **two.curves}.values())
         for root, run in runs.items():
             for path, scalar in run.curves.items():
                 letter = root[
