@@ -9,7 +9,7 @@ from workbench.numerals import TINY
 K_SCALE, H_SCALE, DEFECT_SCALE, ERROR_SCALE = 5.0, 2.5, 0.2, 1.0
 ARROW = 0.06  # metres of arrow per m⁻¹
 OWN_ARROW = 0.15  # metres: of an own mesh the arrows of MOST vertices are at most as long
-MOST = 95  # per cent of an own mesh' vertices that its colours tell apart
+MOST = 90  # per cent of an own mesh' vertices that its colours tell apart
 
 
 def reach(state: State, values: np.ndarray, fixed: float) -> float:

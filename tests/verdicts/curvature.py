@@ -27,6 +27,10 @@ def defects(state) -> np.ndarray:
     return np.where(border, np.pi, 2 * np.pi) - angles
 
 
+def defect_here(state) -> float:
+    return float(defects(state)[state.now.vertex])
+
+
 def angle_K(state) -> np.ndarray:
     _, areas, border, _ = facts(state)
     return np.where(border, np.nan, defects(state) / areas)
@@ -71,7 +75,7 @@ def right(run: Run, k: int) -> bool | None:
         total, promised = float(state.now.defects.sum()), 2 * np.pi * facts(state)[3]
         return abs(total - promised) < 1e-6
     if state.stage == "defect":
-        return bool(abs(state.now.defects[v] - defects(state)[v]) < 1e-6)
+        return bool(abs(state.now.defects[v] - defect_here(state)) < 1e-6)
     if state.stage in ("gaussian", "mean"):
         estimate = state.now.K if state.stage == "gaussian" else state.now.H
         true = getattr(state.subject.truth, state.stage)[v]
@@ -91,9 +95,8 @@ def _truth(run: Run, k: int, m: re.Match[str]) -> bool:
 def _k_is(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     v = state.now.vertex
-    return (
-        near(m[1], defects(state)[v]) and near(m[2], facts(state)[1][v]) and near(m[3], angle_K(state)[v], 2 * DIGITS)
-    )
+    area, K = float(facts(state)[1][v]), float(angle_K(state)[v])
+    return near(m[1], defect_here(state)) and near(m[2], area) and near(m[3], K, 2 * DIGITS)
 
 
 def _relative_error(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -117,12 +120,12 @@ def _ring(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     v = state.now.vertex
     count = int((state.subject.faces == v).any(axis=1).sum())
-    return int(m[1]) == count and abs(number(m[3]) - np.degrees(facts(state)[0][v])) < 0.0051
+    return int(m[1]) == count and abs(number(m[3]) - float(np.degrees(facts(state)[0][v]))) < 0.0051
 
 
 def _gap(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
-    here = np.degrees(defects(state)[state.now.vertex])
+    here = np.degrees(defect_here(state))
     return (here > 0) == ("gap" in m[0]) and abs(number(m[1]) - abs(here)) < 0.0051
 
 
@@ -147,9 +150,9 @@ def _pointing(run: Run, k: int, m: re.Match[str]) -> bool:
 def _principal(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     v, surface = state.now.vertex, state.subject.truth
-    K, H = angle_K(state)[v], at(run, "mean").now.H[v]
+    K, H = float(angle_K(state)[v]), float(at(run, "mean").now.H[v])
     if state.params.mistake == "defect taken for K":
-        K = defects(state)[v]
+        K = defect_here(state)
     roots = np.sort(np.roots([1.0, -2 * H, K]).real)  # k1 and k2 solve x^2 - 2 H x + K = 0
     said = number(m[1]), number(m[2])
     same = np.allclose(said, roots[::-1], rtol=2 * DIGITS, atol=2e-3 * (1 + abs(H)))
@@ -215,14 +218,14 @@ CAPTIONS = [
     Claim(r"In a plane they would", lambda run, k, m: not facts(run.states[k])[2][run.states[k].now.vertex]),
     Claim(r"(?:leaves a gap of|it overlaps by) ([\d.]+)°", _gap),
     Claim(r"the ring closes: angle defect 0",
-          lambda run, k, m: abs(defects(run.states[k])[run.states[k].now.vertex]) < 1e-7),
+          lambda run, k, m: abs(defect_here(run.states[k])) < 1e-7),
     Claim(rf"a border vertex misses {NUMBER}°",
-          lambda run, k, m: near(m[1], np.degrees(defects(run.states[k])[run.states[k].now.vertex] + np.pi))),
+          lambda run, k, m: near(m[1], np.degrees(defect_here(run.states[k]) + np.pi))),
     Claim(rf"from 180°: {NUMBER}° is how",
-          lambda run, k, m: abs(number(m[1]) - np.degrees(defects(run.states[k])[run.states[k].now.vertex])) < 0.0051),
+          lambda run, k, m: abs(number(m[1]) - np.degrees(defect_here(run.states[k]))) < 0.0051),
     Claim(rf"K = defect / area = {NUMBER} rad / {NUMBER} m² = {NUMBER} m⁻²", _k_is),
     Claim(rf"K at vertex [\d,]+ would be {NUMBER}(?=[;.])",
-          lambda run, k, m: near(m[1], defects(run.states[k])[run.states[k].now.vertex])),
+          lambda run, k, m: near(m[1], defect_here(run.states[k]))),
     Claim(rf"the truth is {NUMBER}(?=[ .])", _truth),
     Claim(rf"Relative error \(RMS over ([\w ]+)\): {PERCENT}", _relative_error),
     Claim(rf"2 H n, {NUMBER} m⁻¹ long and pointing (outward|inward)", _pointing),
