@@ -87,6 +87,10 @@ GIVEAWAYS: dict[tuple[str, str], tuple[str, ...]] = {
 """For each question the sentences that tell its answer, as patterns; case does not matter."""
 
 INNOCENT: dict[tuple[str, str], str] = {
+    (
+        "curvature",
+        "which-sides",
+    ): r"H is half the normal's length",  # a letter that is a choice stands in every sentence
     ("pinhole", "predict-rails"): r"rails stay 1\.5 m apart",  # of the rails, not of where they seem to meet
     ("ransac", "predict-two-planes"): r"beside a wall",  # the question's own words
     ("disparity", "nearer"): r"A board 5 m away",  # where another question's board stands

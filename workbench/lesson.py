@@ -163,7 +163,7 @@ class Lesson(Generic[P, S]):
         """Return the page, Markdown; title and summary where the lesson has none.
 
         Raises:
-            InputError: If the page cannot be read; names the lesson and the path.
+            AuthorError: If the page cannot be read; names the lesson and the path.
         """
         if self.page is None:
             return f"# {self.title}\n\n{self.summary}\n"
@@ -171,7 +171,7 @@ class Lesson(Generic[P, S]):
             return self.page.read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:
             why = getattr(error, "strerror", None) or "not UTF-8 text"
-            raise InputError(f"lesson {self.name}: its page {self.page.absolute()}: {why}") from None
+            raise AuthorError(f"lesson {self.name}: its page {self.page.absolute()}: {why}") from None
 
     def preset(self, name: str) -> Preset[P]:
         """Return a preset by name.

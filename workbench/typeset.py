@@ -19,7 +19,7 @@ from urllib.parse import unquote
 
 import workbench
 from workbench.atomic import write_atomic
-from workbench.errors import InputError
+from workbench.errors import AuthorError
 
 PICTURES = {".svg": "svg+xml", ".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".webp": "webp"}
 LARGEST_PICTURE = 300_000  # bytes
@@ -29,7 +29,7 @@ def page_of(markdown: str, file: Path | None) -> str:
     """Return the HTML of a lesson's page, with the pictures it names below the folder of its file.
 
     Raises:
-        InputError: If a picture is not there, is of another kind than PICTURES, or larger than LARGEST_PICTURE.
+        AuthorError: If a picture is not there, is of another kind than PICTURES, or larger than LARGEST_PICTURE.
     """
     return page_html(markdown, None if file is None else lambda name: _picture_data(file, name))
 
@@ -97,13 +97,13 @@ def _picture_data(page: Path, name: str) -> str:
         entries = {entry.name: entry for entry in place.iterdir()} if place is not None and place.is_dir() else {}
         place = entries.get(part)
     if place is None or not place.is_file() or not place.resolve().is_relative_to(page.parent.resolve()):
-        raise InputError(f"{page}: there is no picture {name!r} in the page's folder; name it relative to the page")
+        raise AuthorError(f"{page}: there is no picture {name!r} in the page's folder; name it relative to the page")
     kind = PICTURES.get(place.suffix.lower())
     if kind is None:
-        raise InputError(f"{page}: the picture {name!r} is none of {', '.join(PICTURES)}")
+        raise AuthorError(f"{page}: the picture {name!r} is none of {', '.join(PICTURES)}")
     if place.stat().st_size > LARGEST_PICTURE:
         size = f"{place.stat().st_size / 1e3:,.0f} kB, over the limit of {LARGEST_PICTURE / 1e3:,.0f} kB"
-        raise InputError(f"{page}: the picture {name!r} has {size}")
+        raise AuthorError(f"{page}: the picture {name!r} has {size}")
     return f"data:image/{kind};base64,{base64.b64encode(place.read_bytes()).decode()}"
 
 

@@ -11,6 +11,7 @@ from workbench.lesson import Lesson, Question
 from workbench.questions import Answer
 from workbench.typeset import inline_html, page_of
 from workbench.viewer.style import escape
+from workbench.viewer.terminal import tell_terminal
 
 Predict = Callable[[Question, Any], None]
 
@@ -31,6 +32,7 @@ class Reading:
         try:
             page = page_of(lesson.text(), lesson.page)
         except InputError as error:
+            tell_terminal(error)
             page = f'<div class="wb-result">{escape(str(error))}</div>'
         before, break_, after = _around_questions(page)
         gui.add_html(f'<div class="wb wb-pad">{before}</div>')
