@@ -64,8 +64,13 @@ class ViserSink:
         wanted = {path: primitive for path, primitive in scene.items() if in_space(primitive)}
         for path in [path for path in self._nodes if path not in wanted]:
             self._remove(path)
+        veiled = False  # by a surface that is new: the browser draws in the order in which things were made
         for path, primitive in wanted.items():
+            node = self._nodes.get(path)
+            if veiled and node is not None and isinstance(node.shown, Segments | Camera):
+                self._remove(path)
             self._show(path, primitive)  # type: ignore[arg-type]
+            veiled |= _translucent(primitive) and (node is None or self._nodes[path] is not node)
 
     def handle(self, path: str) -> Any:
         """Return viser's handle of what is shown at a path, None when there is nothing."""
@@ -291,6 +296,10 @@ def _as_light(rgb: np.ndarray) -> np.ndarray:
     level = np.asarray(rgb) / 255.0
     light = np.where(level <= 0.04045, level / 12.92, ((level + 0.055) / 1.055) ** 2.4)
     return (255.0 * light).round().astype(np.uint8)
+
+
+def _translucent(primitive: object) -> bool:
+    return isinstance(primitive, Mesh) and primitive.opacity < 1
 
 
 def _poseable(primitive: Spatial) -> bool:
