@@ -15,7 +15,7 @@ MATHS = BASE | {"workbench.geometry"}
 
 # what a part may import of the workbench; longer names win
 ALLOWED = {
-    "workbench.axis": set(),
+    "workbench.axis": {"workbench.numerals"},
     "workbench.errors": set(),
     "workbench.watch": set(),
     "workbench.authors": {"workbench", "workbench.errors"},

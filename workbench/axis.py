@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-ROUND_OFF = 1e-9
-"""Below this share of its unit (metre, pixel, degree, per cent) a quantity is rounding: it is zero, and no axis shows it."""
+from workbench.numerals import ROUND_OFF
+
 LONGEST_LABEL = 20
 """So many characters fit along the height of a chart."""
 

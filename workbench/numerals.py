@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from decimal import Decimal
 
 _SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-TINY = 1e-9  # in the units a person reads: below it a number is what rounding left of zero
+ROUND_OFF = 1e-9
+"""Below this share of its unit (metre, pixel, degree, per cent) a quantity is rounding: it is zero, in words and on axes."""
 
 
 def fixed(value: float, places: int) -> str:
@@ -18,7 +19,7 @@ def fixed(value: float, places: int) -> str:
 
 def brief(value: float, digits: int = 3) -> str:
     """Write a number with so many significant digits and no zeros behind them; 0 where only rounding is left."""
-    if abs(value) < TINY:
+    if abs(value) < ROUND_OFF:
         return "0"
     text = f"{Decimal(f'{value:.{digits - 1}e}'):,f}"
     return (text.rstrip("0").rstrip(".") if "." in text else text).replace("-", "−")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from lessons.curvature.state import State
-from workbench.numerals import TINY
+from workbench.numerals import ROUND_OFF
 
 # Fixed, so that the same colour means the same curvature in every run of a built-in surface.
 K_SCALE, H_SCALE, DEFECT_SCALE, ERROR_SCALE = 5.0, 2.5, 0.2, 1.0
@@ -21,8 +21,8 @@ def reach(state: State, values: np.ndarray, fixed: float) -> float:
         return fixed
     known = np.abs(values[np.isfinite(values)])
     most = float(np.percentile(known, MOST)) if len(known) else 0.0
-    most = most if most > TINY else float(known.max(initial=0.0))
-    return float(f"{most:.2g}") if most > TINY else fixed
+    most = most if most > ROUND_OFF else float(known.max(initial=0.0))
+    return float(f"{most:.2g}") if most > ROUND_OFF else fixed
 
 
 def share_within(values: np.ndarray, limit: float) -> str:

@@ -12,7 +12,7 @@ from workbench.geometry.rotations import (
     matrix_to_euler,
     quaternion_from_matrix,
 )
-from workbench.numerals import TINY, brief, fixed, fixed_row
+from workbench.numerals import ROUND_OFF, brief, fixed, fixed_row
 from workbench.scene import Table
 
 
@@ -71,7 +71,7 @@ def in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder)
     axis, angle = axis_angle_from_rotation(R)
     rows = [
         (f"Euler {order}", ", ".join(f"{fixed(a, 1)}°" for a in np.degrees(matrix_to_euler(R, order)))),
-        ("axis", fixed_row(axis, 2) if angle > TINY else "any"),
+        ("axis", fixed_row(axis, 2) if angle > ROUND_OFF else "any"),
         ("angle", f"{fixed(np.degrees(angle), 1)}°"),
         ("quaternion w, x, y, z", fixed_row(quaternion_from_matrix(R), 2)),
     ]
