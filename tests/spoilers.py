@@ -36,9 +36,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
+from tests.runs import finished
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, Preset, Question, catalog
-from workbench.timeline import Timeline
 from workbench.typeset import inline_html, page_html
 
 
@@ -119,11 +119,8 @@ def facts(name: str) -> tuple[dict[tuple[Any, int], str], dict[str, float]]:
     answers: dict[str, float] = {}
     for params in dict.fromkeys([question.params for question in lesson.questions] + [params for params, _ in opened]):
         asked = [question for question in lesson.questions if question.params == params]
-        steps = [step for of, step in opened if of == params]
-        timeline = Timeline(lesson, params)
-        while (asked or min(steps) < 0 or len(timeline) <= max(steps)) and timeline.extend():
-            pass
-        captions |= {(params, step): timeline[step].caption.text for step in steps}
+        timeline = finished(name, params)
+        captions |= {(params, step): timeline[step].caption.text for of, step in opened if of == params}
         answers |= {question.name: question.answer(timeline.states()) for question in asked}
     return captions, answers
 

@@ -1,7 +1,6 @@
 """Holds every lesson of the catalogue to the same promises; a new lesson is covered without an edit here."""
 
 import dataclasses
-import functools
 import inspect
 import itertools
 import re
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.runs import whole_run
 from workbench.knobs import fields_of, from_json, to_json
 from workbench.lesson import Lesson, catalog
 from workbench.scene import Caption, caption_of, in_space, same
@@ -31,12 +31,6 @@ def first_steps(lesson: Lesson, params, n: int = MOST) -> Timeline:
     while len(timeline) < n and timeline.extend():
         pass
     return timeline
-
-
-@functools.lru_cache(24)
-def whole_run(name: str, params) -> Timeline:
-    """A preset's run often answers a question too."""
-    return Timeline(catalog()[name], params).complete()
 
 
 def ends(lesson: Lesson):
@@ -62,7 +56,7 @@ def lesson(request) -> Lesson:
 
 @pytest.fixture(scope="module")
 def default_run(lesson) -> Timeline:
-    return Timeline(lesson, lesson.params()).complete()
+    return whole_run(lesson.name, lesson.params())
 
 
 def test_the_default_run_ends_well(lesson, default_run):

@@ -14,6 +14,7 @@ import pytest
 import rerun as rr
 import viser
 
+from tests.runs import finished
 from tests.viewer.browser_scene import Browser, Seen, Windows, all_pairs, difference
 from workbench.lesson import catalog
 from workbench.recording.sink import RerunSink
@@ -31,12 +32,10 @@ def scenes_of(name: str) -> tuple[list[Scene], list[Scene]]:
     lesson = catalog()[name]
     opening, later = [], []
     for preset in lesson.presets:
-        timeline = Timeline(lesson, preset.params)
-        k = lesson.first_step if preset.step is None else preset.step
-        while (k < 0 or len(timeline) <= k + MORE) and timeline.extend():
-            pass
+        timeline = finished(name, preset.params)
+        k = (lesson.first_step if preset.step is None else preset.step) % len(timeline)
         opening.append(thinned(timeline[k].scene))
-        later.append(thinned(timeline[-1].scene))
+        later.append(thinned(timeline[min(k + MORE, len(timeline) - 1)].scene))
     return opening, later
 
 

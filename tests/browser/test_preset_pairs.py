@@ -1,4 +1,4 @@
-"""In a real browser a preset looks the same after other presets as on its own, pixel by pixel."""
+"""In a real browser a preset looks the same after other presets as on its own, tile by tile."""
 
 import io
 
@@ -10,17 +10,18 @@ from workbench.lesson import catalog
 from workbench.timeline import Timeline
 
 pytestmark = pytest.mark.browser
-WAIT = 60_000  # milliseconds
-MOST = 60  # pictures, until two in a row are the same
+MOST = 200  # pictures
+APART = 25  # of 255
+ALIKE = 6  # pictures in a row that are the same: surfaces are decoded beside the frames
 TRANSFORMS = catalog()["transforms"]
-FIRST, *OTHERS = ("conventions", "mirror", "perspective", "inverse")
+FIRST, *OTHERS = ("conventions", "mirror", "perspective")
 
 
 def opened(chromium, app):
     page = chromium.new_page(viewport={"width": 1100, "height": 640})
     page.goto(f"{app.address}/?lesson=transforms")
-    page.wait_for_selector("canvas[data-engine]", timeout=WAIT)
-    page.locator(".mantine-Notification-closeButton").click(timeout=WAIT)  # that there is no graphics card
+    page.wait_for_selector("canvas[data-engine]")
+    page.locator(".mantine-Notification-closeButton").click()  # that there is no graphics card
     return page
 
 
@@ -29,18 +30,24 @@ def seen(page, name: str) -> np.ndarray:
     preset = TRANSFORMS.preset(name)
     step = TRANSFORMS.first_step if preset.step is None else preset.step
     caption = Timeline(TRANSFORMS, preset.params).complete()[step].caption.text
-    page.get_by_role("button", name=preset.title, exact=True).first.click(timeout=WAIT)
-    page.locator(".wb-caption", has_text=caption).wait_for(timeout=WAIT)
+    page.get_by_role("button", name=preset.title, exact=True).first.click()
+    page.locator(".wb-caption", has_text=caption).wait_for()
     page.mouse.move(0, 0)
     between = {"x": 320.0, "y": 0.0, "width": 450.0, "height": 380.0}
-    before = b""
+    before, alike = b"", 0
     for _ in range(MOST):
         page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         now = page.screenshot(clip=between)
-        if now == before:
-            return np.asarray(Image.open(io.BytesIO(now)).convert("RGB")).astype(int)
+        alike = alike + 1 if now == before else 0
+        if alike == ALIKE:
+            return blurred(Image.open(io.BytesIO(now)).convert("RGB"))
         before = now
     raise AssertionError("the scene does not come to rest")
+
+
+def blurred(image: Image.Image) -> np.ndarray:
+    """The means over tiles of ten pixels: the grid's thin lines are not drawn the same twice."""
+    return np.asarray(image.resize((image.width // 10, image.height // 10), Image.Resampling.BOX)).astype(int)
 
 
 def test_presets_after_each_other_look_as_alone(chromium, app):
@@ -53,5 +60,5 @@ def test_presets_after_each_other_look_as_alone(chromium, app):
         alone = seen(page, name)
         page.close()
         others = [np.abs(alone - after[other]).max() for other in OTHERS if other != name]
-        assert min(others) > 64, "what is compared would look the same for another preset"
-        assert (np.abs(alone - after[name]).max(-1) > 16).mean() < 0.001, name
+        assert min(others) > 2 * APART, "what is compared would look the same for another preset"
+        assert np.abs(alone - after[name]).max() < APART, name

@@ -12,15 +12,13 @@ from lessons.icp.lesson import lesson, run
 from lessons.icp.params import Params
 from lessons.icp.presets import HOME
 from lessons.icp.state import State
+from tests.runs import finished
 from workbench.scene import Caption
 from workbench.timeline import Timeline
 
 
-@cache
 def timeline(params: Params) -> Timeline:
-    found = Timeline(lesson, params).complete()
-    assert found.stopped is None, found.failure or found.stopped
-    return found
+    return finished(lesson.name, params)
 
 
 def states(params: Params) -> tuple[State, ...]:

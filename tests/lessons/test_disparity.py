@@ -35,6 +35,7 @@ from lessons.disparity.presets import (
 )
 from lessons.disparity.states import State
 from lessons.disparity.words import depth_errors
+from tests.runs import finished
 from workbench.algorithms.cost_volume import sad_cost_volume
 from workbench.algorithms.disparity import Stage
 from workbench.algorithms.disparity_map import winner_takes_all
@@ -45,11 +46,8 @@ from workbench.scene import Caption, Curve, Field, Picture, Points, Scalar, Segm
 from workbench.timeline import Timeline
 
 
-@cache
 def timeline(params: Params) -> Timeline:
-    found = Timeline(lesson, params).complete()
-    assert found.stopped is None, found.failure or found.stopped
-    return found
+    return finished(lesson.name, params)
 
 
 @cache

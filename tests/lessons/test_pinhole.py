@@ -12,6 +12,7 @@ from lessons.pinhole.presets import BACK, DISTORT, DIVIDE, PIXELS
 from lessons.pinhole.shot import FACTORS, shot_of
 from lessons.pinhole.state import State
 from lessons.pinhole.words import back_error
+from tests.runs import finished
 from workbench.data.street import BALL_CENTER, street
 from workbench.errors import InputError
 from workbench.geometry.cameras import camera_center, depths, intrinsics, project, vanishing_points
@@ -37,9 +38,7 @@ def orange(picture: np.ndarray) -> np.ndarray:
 
 
 def tone(params: Params, step: int) -> str:
-    timeline = Timeline(lesson, params).complete()
-    assert timeline.stopped is None, timeline.failure
-    return timeline[step].caption.tone
+    return finished(lesson.name, params)[step].caption.tone
 
 
 # The default run

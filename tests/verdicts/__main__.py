@@ -1,6 +1,6 @@
 """Holds what lessons say to the truth: `python -m tests.verdicts [--whole] [LESSON ...]`; prints what does not hold.
 
-The whole audit takes every step of every preset and question at 20 seeds. The quick one takes three, and of other seeds
+The whole audit takes every step of every preset and question at 20 seeds. The quick one takes two, and of other seeds
 than a preset's own only the steps up to the algorithm's end.
 """
 
@@ -14,7 +14,7 @@ from tests.verdicts import Claim, Run, untrue
 from workbench.lesson import Lesson, catalog
 from workbench.scene import Caption, caption_of
 
-WHOLE, QUICK = range(20), range(3)
+WHOLE, QUICK = range(20), range(2)
 MOST = 5  # findings shown of a run
 
 Text = tuple[str, Callable[[Run], str], Sequence[Claim]]
