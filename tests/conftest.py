@@ -20,34 +20,6 @@ def checked(function_or_class):
     return beartype(conf=BeartypeConf(is_pep484_tower=True))(function_or_class)
 
 
-@pytest.hookimpl(tryfirst=True)  # before the groups are read
-def pytest_collection_modifyitems(items):
-    """Keep in one worker what shares a server, a site or a lesson's whole runs; the rest goes where there is time."""
-    for item in items:
-        name = shared_by(item)
-        if name:
-            item.add_marker(pytest.mark.xdist_group(name))
-
-
-def shared_by(item) -> str:
-    """Return what a test shares with others: its file in tests/browser, its lesson where that is run here, or nothing."""
-    from workbench.lesson import Lesson, catalog
-
-    if item.get_closest_marker("browser"):
-        return item.path.stem
-    if item.path.parent.name == "lessons":
-        return next((name for name in catalog() if item.path.stem.startswith(f"test_{name}")), "")
-    if item.path.stem not in ("test_lessons", "test_ordered_pairs", "test_spoilers"):
-        return ""
-    values = [getattr(value, "name", value) if isinstance(value, Lesson) else value for value in params_of(item)]
-    return next((value for value in values if isinstance(value, str) and value in catalog()), "")
-
-
-def params_of(item) -> list:
-    """Return the values that a test is parametrized with."""
-    return list(item.callspec.params.values()) if hasattr(item, "callspec") else []
-
-
 install_import_hook(["workbench.geometry", "workbench.algorithms", "workbench.data"], "tests.conftest.checked")
 
 
@@ -69,3 +41,10 @@ def chromium() -> Iterator:
         pytest.skip(HOW_TO)
     with started() as browser:
         yield browser
+
+
+def pytest_xdist_make_scheduler(config, log):
+    """Keep together what shares something."""
+    from tests.workers import Scheduling
+
+    return Scheduling(config, log)

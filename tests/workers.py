@@ -1,0 +1,22 @@
+"""Spreads tests over workers: what shares a server, a site or a lesson's whole runs goes to one of them.
+
+xdist's own groups (`--dist loadgroup`) are written into the names of tests, which pytest 9 no longer lets it do.
+"""
+
+import re
+
+from xdist.scheduler import LoadScopeScheduling
+
+RUN_LESSONS = re.compile(r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers)\.py::\w+\[(\w+)")
+OF_A_LESSON = re.compile(r"tests/lessons/test_(\w+?)(?:_own)?\.py::")
+IN_A_BROWSER = re.compile(r"(tests/(?:browser/\w+|recording/test_browser)\.py)::")
+
+
+class Scheduling(LoadScopeScheduling):
+    """Gives a worker all whole runs of a lesson, or all of a file that opens a browser; other tests one by one."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        return next((found[1] for pattern in GROUPS if (found := pattern.match(nodeid))), nodeid)
+
+
+GROUPS = (IN_A_BROWSER, OF_A_LESSON, RUN_LESSONS)
