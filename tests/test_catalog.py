@@ -9,6 +9,7 @@ import pytest
 from tests import fake
 from workbench import listing
 from workbench.errors import InputError
+from workbench.exercise.finding import exercises_of
 from workbench.lesson import catalog, find, load
 from workbench.listing import listed
 
@@ -69,7 +70,7 @@ def test_exercises_are_imported_only_where_they_are_wanted():
     try:
         assert catalog()["icp"].name == "icp"
         assert wanted not in sys.modules
-        assert [exercise.lesson for exercise in catalog()["icp"].exercises()] == ["icp"] * 3
+        assert [exercise.lesson for exercise in exercises_of(catalog()["icp"])] == ["icp"] * 3
     finally:
         if kept is not None:
             sys.modules[wanted] = kept

@@ -10,6 +10,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from workbench.errors import InputError
+from workbench.exercise.finding import exercises_of
 from workbench.knobs import Field as KnobField
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, catalog
@@ -137,7 +138,7 @@ def written_of(lesson: Lesson) -> Iterator[str]:
         yield from (question.text, question.unit, *question.choices)
     for field in fields_of(lesson.params):
         yield from (field.label, field.knob.hint, field.knob.unit, *field.knob.parts, *field.choices)
-    for exercise in lesson.exercises():
+    for exercise in exercises_of(lesson):
         yield from (mistake.sentence for mistake in exercise.mistakes)
 
 

@@ -10,31 +10,55 @@ from pathlib import Path
 import pytest
 
 from tests import fake
-from tests.exercise.centroid import EXERCISE
 from workbench import listing
 from workbench.cli import main
 from workbench.errors import LeftOutWarning
-from workbench.exercise.starter import exercises, exercises_of
+from workbench.exercise import finding
+from workbench.exercise.finding import exercises, exercises_of
 from workbench.lesson import catalog, course
 
 ROOT = Path(__file__).resolve().parents[1]
 OURS = {name: lesson.order for name, lesson in course().items()}
-OUR_EXERCISES = [exercise.name for lesson in course().values() for exercise in lesson.exercises()]
+OUR_EXERCISES = [exercise.name for lesson in course().values() for exercise in exercises_of(lesson)]
 
 
-def broken():
-    raise SystemExit("no exercises today")
+icp = replace(fake.lesson, name="icp", summary="Not the course's.", order=1)  # what entry points below name
+twin = fake.lesson
+
+LESSON = """
+from dataclasses import dataclass, replace
+from tests import fake
+
+@dataclass(frozen=True)
+class Params(fake.Params):
+    pass
+
+lesson = replace(fake.lesson, name={name!r}, params=Params, presets=(), questions=())
+"""
+CENTROID = (ROOT / "tests" / "exercise" / "centroid.py").read_text(encoding="utf-8").partition("EXERCISE =")[0]
+FILES = {
+    "taken": ("align_rigid", CENTROID.replace("def centroid", "def align_rigid")),
+    "good": ("centroid", CENTROID),
+    "same": ("centroid", CENTROID),
+    "strange": ("odd", CENTROID.replace("def centroid", "def odd").replace('slot="turn"', 'slot="wheel"')),
+    "nameless": ("even", CENTROID),
+    "failing": ("lazy", 'raise SystemExit("no exercises today")'),
+}
+"""By lesson its one exercise: the file's name and what it holds."""
 
 
-# what the entry points below name
-icp = replace(fake.lesson, name="icp", summary="Not the course's.", order=1)
-taken = replace(
-    fake.lesson, name="spirals", exercises=lambda: (replace(EXERCISE, name="align_rigid", lesson="spirals"),)
-)
-good = replace(fake.lesson, exercises=lambda: (EXERCISE,))
-same = replace(fake.lesson, name="other", exercises=lambda: (replace(EXERCISE, lesson="other"),))
-strange = replace(fake.lesson, name="strange", exercises=lambda: (replace(EXERCISE, name="odd", lesson="icp"),))
-failing = replace(fake.lesson, name="failing", exercises=broken)
+@pytest.fixture
+def packages(tmp_path, monkeypatch):
+    """Writes packages of third parties: each a lesson, and an exercise."""
+    for name, (exercise, text) in FILES.items():
+        folder = tmp_path / f"their_{name}"
+        (folder / "exercises").mkdir(parents=True)
+        (folder / "lesson.py").write_text(LESSON.format(name=name))
+        (folder / "exercises" / f"{exercise}.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    yield
+    for name in [name for name in sys.modules if name.startswith("their_")]:
+        del sys.modules[name]
 
 
 @pytest.fixture
@@ -49,8 +73,10 @@ def install(monkeypatch):
             monkeypatch.setattr(module, "entry_points", lambda group: entries)
 
     catalog.cache_clear()
+    finding.usable.cache_clear()
     yield register
     catalog.cache_clear()
+    finding.usable.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -61,8 +87,8 @@ def install(monkeypatch):
             r"lesson by-0 \(tests.test_third_parties:icp\) .*'icp' is taken by lessons.icp",
         ),
         (
-            ["tests.fake:lesson", "tests.test_third_parties:good"],
-            r"lesson by-1 \(tests.test_third_parties:good\) .*'fake' is taken by by-0 \(tests.fake:lesson\)",
+            ["tests.fake:lesson", "tests.test_third_parties:twin"],
+            r"lesson by-1 \(tests.test_third_parties:twin\) .*'fake' is taken by by-0 \(tests.fake:lesson\)",
         ),
         (["tests.test_third_parties:nothing"], "lesson by-0 .*of type Lesson"),
     ],
@@ -79,16 +105,21 @@ def test_a_lesson_with_a_taken_name_is_left_out_and_both_places_are_named(capsys
 
 
 @pytest.mark.parametrize(
-    ("values", "said", "more"),
+    ("names", "said", "more"),
     [
-        (["taken"], r"exercise align_rigid of lesson spirals \(tests.fake\) .* taken by lesson icp \(lessons.icp", []),
-        (["good", "same"], r"exercise centroid of lesson other .* taken by lesson fake \(tests.fake\)", ["centroid"]),
-        (["strange"], "exercise odd of lesson strange .* belongs to lesson 'icp'", []),
+        (
+            ["taken"],
+            r"exercise align_rigid of lesson taken \(their_taken.lesson\) .* taken by lesson icp \(lessons.icp",
+            [],
+        ),
+        (["good", "same"], r"exercise centroid of lesson same .* taken by lesson good \(their_good", ["centroid"]),
+        (["strange"], "exercises of lesson strange .*: InputError: exercise odd: run .* has no keyword 'wheel'", []),
+        (["nameless"], "exercises of lesson nameless .*even.py: it needs one function `even` with @contract", []),
         (["failing"], "exercises of lesson failing .*: SystemExit: no exercises today", []),
     ],
 )
-def test_an_exercise_with_a_taken_name_is_left_out_and_both_places_are_named(capsys, install, values, said, more):
-    install(*(f"tests.test_third_parties:{value}" for value in values))
+def test_an_exercise_that_cannot_stand_is_left_out_and_its_place_is_named(capsys, packages, install, names, said, more):
+    install(*(f"their_{name}.lesson:lesson" for name in names))
     with pytest.warns(LeftOutWarning, match=said):
         assert main(["exercise"]) == 0
     listed = [line.split()[:2] for line in capsys.readouterr().out.splitlines()]
@@ -96,9 +127,9 @@ def test_an_exercise_with_a_taken_name_is_left_out_and_both_places_are_named(cap
     assert ["icp", "align_rigid"] in listed
 
 
-def test_a_third_party_s_exercises_join_in_course_order(install):
-    install("tests.test_third_parties:good")
-    assert [exercise.name for exercise in exercises_of(good)] == ["centroid"]
+def test_a_third_party_s_exercises_join_in_course_order(packages, install):
+    install("their_good.lesson:lesson")
+    assert [exercise.name for exercise in exercises_of(catalog()["good"])] == ["centroid"]
     order = list(catalog())
     places = [order.index(exercise.lesson) for exercise in exercises().values()]
     assert places == sorted(places)

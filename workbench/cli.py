@@ -141,7 +141,8 @@ def exercise(
     force: Annotated[bool, Option("Replace a file that is there: your work in it is lost.")] = False,
 ) -> None:
     """Write the starter file of an exercise, or list all exercises."""
-    from workbench.exercise.starter import exercises, exercises_of, find_exercise, write_starter
+    from workbench.exercise.finding import exercises, exercises_of, find_exercise
+    from workbench.exercise.starter import write_starter
 
     if name is None:
         for item in exercises().values():
@@ -163,9 +164,9 @@ def check(
 ) -> int:
     """Judge one file by an exercise's checks; exit code 1 without full marks."""
     from workbench.exercise.failing import record_failing
+    from workbench.exercise.finding import exercises_in
     from workbench.exercise.grading import grade_file
     from workbench.exercise.reports import terminal, write_files
-    from workbench.exercise.starter import exercises_in
 
     reports = [grade_file(file, item, hidden=hidden) for item in exercises_in(file)]
     for report in reports:

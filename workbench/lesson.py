@@ -118,7 +118,6 @@ class Lesson(Generic[P, S]):
         draw: What one state looks like.
         order: The place in the course.
         first_step: Where the default run opens (negative counts from the end).
-        exercises: Returns the lesson's exercises; a function, so that they are imported only where they are wanted.
     """
 
     name: str
@@ -132,7 +131,6 @@ class Lesson(Generic[P, S]):
     view: View = field(default_factory=View)
     presets: tuple[Preset[P], ...] = ()
     questions: tuple[Question[P, S], ...] = ()
-    exercises: Callable[[], tuple[Any, ...]] = tuple
     first_step: int = 0
 
     def __post_init__(self) -> None:

@@ -6,13 +6,12 @@ blind spot.
 
 `params.py` has the inputs, `clouds.py` the clouds, `states.py` what is measured,
 `slopes.py` which way a distance falls, `draw.py` and `words.py` the picture,
-`presets.py` the experiments and questions, `exercise.py` the exercises.
+`presets.py` the experiments and questions, `exercises` what students write.
 """
 
 from collections.abc import Iterator
 from itertools import zip_longest
 from pathlib import Path
-from typing import Any
 
 from lessons.chamfer_emd import slopes
 from lessons.chamfer_emd.clouds import clouds_of
@@ -58,13 +57,6 @@ def side_by_side(lefts: Iterator[Flow], rights: Iterator[Flow]) -> Iterator[tupl
             yield left, right
 
 
-def exercises() -> tuple[Any, ...]:
-    """Return what students write for this lesson."""
-    from lessons.chamfer_emd.exercise import EXERCISES
-
-    return EXERCISES
-
-
 lesson = Lesson(
     name="chamfer_emd",
     title="Chamfer and earth mover's",
@@ -77,6 +69,5 @@ lesson = Lesson(
     view=View(eye=(0.0, -7.4, 0.2), target=(0.0, 0.0, -0.7), grid=0.5, grid_height=-1.3, axes=False),
     presets=PRESETS,
     questions=QUESTIONS,
-    exercises=exercises,
     first_step=8,
 )

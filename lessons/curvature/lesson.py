@@ -10,7 +10,6 @@ a neighbourhood does not; and the defects' sum knows nothing of the mesh but its
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -83,13 +82,6 @@ def with_mistake(
     return defects, gaussian, normals
 
 
-def exercises() -> tuple[Any, ...]:
-    """Return what students write for this lesson."""
-    from lessons.curvature.exercise import EXERCISES
-
-    return EXERCISES
-
-
 lesson = Lesson(
     name="curvature",
     title="Curvature of a mesh",
@@ -102,6 +94,5 @@ lesson = Lesson(
     view=View(eye=EYE, target=(0.0, 0.0, -0.45), grid=0.5, grid_height=-1.0, axes=False),
     presets=PRESETS,
     questions=QUESTIONS,
-    exercises=exercises,
     first_step=3,
 )

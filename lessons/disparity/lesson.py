@@ -11,7 +11,6 @@ like, `words.py` the captions, `presets.py` the experiments and questions.
 import functools
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from lessons.disparity.draw import draw
 from lessons.disparity.pairs import setup_of
@@ -52,13 +51,6 @@ def run(
     yield from states_of(setup, steps, depth)
 
 
-def exercises() -> tuple[Any, ...]:
-    """Return what students write for this lesson."""
-    from lessons.disparity.exercise import EXERCISES
-
-    return EXERCISES
-
-
 lesson = Lesson(
     name="disparity",
     title="Disparity and depth",
@@ -71,6 +63,5 @@ lesson = Lesson(
     view=View(eye=(0.5, -4.4, 2.4), target=(0.15, 0.8, -0.75), grid=0.5, grid_height=-0.62),
     presets=PRESETS,
     questions=QUESTIONS,
-    exercises=exercises,
     first_step=15,
 )

@@ -10,7 +10,6 @@ experiments and questions.
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -68,13 +67,6 @@ def turn(T_new: np.ndarray, T_old: np.ndarray) -> float:
     return float(np.degrees(rotation_angle(nearest_rotation(T_new[:3, :3]) @ nearest_rotation(T_old[:3, :3]).T)))
 
 
-def exercises() -> tuple[Any, ...]:
-    """Return what students write for this lesson."""
-    from lessons.icp.exercise import EXERCISES
-
-    return EXERCISES
-
-
 lesson = Lesson(
     name="icp",
     title="Iterative closest point",
@@ -87,5 +79,4 @@ lesson = Lesson(
     view=View(eye=(1.5, -1.9, 1.0), target=(0.0, 0.0, 0.1), grid=None),
     presets=PRESETS,
     questions=QUESTIONS,
-    exercises=exercises,
 )

@@ -9,7 +9,6 @@ laid over it in orange, so a mistake is seen where it is made.
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -87,13 +86,6 @@ def _colors(role: Role, n: int) -> np.ndarray:
     return np.tile(np.array([PALETTE[role]], np.uint8), (n, 1))
 
 
-def exercises() -> tuple[Any, ...]:
-    """Return what students write for this lesson."""
-    from lessons.pinhole.exercise import EXERCISES
-
-    return EXERCISES
-
-
 lesson = Lesson(
     name="pinhole",
     title="The pinhole camera",
@@ -106,6 +98,5 @@ lesson = Lesson(
     view=View(eye=(7.6, -12.5, 6.6), target=(0.3, 0.6, 0.4), grid=2.0, grid_height=-0.02),
     presets=PRESETS,
     questions=QUESTIONS,
-    exercises=exercises,
     first_step=2,
 )

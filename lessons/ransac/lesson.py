@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -155,13 +154,6 @@ def rivals_of(subject: Subject, corner: float) -> tuple[Rival, ...]:
     )
 
 
-def exercises() -> tuple[Any, ...]:
-    """Return what students write for this lesson."""
-    from lessons.ransac.exercise import EXERCISES
-
-    return EXERCISES
-
-
 lesson = Lesson(
     name="ransac",
     title="RANSAC",
@@ -174,6 +166,5 @@ lesson = Lesson(
     view=View(eye=(1.0, -4.6, 2.0), target=(0.0, 0.0, 0.1), grid=0.5, grid_height=-0.35, axes=False),
     presets=PRESETS,
     questions=QUESTIONS,
-    exercises=exercises,
     first_step=2,
 )

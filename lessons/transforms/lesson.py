@@ -9,7 +9,6 @@ yielded, `draw.py` the picture, `presets.py` the experiments and questions.
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -136,13 +135,6 @@ def _degrees_between(T: np.ndarray, other: np.ndarray) -> float:
     return float(np.degrees(rotation_angle(nearest_rotation(T[:3, :3]).T @ nearest_rotation(other[:3, :3]))))
 
 
-def exercises() -> tuple[Any, ...]:
-    """Return what students write for this lesson."""
-    from lessons.transforms.exercise import EXERCISES
-
-    return EXERCISES
-
-
 lesson = Lesson(
     name="transforms",
     title="Transforms",
@@ -155,6 +147,5 @@ lesson = Lesson(
     view=View(eye=(4.1, -4.6, 3.0), target=(1.1, 0.3, 0.15), grid=0.5),
     presets=PRESETS,
     questions=QUESTIONS,
-    exercises=exercises,
     first_step=5,
 )

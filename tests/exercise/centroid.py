@@ -1,10 +1,18 @@
-"""A small exercise for the engine's tests: the mean of the rows of an array."""
+"""Write the centroid."""
+
+import sys
 
 import numpy as np
 
-from workbench.exercise import Exercise, Mistake, band, check, fail, full
+from workbench.exercise import band, check, contract, fail, full, mistake
+from workbench.exercise.model import exercise_in
 
 
+@contract(
+    slot="turn",
+    examples=(("centroid(np.array([[0, 0, 0], [2, 4, 6]]))", "array([1., 2., 3.])"),),
+    seconds=1.0,
+)
 def centroid(p: np.ndarray) -> np.ndarray:
     """Return the mean of the rows of p, (n, 3), metres."""
     return p.mean(axis=0)
@@ -33,18 +41,19 @@ def moves_along(candidate):
     return band("it moves along but for", off, "m", good=1e-9, fair=1e-3, hint="A mean moves with its points.")
 
 
-EXERCISE = Exercise(
-    name="centroid",
-    lesson="fake",
-    slot="turn",
-    reference=centroid,
-    task="Write the centroid.",
-    checks=(is_the_mean, leaves_the_input_alone, moves_along),
-    mistakes=(
-        Mistake("median", lambda p: np.median(p, axis=0), "You returned the median of each coordinate, not the mean."),
-        Mistake("sum", lambda p: p.sum(axis=0), "You returned the sum: divide by the number of points."),
-        Mistake("columns", lambda p: p.mean(axis=1), "You averaged each row: the mean runs over axis 0."),
-    ),
-    examples=(("centroid(np.array([[0, 0, 0], [2, 4, 6]]))", "array([1., 2., 3.])"),),
-    seconds=1.0,
-)
+@mistake("You returned the median of each coordinate, not the mean.")
+def median(p: np.ndarray) -> np.ndarray:
+    return np.median(p, axis=0)
+
+
+@mistake("You returned the sum: divide by the number of points.")
+def total(p: np.ndarray) -> np.ndarray:
+    return p.sum(axis=0)
+
+
+@mistake("You averaged each row: the mean runs over axis 0.")
+def columns(p: np.ndarray) -> np.ndarray:
+    return p.mean(axis=1)
+
+
+EXERCISE = exercise_in(sys.modules[__name__], "fake")

@@ -5,20 +5,18 @@ from dataclasses import replace
 
 import pytest
 
-from tests import fake
 from tests.exercise.batch import write_class
 from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
-from workbench.exercise import classroom, starter
+from workbench.exercise import classroom, finding
 
 POINTS = {"right": 4.0, "sum": 1.0, "hang": 0.0, "crash": 0.0}
 
 
 @pytest.fixture(autouse=True)
 def only_the_centroid(monkeypatch):
-    lesson = replace(fake.lesson, exercises=lambda: (replace(EXERCISE, seconds=0.4),))
-    for lessons in ("course", "catalog"):
-        monkeypatch.setattr(starter, lessons, lambda: {"fake": lesson})
+    quick = replace(EXERCISE, contract=replace(EXERCISE.contract, seconds=0.4))
+    monkeypatch.setattr(finding, "exercises", lambda: {"centroid": quick})
 
 
 def test_a_class_is_graded_whole_in_parallel_and_goes_on_where_it_stopped(tmp_path):
@@ -46,12 +44,12 @@ def test_a_class_is_graded_whole_in_parallel_and_goes_on_where_it_stopped(tmp_pa
         else:
             assert result["error"] is None
             assert sum(report["points"] for report in result["reports"]) == POINTS[kind], kind
-            assert (result["reports"][0]["mistake"] or {}).get("name") == ("sum" if kind == "sum" else None)
+            assert (result["reports"][0]["mistake"] or {}).get("name") == ("total" if kind == "sum" else None)
     rows = list(csv.DictReader(io.StringIO((tmp_path / "out" / "class.csv").read_text())))
     assert [row["student"] for row in rows] == sorted(kinds)
     matrix = list(csv.reader(io.StringIO((tmp_path / "out" / "matrix.csv").read_text())))
     assert matrix[-1][0] == "most frequent mistake"
-    assert "sum (6)" in matrix[-1]
+    assert "total (6)" in matrix[-1]
     summary = (tmp_path / "out" / "summary.md").read_text()
     assert "18 graded, 8 with full marks, 2 could not be graded" in summary
 

@@ -11,11 +11,12 @@ import jaxtyping
 import numpy as np
 import pytest
 
+from workbench.exercise.finding import exercises, exercises_of
 from workbench.exercise.grading import grade_file, grade_function
 from workbench.exercise.model import Exercise, Mistake
 from workbench.exercise.reports import terminal
 from workbench.exercise.sandbox import StudentError
-from workbench.exercise.starter import exercises, starter, write_starter
+from workbench.exercise.starter import starter, write_starter
 from workbench.knobs import fields_of
 from workbench.lesson import catalog
 
@@ -52,7 +53,7 @@ def variants(lesson):
 
 def drives(exercise, params) -> bool:
     try:
-        for _ in islice(catalog()[exercise.lesson].run(params, **{exercise.slot: called}), 12):
+        for _ in islice(catalog()[exercise.lesson].run(params, **{exercise.contract.slot: called}), 12):
             pass
     except CalledError:
         return True
@@ -65,14 +66,14 @@ def found(report) -> str:
 
 
 def test_names_are_unique():
-    listed = [exercise.name for lesson in catalog().values() for exercise in lesson.exercises()]
+    listed = [exercise.name for lesson in catalog().values() for exercise in exercises_of(lesson)]
     assert len(listed) == len(set(listed))
 
 
 def test_it_is_complete(exercise):
     lesson = catalog()[exercise.lesson]
     slots = list(inspect.signature(lesson.run).parameters)[1:]
-    assert exercise.slot in slots
+    assert exercise.contract.slot in slots
     assert exercise.reference.__name__ == exercise.name, "messages name the reference"
     assert len(exercise.checks) >= 4
     public = [check.public for check in exercise.checks]
@@ -81,7 +82,7 @@ def test_it_is_complete(exercise):
     assert False in public
     assert len({mistake.name for mistake in exercise.mistakes}) == len(exercise.mistakes) >= 3
     assert len(exercise.alternatives) >= 1
-    assert len(exercise.examples) >= 2
+    assert len(exercise.contract.examples) >= 2
     assert 40 <= len(exercise.task) <= 600
     assert inspect.getdoc(exercise.reference)
 
@@ -123,7 +124,7 @@ def test_who_sees_only_public_checks_is_not_told_that_all_is_done(exercise):
 
 def test_the_examples_are_true(exercise):
     known = {"np": np, "array": np.array, "nan": np.nan}
-    for (call, result), function in product(exercise.examples, (exercise.reference, *exercise.alternatives)):
+    for (call, result), function in product(exercise.contract.examples, (exercise.reference, *exercise.alternatives)):
         assert call.startswith(f"{exercise.name}(")
         known[exercise.name] = function
         np.testing.assert_allclose(eval(call, known), eval(result, known), atol=5e-4, rtol=5e-4, err_msg=call)
@@ -133,7 +134,7 @@ def test_the_starter_runs_says_its_contract_and_earns_nothing(exercise, tmp_path
     path = write_starter(exercise, tmp_path)
     text = path.read_text(encoding="utf-8")
     assert max(map(len, text.splitlines())) <= 125
-    assert all(call in text for call, _ in exercise.examples)
+    assert all(call in text for call, _ in exercise.contract.examples)
     report = grade_file(path, exercise)
     assert report.points == 0, found(report)
     assert report.mistake is None, found(report)
@@ -157,11 +158,13 @@ def test_a_right_file_gets_full_marks_in_a_process_of_its_own(exercise, tmp_path
 
 
 def standalone(function: Callable) -> str:
-    """Return the source of a function and of what it uses in its own module, without the workbench."""
-    module = ast.parse(inspect.getsource(sys.modules[function.__module__]))
+    """Return the source of a function and of what it uses in its file and its folder's, without the workbench."""
+    places = (function.__module__.rpartition(".")[0], function.__module__)
+    body = [statement for place in places for statement in ast.parse(inspect.getsource(sys.modules[place])).body]
     parts: dict[str, ast.stmt] = {}
-    for statement in module.body:
+    for statement in body:
         if isinstance(statement, (ast.FunctionDef, ast.ClassDef)):
+            statement.decorator_list = []
             parts[statement.name] = statement
         elif isinstance(statement, ast.Assign):
             names = [node.id for target in statement.targets for node in ast.walk(target) if isinstance(node, ast.Name)]
@@ -175,7 +178,7 @@ def standalone(function: Callable) -> str:
         if name in parts and name not in used:
             used.add(name)
             waiting += [node.id for node in ast.walk(parts[name]) if isinstance(node, ast.Name)]
-    chosen = [statement for statement in module.body if any(parts[name] is statement for name in used)]
+    chosen = [statement for statement in body if any(parts[name] is statement for name in used)]
     return "\n\n".join(["from __future__ import annotations", *map(ast.unparse, chosen)])
 
 

@@ -12,7 +12,7 @@ from workbench.exercise import reports
 from workbench.exercise.beside import beside, first_difference, gap
 from workbench.exercise.candidate import Candidate, held_to_contract
 from workbench.exercise.grading import grade_function, values_alike
-from workbench.exercise.model import Exercise, Verdict, band, check, full
+from workbench.exercise.model import Exercise, Verdict, band, check, contract, full
 from workbench.exercise.sandbox import StudentError
 from workbench.exercise.starter import starter
 from workbench.timeline import Timeline
@@ -37,7 +37,7 @@ def test_a_check_that_stumbles_costs_itself_only():
         """It stumbles."""
         raise KeyError("ours")
 
-    exercise = Exercise("centroid", "fake", "turn", centroid, "Do.", (stumbles, *EXERCISE.checks), ())
+    exercise = replace(EXERCISE, checks=(stumbles, *EXERCISE.checks), mistakes=())
     report = grade_function(centroid, exercise)
     assert [outcome.verdict.word for outcome in report.outcomes] == ["fail", "pass", "pass", "pass"]
     assert "could not be judged" in report.outcomes[0].verdict.message
@@ -118,7 +118,9 @@ def turning(angle: float) -> np.ndarray:
     return fake.turn_about_z(angle)
 
 
-TURN = Exercise("turn", "fake", "turn", turning, "Turn.", EXERCISE.checks, ())
+TURN = Exercise(
+    name="turn", lesson="fake", task="Turn.", contract=contract(slot="turn")(turning), checks=EXERCISE.checks
+)
 
 
 def test_the_right_function_never_differs():
@@ -198,7 +200,7 @@ def test_the_candidate_remembers_what_it_was_given():
 
 def test_an_exercise_needs_checks_with_names():
     with pytest.raises(ValueError, match="checks"):
-        Exercise("a", "b", "c", centroid, "d", (), ())
+        replace(EXERCISE, checks=())
     with pytest.raises(TypeError, match="docstring"):
         check(1)(lambda candidate: full("x"))
 

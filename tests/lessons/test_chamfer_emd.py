@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 import scipy
-
 from lessons.chamfer_emd.answers import earth_movers_of_copies, points_left_out
+
 from lessons.chamfer_emd.clouds import YARDSTICKS, clouds_of
 from lessons.chamfer_emd.draw import T_WORLD_LEFT, T_WORLD_RIGHT
 from lessons.chamfer_emd.lesson import lesson, run

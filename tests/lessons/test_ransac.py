@@ -20,6 +20,7 @@ from workbench.algorithms.ransac import Stop, iterations_needed
 from workbench.algorithms.scores import count_inliers
 from workbench.errors import InputError
 from workbench.exercise.beside import beside
+from workbench.exercise.finding import exercises_of
 from workbench.geometry.lines_planes import plane_from_points
 from workbench.scene import Caption, Classes, Points, Segments
 from workbench.timeline import Timeline
@@ -341,7 +342,7 @@ def test_every_model_asks_how_many_samples(model):
 
 
 def test_the_wire_shows_what_a_plane_does_with_points_on_a_line():
-    exercise = next(exercise for exercise in lesson.exercises() if exercise.name == "plane_from_points")
+    exercise = next(exercise for exercise in exercises_of(lesson) if exercise.name == "plane_from_points")
     assert "'Three points on one line'" in exercise.task
     assert "Three points on one line" in [preset.title for preset in lesson.presets if preset.params == presets.WIRE]
     careless = next(mistake.function for mistake in exercise.mistakes if mistake.name == "line not seen")
@@ -350,7 +351,7 @@ def test_the_wire_shows_what_a_plane_does_with_points_on_a_line():
         assert [next(states).now.phase for _ in range(2)] == ["sample", phase]
 
 
-RIGHT = [(exercise, function) for exercise in lesson.exercises() for function in exercise.alternatives]
+RIGHT = [(exercise, function) for exercise in exercises_of(lesson) for function in exercise.alternatives]
 
 
 @pytest.mark.parametrize(("exercise", "function"), RIGHT, ids=lambda value: getattr(value, "__name__", value.__class__))

@@ -46,7 +46,7 @@ class Pair:
 
 def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
     """Return the lesson driven by a student's function, with the reference's run as its ghost."""
-    slots = {exercise.slot: Candidate(function, exercise.reference, remember=False)}
+    slots = {exercise.contract.slot: Candidate(function, exercise.reference, remember=False)}
 
     def run(params: Any) -> Iterator[Pair]:
         ours, theirs = lesson.run(params), lesson.run(params, **slots)
@@ -79,7 +79,7 @@ def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             )
         return scene | {DIFFERENCE: _difference(pair.difference)}
 
-    return replace(lesson, run=run, draw=draw, questions=(), exercises=lambda: (exercise,))
+    return replace(lesson, run=run, draw=draw, questions=())
 
 
 def _trouble(error: Exception, exercise: Exercise) -> str:

@@ -19,9 +19,9 @@ from typing import Any, TextIO
 
 import workbench
 from workbench.errors import InputError
+from workbench.exercise.finding import exercises_in, find_exercise
 from workbench.exercise.grading import grade_file
 from workbench.exercise.reports import SCHEMA_VERSION, as_dict
-from workbench.exercise.starter import exercises_in, find_exercise
 from workbench.progress import bar
 
 Progress = Callable[[str, int, int], object]

@@ -32,7 +32,7 @@ def record_failing(exercise: Exercise, path: Path, out: Path | None = None) -> P
     lesson = catalog()[exercise.lesson]
     out = path.with_suffix(".rrd") if out is None else out
     end = time.monotonic() + SECONDS
-    with Student(path, exercise.name, seconds=exercise.seconds) as student:
+    with Student(path, exercise.name, seconds=exercise.contract.seconds) as student:
         paired = beside(lesson, exercise, student)
         for params in (lesson.params(), *(preset.params for preset in lesson.presets)):
             timeline = Timeline(paired, params)

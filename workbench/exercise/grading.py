@@ -72,7 +72,7 @@ def grade_file(path: Path, exercise: Exercise, *, hidden: bool = True) -> Report
     Raises:
         InputError: If the file cannot be read or does not load; the message names the line.
     """
-    with Student(path, exercise.name, seconds=exercise.seconds) as student:
+    with Student(path, exercise.name, seconds=exercise.contract.seconds) as student:
         student.start()
         return grade_function(student, exercise, hidden=hidden, file=path.name)
 
@@ -126,17 +126,22 @@ def recognised(calls: Sequence[Call], exercise: Exercise, answer: Answer) -> Mis
     """
     best, most = None, 0
     for mistake in exercise.mistakes:
-        telling = 0
-        for call in calls:
-            right, wrong = answer(exercise.reference, call), answer(mistake.function, call)
-            if _alike((call.value, call.error), wrong):
-                telling += not _alike(wrong, right)
-            elif not right[1] and all(_alike(answer(other, call), right) for other in exercise.alternatives):
-                break
-        else:
-            if telling > most:
-                best, most = mistake, telling
+        telling = max(_telling(calls, exercise, form, answer) for form in exercise.forms(mistake))
+        if telling > most:
+            best, most = mistake, telling
     return best
+
+
+def _telling(calls: Sequence[Call], exercise: Exercise, wrong: Function, answer: Answer) -> int:
+    """Return how many calls were answered as a wrong function does where it is wrong; 0 where one speaks against it."""
+    telling = 0
+    for call in calls:
+        right, mistaken = answer(exercise.reference, call), answer(wrong, call)
+        if _alike((call.value, call.error), mistaken):
+            telling += not _alike(mistaken, right)
+        elif not right[1] and all(_alike(answer(other, call), right) for other in exercise.alternatives):
+            return 0
+    return telling
 
 
 def _answer(function: Function, args: tuple[Any, ...]) -> tuple[Any, str]:

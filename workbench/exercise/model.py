@@ -1,12 +1,18 @@
 """What an exercise is: the function a student writes, the checks that judge it, and the mistakes that are known.
 
+An exercise is one file, `exercises/NAME.py` in its lesson's folder: its docstring is the task, `@contract` marks our
+function, `@check` what is judged, `@mistake` known wrong functions and `@alternative` other right ones.
+
 A check gets the candidate, a callable that runs the student's function in another process and gives back plain values,
 and returns a `Verdict`. It judges geometry in degrees and metres, properties and contracts, never bits.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from types import ModuleType
 from typing import Any
+
+from workbench.errors import InputError
 
 Function = Callable[..., Any]
 
@@ -84,42 +90,105 @@ def check(points: float, *, public: bool = True) -> Callable[[Callable[[Function
     return made
 
 
-@dataclass(frozen=True)
-class Mistake:
-    """A plausible wrong function, and the sentence for a student whose function gives what it gives."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Contract:
+    """The function that a student writes, as ours does it: its signature and docstring are what the starter file says.
 
-    name: str
+    Called, it answers as our function does. `contract` makes it, and tells of its attributes.
+    """
+
+    function: Function
+    slot: str
+    examples: tuple[tuple[str, str], ...] = ()
+    seconds: float = 5.0
+    either: Callable[[Any], Any] | None = None
+
+    def __call__(self, *args: Any) -> Any:
+        """Return what our function returns."""
+        return self.function(*args)
+
+
+def contract(
+    *,
+    slot: str,
+    examples: tuple[tuple[str, str], ...] = (),
+    seconds: float = 5.0,
+    either: Callable[[Any], Any] | None = None,
+) -> Callable[[Function], Contract]:
+    """Make the contract of an exercise of our function: it has the name of its file, which is that of the exercise.
+
+    Args:
+        slot: The keyword of the lesson's run that the student's function replaces.
+        examples: Calls with their results for the starter, as `(call in Python, result in Python)` text.
+        seconds: How long one call may take.
+        either: Where the contract leaves open which of two answers is given (a plane's normal may point to either side):
+            makes the other of the one.
+    """
+    return lambda function: Contract(function=function, slot=slot, examples=examples, seconds=seconds, either=either)
+
+
+@dataclass(frozen=True, eq=False)
+class Mistake:
+    """A plausible wrong function, and the sentence for a student whose function gives what it gives.
+
+    Called, it answers as the wrong function does.
+    """
+
     function: Function
     sentence: str
 
+    @property
+    def name(self) -> str:
+        """The function's name, in words."""
+        return self.function.__name__.replace("_", " ")
 
-@dataclass(frozen=True)
+    def __call__(self, *args: Any) -> Any:
+        """Return the wrong answer."""
+        return self.function(*args)
+
+
+def mistake(sentence: str) -> Callable[[Function], Mistake]:
+    """Make a known mistake of a wrong function; the sentence tells a student who makes it what is wrong, and what to do."""
+    return lambda function: Mistake(function, sentence)
+
+
+@dataclass(frozen=True, eq=False)
+class Alternative:
+    """Another right solution, written differently; it keeps the checks honest."""
+
+    function: Function
+
+    def __call__(self, *args: Any) -> Any:
+        """Return the right answer."""
+        return self.function(*args)
+
+
+def alternative(function: Function) -> Alternative:
+    """Make an alternative of a right function."""
+    return Alternative(function)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Exercise:
-    """One function for students to write.
+    """One function for students to write: what a file in a lesson's `exercises` folder holds.
 
     Args:
         name: Its name in commands and files; the student's function has the same name.
         lesson: The lesson's name.
-        slot: The keyword of the lesson's run that the student's function replaces.
-        reference: Ours. The starter file takes its signature and docstring from it.
-        task: What to do and why, two or three sentences.
+        task: What to do and why, two or three sentences: the docstring of the file.
+        contract: What is asked for.
         checks: The promises; public ones first.
         mistakes: At least three that students make.
-        alternatives: Other right solutions, written differently; they keep the checks honest.
-        examples: Calls with their results for the starter, as `(call in Python, result in Python)` text.
-        seconds: How long one call may take.
+        alternatives: Other right solutions.
     """
 
     name: str
     lesson: str
-    slot: str
-    reference: Function
     task: str
+    contract: Contract
     checks: tuple[Check, ...]
-    mistakes: tuple[Mistake, ...]
+    mistakes: tuple[Mistake, ...] = ()
     alternatives: tuple[Function, ...] = ()
-    examples: tuple[tuple[str, str], ...] = ()
-    seconds: float = 5.0
 
     def __post_init__(self) -> None:
         names = [item.name for item in self.checks]
@@ -127,6 +196,47 @@ class Exercise:
             raise ValueError(f"exercise {self.name}: it needs checks, each with a name of its own")
 
     @property
+    def reference(self) -> Function:
+        """Our function."""
+        return self.contract.function
+
+    @property
     def points(self) -> float:
         """What all checks are worth together."""
         return sum(item.points for item in self.checks)
+
+    def forms(self, item: Mistake) -> tuple[Function, ...]:
+        """Return a mistake's function, and the one with the other answers where the contract leaves open which is given."""
+        either = self.contract.either
+        return (item.function,) if either is None else (item.function, lambda *args: either(item.function(*args)))
+
+
+def exercise_in(module: ModuleType, lesson: str) -> Exercise:
+    """Return the exercise that a module defines by its decorators, in the order in which they stand.
+
+    Raises:
+        InputError: If it has no docstring, contract or check, or two of them have one name; names the file.
+    """
+    own = [item for item in vars(module).values() if getattr(item, "__module__", "").startswith("workbench.")]
+    contracts = [item for item in own if isinstance(item, Contract) and _is_of(item.function, module)]
+    checks = tuple(item for item in own if isinstance(item, Check) and _is_of(item.judge, module))
+    name, task = module.__name__.rpartition(".")[2], " ".join((module.__doc__ or "").split())
+    if [item.function.__name__ for item in contracts] != [name]:
+        raise InputError(f"{module.__file__}: it needs one function `{name}` with @contract: what a student writes")
+    if not task or not checks:
+        raise InputError(f"{module.__file__}: it needs a docstring, the task, and functions with @check")
+    return Exercise(
+        name=name,
+        lesson=lesson,
+        task=task,
+        contract=contracts[0],
+        checks=checks,
+        mistakes=tuple(item for item in own if isinstance(item, Mistake) and _is_of(item.function, module)),
+        alternatives=tuple(
+            item.function for item in own if isinstance(item, Alternative) and _is_of(item.function, module)
+        ),
+    )
+
+
+def _is_of(function: Function, module: ModuleType) -> bool:
+    return function.__module__ == module.__name__

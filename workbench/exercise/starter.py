@@ -1,98 +1,15 @@
-"""Writes what a student starts from: a file with the signature, the contract and two examples, and finds it again."""
+"""Writes what a student starts from: a file with the signature, the contract and two examples."""
 
-import ast
 import inspect
 import textwrap
-import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from workbench.errors import InputError, LeftOutWarning
+from workbench.errors import InputError
 from workbench.exercise.model import Exercise
-from workbench.lesson import Lesson, catalog, course
-
-
-def exercises() -> dict[str, Exercise]:
-    """Return the exercises of all lessons by name, in course order.
-
-    A third party's exercise whose name is taken, or that cannot be loaded, is left out with a warning.
-    """
-    found = {exercise.name: exercise for lesson in course().values() for exercise in lesson.exercises()}
-    for lesson in catalog().values():
-        if lesson.name not in course():
-            found |= _usable(lesson, found)
-    order = list(catalog())
-    return dict(sorted(found.items(), key=lambda named: order.index(named[1].lesson)))
-
-
-def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
-    """Return the exercises of a lesson of the catalogue, in its order, without those that are left out."""
-    return tuple(exercise for exercise in exercises().values() if exercise.lesson == lesson.name)
-
-
-def _usable(lesson: Lesson, taken: Mapping[str, Exercise]) -> Mapping[str, Exercise]:
-    """Return the exercises of a third party's lesson that can stand beside those there are, by name."""
-    kept: dict[str, Exercise] = {}
-    try:
-        for exercise in lesson.exercises():
-            other = taken.get(exercise.name, kept.get(exercise.name))
-            if other is not None:
-                _leave_out(
-                    f"exercise {exercise.name} of", lesson, f"its name is taken by {_place(catalog()[other.lesson])}"
-                )
-            elif exercise.lesson != lesson.name:
-                _leave_out(
-                    f"exercise {exercise.name} of", lesson, f"it says that it belongs to lesson {exercise.lesson!r}"
-                )
-            else:
-                kept[exercise.name] = exercise
-    except (Exception, SystemExit) as error:  # somebody else's exercises must not take the course's down
-        _leave_out("what follows of the exercises of", lesson, f"{type(error).__name__}: {error}")
-    return kept
-
-
-def _leave_out(what: str, lesson: Lesson, why: str) -> None:
-    warnings.warn(LeftOutWarning(f"{what} {_place(lesson)} is left out: {why}"), stacklevel=1)
-
-
-def _place(lesson: Lesson) -> str:
-    return f"lesson {lesson.name} ({lesson.params.__module__})"
-
-
-def find_exercise(name: str) -> Exercise:
-    """Return an exercise by its name.
-
-    Raises:
-        InputError: If there is none; lists those there are.
-    """
-    found = exercises()
-    if name not in found:
-        raise InputError(f"no exercise is named {name!r}; there are: {', '.join(found)}")
-    return found[name]
-
-
-def exercises_in(path: Path) -> tuple[Exercise, ...]:
-    """Return the exercises whose functions a student's file defines, without running it.
-
-    Raises:
-        InputError: If the file cannot be read, does not parse (with the line), or defines none of them.
-    """
-    try:
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror or 'cannot be read'}") from None
-    except SyntaxError as error:
-        raise InputError(f"{path.name}, line {error.lineno}: {error.msg}") from None
-    except ValueError:  # not UTF-8, or with NUL bytes
-        raise InputError(f"{path}: not a Python file") from None
-    defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
-    found = tuple(exercise for name, exercise in exercises().items() if name in defined)
-    if not found:
-        raise InputError(f"{path}: defines none of the exercises' functions ({', '.join(exercises())})")
-    return found
 
 
 def starter(exercise: Exercise) -> str:
@@ -105,9 +22,9 @@ def starter(exercise: Exercise) -> str:
     doc = inspect.cleandoc(function.__doc__ or "")
     if shapes:
         doc += "\n\nShapes:\n" + "\n".join(f"    {line}" for line in shapes)
-    if exercise.examples:
+    if exercise.contract.examples:
         doc += "\n\nExamples:\n" + "\n".join(
-            f"    {call}\n        gives {result}" for call, result in exercise.examples
+            f"    {call}\n        gives {result}" for call, result in exercise.contract.examples
         )
     indented = textwrap.indent(doc, "    ").lstrip()
     return f'''"""Exercise {exercise.name}, lesson {exercise.lesson}.

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from workbench.errors import InputError
 from workbench.exercise.beside import beside
+from workbench.exercise.finding import exercises_in, exercises_of
 from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox import Student
-from workbench.exercise.starter import exercises_in, exercises_of
 from workbench.lesson import Lesson
 
 RUNNING = "The checks are running …"
@@ -71,7 +71,7 @@ class Watched:
         self._student.close()
 
     def _new(self) -> Student:
-        return Student(self.path, self.exercise.name, seconds=self.exercise.seconds)
+        return Student(self.path, self.exercise.name, seconds=self.exercise.contract.seconds)
 
     def _stamp_now(self) -> tuple[int, int] | None:
         try:

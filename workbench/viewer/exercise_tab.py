@@ -5,6 +5,7 @@ from typing import Any
 
 import viser
 
+from workbench.exercise.finding import exercises_of
 from workbench.exercise.grading import Report
 from workbench.exercise.model import Exercise
 from workbench.exercise.reports import MARKS, counted
@@ -42,7 +43,7 @@ class ExerciseTab:
 
             self._result = gui.add_html("")
             self.show_report()
-        exercises = lesson.exercises() if watched is None else (watched.exercise,)
+        exercises = exercises_of(lesson) if watched is None else (watched.exercise,)
         for exercise in exercises:
             gui.add_html(_task(exercise, alone=watched is not None))
 

@@ -19,6 +19,7 @@ from workbench import links
 from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
 from workbench.exercise.beside import first_difference
+from workbench.exercise.finding import exercises_of
 from workbench.exercise.watching import Watched
 from workbench.knobs import Pick, fields_of
 from workbench.lesson import Lesson, Question
@@ -208,10 +209,10 @@ class Page:
         with panel.add_tab("Code"):
             code = CodeTab(gui)
         self._exercise, exercises = None, ()
-        with self._telling(lesson, "exercises", lesson.exercises):
-            exercises = lesson.exercises()
+        with self._telling(lesson, "exercises"):
+            exercises = exercises_of(lesson)
         if exercises:
-            with panel.add_tab("Exercise"), self._telling(lesson, "exercises", lesson.exercises):
+            with panel.add_tab("Exercise"), self._telling(lesson, "exercises"):
                 mine = self._watched if self._watched is not None and self._watched.lesson is lesson else None
                 self._exercise = ExerciseTab(
                     gui, lesson, mine, lambda: self._wish(lambda: self._to_difference(session))

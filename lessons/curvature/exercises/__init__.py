@@ -1,0 +1,94 @@
+"""The exercises of this lesson: what the angles around a vertex miss, Gaussian curvature, the mean-curvature normal."""
+
+import numpy as np
+
+from workbench.data import surfaces
+from workbench.data.surfaces import Surface
+from workbench.exercise import Verdict, band, fail, partial
+from workbench.geometry.meshes import face_areas, on_boundary
+from workbench.geometry.motions import exp_so3
+
+STUDENTS, GRADERS = 21, 8123  # seeds of what a student sees run, and of what only a grader does
+
+
+Mesh = tuple[np.ndarray, np.ndarray]
+
+
+def irregular(name: str, seed: int, count: int = 150) -> Surface:
+    """Return a built-in surface whose vertices were moved about on it, so that no two triangles are alike."""
+    return surfaces.SURFACES[name](count, jitter=0.2, rng=np.random.default_rng(seed))
+
+
+def with_a_flat_face(p: np.ndarray, faces: np.ndarray) -> Mesh:
+    """Return the mesh with a vertex in the middle of the first face's first edge, and there a face without area."""
+    (a, b, c), middle = faces[0], len(p)
+    new = np.array([[a, middle, c], [middle, b, c], [a, b, middle]])
+    return np.concatenate([p, (p[[a]] + p[[b]]) / 2]), np.concatenate([faces[1:], new])
+
+
+def some_rotation(seed: int) -> np.ndarray:
+    """Return a rotation by about half a turn about some axis."""
+    return exp_so3(np.random.default_rng(seed).normal(size=3) * 1.5)
+
+
+def curvature_verdict(
+    got: np.ndarray, right: np.ndarray, hint: str, *, good: float, fair: float, size: float = 0.0, what: str = ""
+) -> Verdict:
+    """Judge numbers or vectors at the vertices in per cent; where `right` is nan, nan is asked for.
+
+    Args:
+        got: The answer.
+        right: The right one; nan on the border.
+        hint: What to look at where it is wrong.
+        good: Per cent of error up to which all points are earned.
+        fair: The same for half of them.
+        size: What the error is related to; the largest of `right` where it is not given.
+        what: How the message begins: the mesh.
+    """
+    got, right = got.reshape(len(got), -1), right.reshape(len(right), -1)
+    inside = ~np.isnan(right).any(axis=1)
+    lost = int((~np.isfinite(got[inside])).any(axis=1).sum())
+    if lost:
+        return fail(f"{what}{lost} of {inside.sum()} vertices inside the border have no finite value. {hint}")
+    off = np.linalg.norm(got[inside] - right[inside], axis=1).max()
+    size = size or float(np.linalg.norm(right[inside], axis=1).max())
+    verdict = band(
+        f"{what}largest error" if what else "Largest error",
+        100 * float(off) / size,
+        "%",
+        good=good,
+        fair=fair,
+        hint=hint,
+    )
+    stray = int((~np.isnan(got[~inside])).any(axis=1).sum())
+    if stray and verdict.share > 0:
+        said = (
+            f"{what}{stray} of {(~inside).sum()} border vertices have a value; the contract asks for nan on the border."
+        )
+        return partial(0.5, f"{said} The others are right." if verdict.share == 1.0 else f"{said} {verdict.message}")
+    return verdict
+
+
+def without_border(surface: Surface, right: np.ndarray) -> np.ndarray:
+    """Return values at the vertices with nan on the border."""
+    right = right.copy()
+    right[on_boundary(surface.faces, len(surface.p))] = np.nan
+    return right
+
+
+TETRAHEDRON = "np.eye(4, 3), np.array([[0, 1, 2], [3, 1, 0], [3, 2, 1], [3, 0, 2]])"
+
+
+TRIANGLE = "np.eye(3), np.array([[0, 1, 2]])"
+
+
+def border_of(count: int, faces: np.ndarray) -> np.ndarray:
+    """Which vertices have an edge with one face only."""
+    half = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges, times = np.unique(half, axis=0, return_counts=True)
+    return np.isin(np.arange(count), edges[times == 1])
+
+
+def thirds(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """A third of every face."""
+    return np.bincount(faces.ravel(), np.repeat(face_areas(p, faces) / 3, 3), len(p))

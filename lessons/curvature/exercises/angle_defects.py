@@ -1,0 +1,237 @@
+"""Write the angle defects of a triangle mesh: how much the angles around each vertex miss a full turn, or half a one on
+the border. The lesson lays a ring flat with the gap you return, and adds all of them up to 2 pi chi.
+"""
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from lessons.curvature.exercises import (
+    GRADERS,
+    STUDENTS,
+    TETRAHEDRON,
+    TRIANGLE,
+    Mesh,
+    border_of,
+    irregular,
+    some_rotation,
+    with_a_flat_face,
+)
+from workbench.data import surfaces
+from workbench.exercise import Function, Verdict, alternative, band, check, contract, full, left_alone, mistake, worst
+from workbench.geometry import curvature
+from workbench.geometry.laplacian import mixed_areas
+from workbench.geometry.meshes import euler_characteristic, face_angles, on_boundary
+
+
+def box(seed: int) -> Mesh:
+    """Return a box of edges from half a metre to two, two triangles per side."""
+    p = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+    sides = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    faces = np.array([face for a, b, c, d in sides for face in ((a, b, c), (a, c, d))])
+    return p * np.random.default_rng(seed).uniform(0.5, 2.0, 3), faces
+
+
+def renumbered(p: np.ndarray, faces: np.ndarray, rng: np.random.Generator) -> Mesh:
+    """Return the same mesh with its vertices, its faces and their first corners in another order."""
+    place = rng.permutation(len(p))
+    moved = np.empty_like(p)
+    moved[place] = p
+    turned = np.array([np.roll(face, k) for face, k in zip(place[faces], rng.integers(0, 3, len(faces)), strict=True)])
+    return moved, turned[rng.permutation(len(faces))]
+
+
+def defects_verdict(candidate: Function, mesh: Mesh, hint: str) -> Verdict:
+    """Judge angle defects by the largest error in degrees, and say where it is."""
+    p, faces = mesh
+    off = np.degrees(np.abs(candidate(p, faces) - curvature.angle_defects(p, faces)))
+    i, border = int(np.argmax(off)), on_boundary(faces, len(p))
+    where = f"It is worst at vertex {i}, {'on the border' if border[i] else 'inside the mesh'}. {hint}"
+    return band("Largest error", float(off[i]), "degrees", good=0.01, fair=1.0, hint=where)
+
+
+@contract(
+    slot="angle_defects",
+    examples=(
+        (f"angle_defects({TETRAHEDRON})", "[3.6652, 3.6652, 3.6652, 1.5708]"),
+        (f"angle_defects({TRIANGLE})", "[2.0944, 2.0944, 2.0944]"),
+    ),
+)
+def angle_defects(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Float[np.ndarray, " v"]:
+    """Return how much the angles around each vertex miss a flat turn, in radians.
+
+    At a vertex inside the mesh that is 2 pi less the sum of the angles of its faces there, at a vertex on the border pi
+    less that sum. The border are the vertices of those edges that only one face has; a closed mesh has none.
+
+    Args:
+        p: Vertices, metres, one row each.
+        faces: Three vertex numbers per triangle, counterclockwise seen from outside. No edge has more than two faces.
+
+    Returns:
+        One angle defect per vertex, radians: not divided by an area. Positive at the tip of a cone, negative at a saddle.
+        A face whose three vertices lie on one line has the angles 0, 0 and pi. A vertex that no face names counts as inside
+        the mesh: nothing adds up to 2 pi there. The inputs stay as they are.
+    """
+    return curvature.angle_defects(p, faces)
+
+
+DEFECT_HINT = "Inside the mesh: 2 pi less the angles at the vertex; on the border: pi less them."
+
+
+FLAT_HINT = "If a face without area gives nan: clip cosines to [-1, 1], or take arctan2(|a x b|, a . b)."
+
+
+@check(2)
+def corners_of_a_box(candidate: Function) -> Verdict:
+    """Each corner of a box misses a quarter turn, however long its edges are and however its sides are cut."""
+    return defects_verdict(candidate, box(STUDENTS), f"Three right angles are there, of four. {DEFECT_HINT}")
+
+
+@check(2)
+def flat_sheet(candidate: Function) -> Verdict:
+    """A flat sheet has no defect inside nor along its straight border, and a quarter turn at its corners."""
+    sheet = irregular("plane", STUDENTS, 60)
+    return defects_verdict(candidate, (sheet.p @ some_rotation(STUDENTS).T, sheet.faces), DEFECT_HINT)
+
+
+@check(1)
+def mesh_is_left_alone(candidate: Function) -> Verdict:
+    """The vertices and faces that come in are not changed."""
+    return left_alone(candidate, defects_verdict(candidate, box(STUDENTS + 1), DEFECT_HINT))
+
+
+@check(3, public=False)
+def gauss_bonnet(candidate: Function) -> Verdict:
+    """All defects add up to 2 pi (V - E + F): on a sphere, a torus, a tube, a sheet, whatever the mesh."""
+    verdicts = []
+    for k, name in enumerate(("sphere", "torus", "cylinder", "saddle")):
+        mesh = irregular(name, GRADERS + k)
+        p = surfaces.with_noise(mesh, 0.02, np.random.default_rng(GRADERS + k)).p
+        chi = euler_characteristic(mesh.faces)
+        total = float(np.degrees(candidate(p, mesh.faces).sum()))
+        what = f"On a {name} with noise the sum is {total:.6g} degrees, not {360 * chi}: error"
+        said = band(what, abs(total - 360 * chi), "degrees", good=0.01, fair=1.0, hint=DEFECT_HINT)
+        verdicts.append(full("The four sums are 720, 0, 0 and 360 degrees.") if said.share == 1.0 else said)
+    return worst(verdicts)
+
+
+@check(2, public=False)
+def defects_go_with_the_mesh(candidate: Function) -> Verdict:
+    """Moved, enlarged, turned inside out or numbered anew, every vertex keeps its defect."""
+    rng = np.random.default_rng(GRADERS)
+    mesh = irregular("catenoid", GRADERS, 120)
+    p = 3.0 * mesh.p @ some_rotation(GRADERS).T + rng.normal(size=3)
+    cases = ((mesh.p, mesh.faces), (p, mesh.faces), (p, mesh.faces[:, ::-1].copy()), renumbered(p, mesh.faces, rng))
+    return worst(defects_verdict(candidate, case, DEFECT_HINT) for case in cases)
+
+
+@check(1, public=False)
+def flat_faces_and_lone_vertices(candidate: Function) -> Verdict:
+    """A face without area has angles 0, 0 and pi, and a vertex without faces a defect of 2 pi."""
+    ball = surfaces.sphere(42)
+    verdicts = []
+    for k in range(4):  # which cosines rounding takes beyond 1 depends on how the mesh is turned
+        p, faces = with_a_flat_face(ball.p @ some_rotation(GRADERS + k).T, ball.faces)
+        verdicts.append(defects_verdict(candidate, (np.concatenate([p, [[3.0, 0.0, 0.0]]]), faces), FLAT_HINT))
+    return worst(verdicts)
+
+
+@mistake(
+    "You take the angles from 2 pi everywhere. On the border of a flat sheet they make half a turn: there the "
+    "defect is pi less their sum."
+)
+def full_turn_on_the_border(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """2 pi, also on the border."""
+    return 2 * np.pi - sum_of_the_angles(p, faces)
+
+
+@mistake(
+    "You divided by the area. That is Gaussian curvature, 1/m²; the defect itself is an angle, in radians: "
+    "curvature times area."
+)
+def curvature_returned(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Divides by the area."""
+    return curvature.angle_defects(p, faces) / mixed_areas(p, faces)
+
+
+@mistake(
+    "You returned the sum of the angles around each vertex. The defect is what that sum misses: 2 pi less the sum."
+)
+def sum_of_the_angles(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """The angles, not what they miss."""
+    return np.bincount(faces.ravel(), face_angles(p, faces).ravel(), len(p))
+
+
+@mistake(
+    "Your defects have the wrong sign. At the tip of a cone the angles make less than a full turn, and the "
+    "defect is positive: 2 pi less the sum."
+)
+def sign(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """The angles less a full turn."""
+    return -curvature.angle_defects(p, faces)
+
+
+@mistake("You returned degrees; the contract asks for radians.")
+def degrees(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Converts what should stay in radians."""
+    return np.degrees(curvature.angle_defects(p, faces))
+
+
+@mistake(
+    "`total[faces[:, k]] += angle` counts an index that occurs several times once only. Use np.add.at or np.bincount."
+)
+def repeated_indices(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """`total[faces[:, k]] += ...`: of the faces around a vertex only one counts, the last."""
+    total, angles = np.zeros(len(p)), face_angles(p, faces)
+    for k in range(3):
+        total[faces[:, k]] += angles[:, k]
+    return np.where(on_boundary(faces, len(p)), np.pi, 2 * np.pi) - total
+
+
+@mistake(
+    "Every face gives its angle to its first vertex only. It has three corners, and each belongs to another vertex."
+)
+def first_corner_only(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Every face gives its angle to its first vertex only."""
+    total = np.bincount(faces[:, 0], face_angles(p, faces)[:, 0], len(p))
+    return np.where(on_boundary(faces, len(p)), np.pi, 2 * np.pi) - total
+
+
+@mistake(
+    "All is right but faces without area: rounding makes their cosines a little larger than 1, and arccos gives "
+    "nan. Clip them to [-1, 1], or take arctan2(|a x b|, a . b)."
+)
+def cosine_beyond_1(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Takes arccos of what rounding has made a little larger than 1."""
+    total = np.zeros(len(p))
+    for k in range(3):
+        a, b = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
+        cosine = (a * b).sum(axis=1) / (np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1))
+        np.add.at(total, faces[:, k], np.arccos(cosine))
+    return np.where(on_boundary(faces, len(p)), np.pi, 2 * np.pi) - total
+
+
+@alternative
+def defects_by_cosines(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """The arccos of clipped cosines; the border from the edges that only one face has."""
+    total = np.zeros(len(p))
+    for k in range(3):
+        a, b = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
+        cosine = (a * b).sum(axis=1) / np.sqrt((a * a).sum(axis=1) * (b * b).sum(axis=1))
+        np.add.at(total, faces[:, k], np.arccos(np.clip(cosine, -1, 1)))
+    return np.where(border_of(len(p), faces), np.pi, 2 * np.pi) - total
+
+
+@alternative
+def defects_in_loops(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Face by face, the angle as that of two directions in the complex plane of the face."""
+    left = [2 * np.pi] * len(p)
+    seen: dict[tuple[int, int], int] = {}
+    for face in faces.tolist():
+        for i, j, k in (face, face[1:] + face[:1], face[2:] + face[:2]):
+            a, b = p[j] - p[i], p[k] - p[i]
+            left[i] -= float(np.angle(complex(a @ b, np.linalg.norm(np.cross(a, b)))))
+            edge = (min(i, j), max(i, j))
+            seen[edge] = seen.get(edge, 0) + 1
+    for i in {i for edge, times in seen.items() if times == 1 for i in edge}:
+        left[i] -= np.pi
+    return np.array(left)

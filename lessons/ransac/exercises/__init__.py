@@ -1,0 +1,3 @@
+"""The exercises of this lesson: a plane through three points, the points near it, and how many samples to draw."""
+
+STUDENTS, GRADERS = 53, 7411  # seeds of what a student sees run, and of what only a grader does

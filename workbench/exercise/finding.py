@@ -1,0 +1,117 @@
+"""Looks exercises up: those of a lesson, by name, and those that a student's file defines."""
+
+import ast
+import functools
+import importlib
+import importlib.util
+import inspect
+import pkgutil
+import warnings
+from pathlib import Path
+
+from workbench.errors import InputError, LeftOutWarning
+from workbench.exercise.model import Exercise, exercise_in
+from workbench.lesson import Lesson, catalog, course
+
+
+def exercises() -> dict[str, Exercise]:
+    """Return the exercises of all lessons by name, in course order.
+
+    A third party's exercise whose name is taken, or that cannot be loaded, is left out with a warning.
+    """
+    return {exercise.name: exercise for lesson in catalog().values() for exercise in exercises_of(lesson)}
+
+
+def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
+    """Return the exercises of a lesson: the files of the `exercises` folder beside it, in the order of its run's keywords.
+
+    Of a third party's lesson, those that cannot be loaded or whose name is taken are left out with a warning.
+
+    Raises:
+        InputError: If an exercise of the course, or of a lesson that is not in the catalogue, says too little.
+    """
+    listed = catalog().get(lesson.name)
+    return _exercises_in(lesson) if listed is None or listed.params is not lesson.params else usable()[lesson.name]
+
+
+@functools.cache
+def usable() -> dict[str, tuple[Exercise, ...]]:
+    """Return the exercises of the catalogue's lessons by the lesson's name; the course's come first where names clash."""
+    found = {name: _exercises_in(lesson) for name, lesson in course().items()}
+    places = {exercise.name: _place(course()[exercise.lesson]) for items in found.values() for exercise in items}
+    for lesson in catalog().values():
+        if lesson.name not in found:
+            found[lesson.name] = _not_taken(lesson, places)
+    return found
+
+
+def _not_taken(lesson: Lesson, places: dict[str, str]) -> tuple[Exercise, ...]:
+    kept: list[Exercise] = []
+    try:
+        for exercise in _exercises_in(lesson):
+            if exercise.name in places:
+                _leave_out(f"exercise {exercise.name} of", lesson, f"its name is taken by {places[exercise.name]}")
+            else:
+                kept.append(exercise)
+                places[exercise.name] = _place(lesson)
+    except (Exception, SystemExit) as error:  # somebody else's exercises must not take the course's down
+        _leave_out("the exercises of", lesson, f"{type(error).__name__}: {error}")
+    return tuple(kept)
+
+
+def _exercises_in(lesson: Lesson) -> tuple[Exercise, ...]:
+    package, _, _ = lesson.params.__module__.rpartition(".")
+    if not package or importlib.util.find_spec(f"{package}.exercises") is None:
+        return ()
+    folder = importlib.import_module(f"{package}.exercises")
+    names = [f"{folder.__name__}.{info.name}" for info in pkgutil.iter_modules(folder.__path__)]
+    found = [exercise_in(importlib.import_module(name), lesson.name) for name in names]
+    slots = list(inspect.signature(lesson.run).parameters)
+    for exercise in found:
+        if exercise.contract.slot not in slots[1:]:
+            raise InputError(
+                f"exercise {exercise.name}: run of lesson {lesson.name} has no keyword {exercise.contract.slot!r}; it has: "
+                f"{', '.join(slots[1:]) or 'none'}"
+            )
+    return tuple(sorted(found, key=lambda exercise: (slots.index(exercise.contract.slot), exercise.name)))
+
+
+def _leave_out(what: str, lesson: Lesson, why: str) -> None:
+    warnings.warn(LeftOutWarning(f"{what} {_place(lesson)} is left out: {why}"), stacklevel=1)
+
+
+def _place(lesson: Lesson) -> str:
+    return f"lesson {lesson.name} ({lesson.params.__module__})"
+
+
+def find_exercise(name: str) -> Exercise:
+    """Return an exercise by its name.
+
+    Raises:
+        InputError: If there is none; lists those there are.
+    """
+    found = exercises()
+    if name not in found:
+        raise InputError(f"no exercise is named {name!r}; there are: {', '.join(found)}")
+    return found[name]
+
+
+def exercises_in(path: Path) -> tuple[Exercise, ...]:
+    """Return the exercises whose functions a student's file defines, without running it.
+
+    Raises:
+        InputError: If the file cannot be read, does not parse (with the line), or defines none of them.
+    """
+    try:
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror or 'cannot be read'}") from None
+    except SyntaxError as error:
+        raise InputError(f"{path.name}, line {error.lineno}: {error.msg}") from None
+    except ValueError:  # not UTF-8, or with NUL bytes
+        raise InputError(f"{path}: not a Python file") from None
+    defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    found = tuple(exercise for name, exercise in exercises().items() if name in defined)
+    if not found:
+        raise InputError(f"{path}: defines none of the exercises' functions ({', '.join(exercises())})")
+    return found
