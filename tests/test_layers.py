@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-BASE = {"workbench", "workbench.axis", "workbench.errors", "workbench.watch", "workbench.authors"}
+BASE = {"workbench", "workbench.axis", "workbench.errors", "workbench.tracing", "workbench.authors"}
 DRAWING = BASE | {"workbench.scene", "workbench.knobs"}
 LESSON = DRAWING | {"workbench.lesson", "workbench.timeline", "workbench.picking", "workbench.questions"}
 MATHS = BASE | {"workbench.geometry"}
@@ -17,7 +17,7 @@ MATHS = BASE | {"workbench.geometry"}
 ALLOWED = {
     "workbench.axis": {"workbench.numerals"},
     "workbench.errors": set(),
-    "workbench.watch": set(),
+    "workbench.tracing": set(),
     "workbench.authors": {"workbench", "workbench.errors"},
     "workbench.questions": LESSON,
     "workbench.scene": set(),

@@ -14,7 +14,7 @@ from workbench.errors import AuthorError, InputError
 from workbench.lesson import Lesson
 from workbench.scene import Caption, Scene, ghost
 from workbench.timeline import Series, Timeline, Timelines
-from workbench.watch import Moment
+from workbench.tracing import Moment
 
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 
@@ -91,7 +91,7 @@ class Session:
         Raises:
             InputError: If the params are not the lesson's; nothing has changed then.
         """
-        params = lesson.check(params if params is not None else lesson.params())
+        params = lesson.validated(params if params is not None else lesson.params())
         other = lesson is not self.lesson
         self.lesson, self.playing, self.message = lesson, False, None
         if other:
