@@ -38,7 +38,7 @@ ALLOWED = {
     "workbench.session": LESSON | {"workbench.session"},
     "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
                                      "workbench.images", "workbench.progress", "workbench.atomic"},
-    "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress"},
+    "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.recording", "workbench.viewer", "workbench.typeset", "workbench.session",
         "workbench.links", "workbench.images", "workbench.progress", "workbench.flags", "workbench.atomic",

@@ -125,7 +125,7 @@ class Lesson(Generic[P, S]):
     summary: str
     page: Path | None = None
     params: type[P]
-    run: Callable[..., Iterator[S]]
+    run: Callable[[P], Iterator[S]]
     draw: Callable[[S], Scene]
     order: int
     view: View = field(default_factory=View)

@@ -19,7 +19,7 @@ from workbench.tracing import Moment
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Look:
     """What a person sees now.
 
@@ -241,11 +241,22 @@ class Session:
             other, at = self._pinned
             scene |= ghost(other[min(at, len(other) - 1)].scene, scene)
             pinned_series = other.series()
-        caption = self._trouble(k) or step.caption
         return Look(
-            self.lesson, self.params, timeline, k, len(timeline), timeline.finished, scene, caption, step.moment,
-            timeline.series(), pinned_series, self.playing, self.speed, self.pinned,
-        )  # fmt: skip
+            lesson=self.lesson,
+            params=self.params,
+            timeline=timeline,
+            k=k,
+            known=len(timeline),
+            finished=timeline.finished,
+            scene=scene,
+            caption=self._trouble(k) or step.caption,
+            moment=step.moment,
+            series=timeline.series(),
+            pinned_series=pinned_series,
+            playing=self.playing,
+            speed=self.speed,
+            pinned=self.pinned,
+        )
 
     def _go(self, params: Any) -> None:
         self.params, self.timeline = params, self._run(params)
@@ -276,6 +287,18 @@ class Session:
     def _blank(self) -> Look:
         text = self.message or self.timeline.stopped or ""
         return Look(
-            self.lesson, self.params, self.timeline, 0, 0, True, {}, Caption(text, "wrong"), None, {}, {},
-            False, self.speed, self.pinned,
-        )  # fmt: skip
+            lesson=self.lesson,
+            params=self.params,
+            timeline=self.timeline,
+            k=0,
+            known=0,
+            finished=True,
+            scene={},
+            caption=Caption(text, "wrong"),
+            moment=None,
+            series={},
+            pinned_series={},
+            playing=False,
+            speed=self.speed,
+            pinned=self.pinned,
+        )
