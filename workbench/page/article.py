@@ -1,7 +1,7 @@
 """A lesson's article as HTML: its text with links that run things, and the place of its questions.
 
-In page.md, `[the last step](run:far@-1)` opens the preset `far` at its last step, `[the last step](run:@-1)` goes to a step
-of the run that is open, and `[[source]]` or `[[source|the scan]]` names a thing of the scene.
+In page.md, `[the last step](run:far@-1)` opens the preset `far` at its last step, `[the last step](run:this@-1)` goes to a
+step of the run that is open, and `[[source]]` or `[[source|the scan]]` names a thing of the scene.
 """
 
 import re
@@ -30,13 +30,14 @@ def article_html(lesson: Lesson, address: Address) -> str:
     text = page_of(lesson.text(), lesson.page).replace(
         '<div class="math block">', '<div class="math block" tabindex="0">'
     )
-    names = {"", "default", *(preset.name for preset in lesson.presets)}
+    names = {"this", "default", *(preset.name for preset in lesson.presets)}
 
     def link(found: re.Match[str]) -> str:
         name, step = found[1], None if found[2] is None else int(found[2])
         if name not in names:
             known = ", ".join(preset.name for preset in lesson.presets) or "none"
             raise AuthorError(f"{lesson.page}: a link runs {name!r}, which is no preset; there are: {known}")
+        name = "" if name == "this" else name
         at = "" if step is None else f' data-step="{step}"'
         return f'<a class="run" href="{escape(address(name, step))}" data-run="{escape(name)}"{at}>'
 

@@ -9,7 +9,7 @@ import contextlib
 import io
 import secrets
 import threading
-from collections.abc import Mapping
+from collections.abc import AsyncIterator, Mapping
 from typing import Any
 
 import httpx
@@ -89,7 +89,7 @@ class Server:
         )
 
     @contextlib.asynccontextmanager
-    async def _lifespan(self, app: Starlette) -> Any:
+    async def _lifespan(self, app: Starlette) -> AsyncIterator[None]:
         async with httpx.AsyncClient(base_url=f"http://{self._inner}") as self._http:
             yield
 

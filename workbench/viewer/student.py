@@ -6,6 +6,7 @@ Messages are JSON. From the page: {"verb": ..., ...} with the verbs of VERBS. To
 
 import asyncio
 import json
+import traceback
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
 
@@ -81,20 +82,29 @@ class Student:
         while True:
             await self._wake.wait()
             self._wake.clear()
-            waiting, self._waiting = self._waiting, []
-            for message in waiting:
-                try:
-                    await VERBS[message["verb"]](self, message)
-                except InputError as error:
-                    await self._tell(tell="trouble", text=str(error))
-            session = self.session
-            if session is None:
-                continue
-            if session.pending:
-                await asyncio.to_thread(session.compute, SLICE)
-            await self._show(session)
-            if session.pending:
-                self._wake.set()
+            try:
+                await self._do_what_is_wished()
+            except Exception as error:  # a defect of ours: it is told, and the page goes on
+                if isinstance(error, RuntimeError) and "websocket" in str(error).lower():
+                    return  # the page has left
+                tell_terminal(AuthorError(f"a wish could not be fulfilled: {error!r}", traceback.format_exc()))
+                await self._tell(tell="trouble", text="Something went wrong; the terminal of the server says what.")
+
+    async def _do_what_is_wished(self) -> None:
+        waiting, self._waiting = self._waiting, []
+        for message in waiting:
+            try:
+                await VERBS[message["verb"]](self, message)
+            except InputError as error:
+                await self._tell(tell="trouble", text=str(error))
+        session = self.session
+        if session is None:
+            return
+        if session.pending:
+            await asyncio.to_thread(session.compute, SLICE)
+        await self._show(session)
+        if session.pending:
+            self._wake.set()
 
     # the verbs ------------------------------------------------------------------------------------------------------
 
@@ -204,11 +214,7 @@ class Student:
             "tell": "run",
             "run": self._run,
             "name": preset,
-            "params": {
-                field.name: _plain(getattr(params, field.name))
-                for field in fields_of(type(params))
-                if not field.sensitive
-            },
+            "params": _values(params),
             "known": look.known,
             "finished": look.finished,
             "pinned": series_of(look.pinned_series) if look.pinned else None,
