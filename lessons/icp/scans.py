@@ -1,15 +1,15 @@
-"""The two scans of a run in one value: points, truth and start, and how they stand in the picture."""
+"""The two scans of a run in one value: points, truth, start and place in the picture; and how far off a motion is."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.geometry.alignment import nearest_rotation
-from workbench.geometry.motions import apply, exp_so3, motion, rotation_angle
+from workbench.data.framing import Frame
+from workbench.geometry.alignment import degrees_between
+from workbench.geometry.motions import apply, exp_so3, motion
 
 HOME_DEGREES, HOME_SPACINGS = 5.0, 2.0
-WIDTH = 1.2  # metres of the picture that large or small scans are shown wide
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Error:
     displacement: float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Scans:
     """Target and source in their own frames (metres), and what does not change while ICP runs.
 
@@ -38,14 +38,12 @@ class Scans:
         is_outlier: Which source points belong to nothing.
         T_truth: The true T_target_source, or None where nobody knows it.
         T_start: The initial guess of T_target_source.
-        centre: The middle of the target, target frame; the picture is about it.
-        scale: The picture's metres per metre of the scans: own scans are shown about 1.2 m wide.
-        R_world_target: How the target is set upright in the picture.
+        frame: How the target stands in the picture, which is about its middle.
         spacing: Typical distance between neighbouring target points, metres.
         grid: Segments of a ground grid in the picture.
         cell: The edge of its squares, metres of the scans.
         p_target_shown: The target as the picture has it.
-        p_source_shown: The source as the picture has it, in its own frame.
+        p_source_shown: The source likewise, before any motion.
         n_target: Gives the normals of the target, computed when first asked for: unit vectors, or zero for a point that
             shall not pull because its neighbours lie along a line.
     """
@@ -55,9 +53,7 @@ class Scans:
     is_outlier: np.ndarray
     T_truth: np.ndarray | None
     T_start: np.ndarray
-    centre: np.ndarray
-    scale: float
-    R_world_target: np.ndarray
+    frame: Frame
     spacing: float
     grid: np.ndarray
     cell: float
@@ -65,25 +61,20 @@ class Scans:
     p_source_shown: np.ndarray
     n_target: Callable[[], np.ndarray]
 
-    def shown(self, T_target_source: np.ndarray) -> np.ndarray:
-        """Return the pose of `p_source_shown` in the picture: the same motion about the centre, scaled and upright."""
-        A, Q = T_target_source[:3, :3], self.R_world_target
-        return motion(Q @ A @ Q.T, self.scale * Q @ (apply(T_target_source, self.centre) - self.centre))
-
     def about_centre(self, w_world: np.ndarray) -> np.ndarray:
         """Return the turn by a rotation vector of the picture about its middle, as a motion of the target frame."""
-        R = exp_so3(self.R_world_target.T @ w_world)
-        return motion(R, self.centre - R @ self.centre)
+        R = exp_so3(self.frame.R_world_file.T @ w_world)
+        return motion(R, self.frame.centre - R @ self.frame.centre)
 
     def error(self, T_target_source: np.ndarray) -> Error:
         """Return how far a motion is from the truth."""
         if self.T_truth is None:
             return Error(np.nan, np.nan, np.nan)
-        R = nearest_rotation(T_target_source[:3, :3]) @ self.T_truth[:3, :3].T
         p = self.p_source[~self.is_outlier]
         off = apply(T_target_source, p) - apply(self.T_truth, p)
         displacement = np.sqrt(np.einsum("ij,ij->", off, off) / len(off))
-        return Error(float(np.degrees(rotation_angle(R))), float(np.linalg.norm(off.mean(axis=0))), float(displacement))
+        rotation = degrees_between(T_target_source, self.T_truth)
+        return Error(rotation, float(np.linalg.norm(off.mean(axis=0))), float(displacement))
 
     def at_home(self, error: Error) -> bool:
         """Tell whether a motion with this error is the true one, but for sampling.

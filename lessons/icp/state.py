@@ -1,14 +1,102 @@
-"""What one step of the lesson holds, and whether it has come home."""
+"""The inputs of the ICP lesson, and what one step of it holds."""
 
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
 
-from lessons.icp.basin import Try
-from lessons.icp.params import Params
+import numpy as np
+
 from lessons.icp.scans import Error, Scans
 from workbench.algorithms import icp
+from workbench.data.framing import Unit, Up
+from workbench.knobs import Gizmo, Knob
+
+Shape = Literal["rabbit", "vase", "corner", "lidar"]
+Fit = Literal["point-to-point", "point-to-plane", "similarity", "affine"]
+Thinning = Literal["voxel", "chance"]
+Planes = Literal["spread", "all"]
+GateName = Literal["all", "trimmed", "max-distance", "3-medians"]
+BUILT_IN = ("shape", "start_angle", "start_shift", "overlap", "noise", "outliers", "points")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
+class Params:
+    """Two scans, a start, and how ICP matches and fits."""
+
+    shape: Annotated[
+        Shape, Knob("The built-in shape: without symmetry, turning, sliding, or a street in a lidar's rings")
+    ] = "rabbit"
+    start_angle: Annotated[
+        float, Knob("How far the built-in source starts turned away, about the vertical", 0, 180, unit="deg", step=1)
+    ] = 35.0
+    start_shift: Annotated[float, Knob("How far it starts shifted along x", 0, 1, unit="m", step=0.01)] = 0.0
+    fit: Annotated[Fit, Knob("What each fit minimises, over which kind of motion")] = "point-to-point"
+    gate: Annotated[GateName, Knob("Which matches a fit may use")] = "trimmed"
+    keep: Annotated[float, Knob("Share of the closest matches that trimming keeps", 0.3, 1, step=0.05)] = 0.9
+    max_distance: Annotated[
+        float,
+        Knob(
+            "Matches farther apart are refused; lidar and own scans count as 1.2 m wide", 0.01, 2, unit="m", step=0.01
+        ),
+    ] = 0.1
+    planes: Annotated[
+        Planes,
+        Knob(
+            "Point-to-plane, lidar and own scans: all target points pull, or only where neighbours spread, not in a line"
+        ),
+    ] = "spread"
+    overlap: Annotated[
+        float, Knob("Share of the built-in source that the target saw too; not the lidar's", 0.4, 1, step=0.05)
+    ] = 1.0
+    noise: Annotated[float, Knob("Noise of each coordinate", 0, 0.03, unit="m", step=0.001)] = 0.002
+    outliers: Annotated[float, Knob("Share of source points that belong to nothing", 0, 0.5, step=0.05)] = 0.0
+    points: Annotated[int, Knob("Points of each built-in scan but the lidar's", 200, 20_000, step=100)] = 1500
+    guess: Annotated[
+        tuple[float, float, float, float, float, float],
+        Knob("Initial guess beside the start: place (m) and rotation vector (rad)", -3.2, 3.2, by=Gizmo(0.25)),
+    ] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz")] = None
+    source: Annotated[Path | None, Knob("Own source scan, moved onto the target")] = None
+    truth: Annotated[Path | None, Knob("Known pose of the source in the target's frame: 4×4 or list of poses")] = None
+    up: Annotated[Up, Knob("Which axis of own scans points up", of_files=True)] = "z"
+    unit: Annotated[Unit, Knob("Unit of the numbers in own files", of_files=True)] = "m"
+    thinning: Annotated[
+        Thinning, Knob("Lidar and own scans: both by the means of voxels, or only the source, by chance")
+    ] = "voxel"
+    voxel: Annotated[
+        float, Knob("Edge of those voxels, of the target's longest extent", 0.1, 5, unit="%", step=0.1)
+    ] = 0.2
+    own_points: Annotated[
+        int, Knob("At most so many points of a lidar or own source are used, drawn by chance", 100, 50_000, step=100)
+    ] = 10_000
+    seed: Annotated[int, Knob("Which points are sampled", 0, 99)] = 0
+
+    @property
+    def idle(self) -> tuple[str, ...]:
+        """The inputs that were changed and have no effect, since own scans are open."""
+        if self.target is None:
+            return ()
+        return tuple(name for name in BUILT_IN if getattr(self, name) != getattr(Params, name))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Try:
+    """One start and where ICP ended from it.
+
+    Attributes:
+        start_angle: Degrees about the vertical, away from the truth.
+        T_target_truth: The end as a motion of the truly placed source: the identity when it came home.
+        error: How far that is from the truth.
+        rmse: Of the kept matches at the end, metres.
+    """
+
+    start_angle: float
+    T_target_truth: np.ndarray
+    error: Error
+    rmse: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class State:
     """One step of the lesson: a sub-step of ICP, or afterwards one more try from another start.
 
