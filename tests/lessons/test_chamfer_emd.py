@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 import scipy
-from lessons.chamfer_emd.answers import earth_movers_of_copies, points_left_out
 
 from lessons.chamfer_emd.clouds import YARDSTICKS, clouds_of
 from lessons.chamfer_emd.draw import T_WORLD_LEFT, T_WORLD_RIGHT
+from lessons.chamfer_emd.exercises.earth_movers import earth_movers_of_copies, points_left_out
+from lessons.chamfer_emd.experiments import ONE_WAY, QUESTIONS, flips, nearer_side
 from lessons.chamfer_emd.lesson import lesson, run
-from lessons.chamfer_emd.params import Lowers, Params
-from lessons.chamfer_emd.presets import ONE_WAY, QUESTIONS, flips, nearer_side
-from lessons.chamfer_emd.states import State
+from lessons.chamfer_emd.state import Lowers, Params, State
 from lessons.chamfer_emd.words import metres, squared
 from tests.runs import finished
 from tests.verdicts import chamfer_emd as judge
