@@ -1,11 +1,8 @@
 """The two clouds of a run, built-in or the person's own, and known changes of the target to compare with."""
 
-from dataclasses import dataclass
-from pathlib import Path
-
 import numpy as np
 
-from lessons.chamfer_emd.params import Params, Start
+from lessons.chamfer_emd.state import Clouds, Params, Start
 from workbench.data.files import read_cloud
 from workbench.data.point_sets import (
     blob,
@@ -30,43 +27,29 @@ YARDSTICKS: tuple[tuple[str, Start, float], ...] = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class Clouds:
-    """Source and target of a run in one frame, metres of the picture.
-
-    Attributes:
-        p_source: Where both flows start.
-        p_target: Where they should go.
-        name: What the source is, in words.
-        scale: Metres of the picture per unit of an own cloud; 1 for built-in ones.
-    """
-
-    p_source: np.ndarray
-    p_target: np.ndarray
-    name: str
-    scale: float
-
-
 def clouds_of(params: Params) -> Clouds:
     """Return the clouds that the params describe.
 
     Raises:
         InputError: If an own file cannot be used, or a source is given without its target.
     """
+    if params.source is not None and params.target is None:
+        raise InputError("an own source needs an own target to flow to: give --target too")
     rng = np.random.default_rng(params.seed)
+    middle, scale = np.zeros(3), 1.0
     if params.target is None:
-        if params.source is not None:
-            raise InputError("an own source needs an own target to flow to: give --target too")
         p_target = spread(params.shape, params.points)
-        return Clouds(changed(p_target, params.start, params.amount, params, rng), p_target, _name(params), 1.0)
-    whole = read_cloud(params.target)
-    low, high = np.percentile(whole, [2, 98], axis=0)  # a few far points must not shrink the picture
-    middle, scale = (low + high) / 2, 2.0 / max(float((high - low).max()), 1e-9)
-    p_target = scale * (_thinned(whole, params.points, rng) - middle)
+    else:
+        whole = read_cloud(params.target)
+        low, high = np.percentile(whole, [2, 98], axis=0)  # a few far points must not shrink the picture
+        middle, scale = (low + high) / 2, 2.0 / max(float((high - low).max()), 1e-9)
+        p_target = scale * (_thinned(whole, params.points, rng) - middle)
     if params.source is None:
-        return Clouds(changed(p_target, params.start, params.amount, params, rng), p_target, _name(params), scale)
-    p_source = scale * (_thinned(read_cloud(params.source), params.source_points or params.points, rng) - middle)
-    return Clouds(p_source, p_target, Path(params.source).name, scale)
+        p_source, name = changed(p_target, params.start, params.amount, params, rng), _name(params)
+    else:
+        p_source = scale * (_thinned(read_cloud(params.source), params.source_points or params.points, rng) - middle)
+        name = params.source.name
+    return Clouds(p_source=p_source, p_target=p_target, name=name, scale=scale)
 
 
 def changed(p_target: np.ndarray, start: Start, amount: float, params: Params, rng: np.random.Generator) -> np.ndarray:

@@ -4,10 +4,8 @@ import math
 
 import numpy as np
 
-from lessons.disparity.beside import beside
-from lessons.disparity.marks import framed
-from lessons.disparity.pairs import Setup
-from lessons.disparity.states import State
+from lessons.disparity.charts import beside, framed
+from lessons.disparity.state import Setup, State
 from lessons.disparity.words import caption
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.cameras import back_project

@@ -5,7 +5,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from lessons.disparity.states import State
+from lessons.disparity.state import State
 from workbench.algorithms.disparity import Stage
 from workbench.scene import Caption
 

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from lessons.transforms.body import FRONT, numbers_of
-from lessons.transforms.compare import SAME, Ghost, in_degrees, other_triples
-from lessons.transforms.params import Method
-from lessons.transforms.states import Built, Moved
+from lessons.transforms.body import numbers_of
+from lessons.transforms.compare import in_degrees, other_triples
+from lessons.transforms.state import FRONT, SAME, Built, Ghost, Method, Moved
 from workbench.geometry.affine import Kind, kind_of, transform
 from workbench.geometry.rotations import gimbal_margin
 from workbench.numerals import brief, fixed

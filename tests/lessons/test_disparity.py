@@ -8,11 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lessons.disparity.lesson import lesson, run
-from lessons.disparity.marks import framed, patches
-from lessons.disparity.pairs import MOST_CELLS, setup_of
-from lessons.disparity.params import Params
-from lessons.disparity.presets import (
+from lessons.disparity.charts import framed, patches
+from lessons.disparity.experiments import (
     BARE,
     BOARDS,
     CHECKED,
@@ -33,7 +30,9 @@ from lessons.disparity.presets import (
     near_edges,
     of_stage,
 )
-from lessons.disparity.states import State
+from lessons.disparity.lesson import lesson, run
+from lessons.disparity.pairs import MOST_CELLS, setup_of
+from lessons.disparity.state import Params, State
 from lessons.disparity.words import depth_errors
 from tests.runs import finished
 from workbench.algorithms.cost_volume import sad_cost_volume

@@ -5,12 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from lessons.pinhole import presets
+from lessons.pinhole import experiments
+from lessons.pinhole.experiments import BACK, DISTORT, DIVIDE, PIXELS
 from lessons.pinhole.lesson import lesson, run
-from lessons.pinhole.params import Mistake, Params
-from lessons.pinhole.presets import BACK, DISTORT, DIVIDE, PIXELS
 from lessons.pinhole.shot import FACTORS, shot_of
-from lessons.pinhole.state import State
+from lessons.pinhole.state import Mistake, Params, State
 from lessons.pinhole.words import back_error
 from tests.runs import finished
 from workbench.data.street import BALL_CENTER, street
@@ -113,19 +112,19 @@ def test_the_camera_may_not_stand_on_its_target():
 
 
 def test_dolly_keeps_the_crate_and_nearly_doubles_the_tower():
-    before, after = shot_of(dataclasses.replace(presets.DOLLY, dolly=1.0)), preset("dolly")[-1].shot
+    before, after = shot_of(dataclasses.replace(experiments.DOLLY, dolly=1.0)), preset("dolly")[-1].shot
     assert after.crate == pytest.approx(before.crate, rel=0.01)
     assert round(after.crate) == 56
     assert (round(after.tower_before), round(after.tower)) == (97, 172)
     assert after.tower_before == pytest.approx(before.tower)
     assert after.crate_before == pytest.approx(before.crate)
-    said = Timeline(lesson, presets.DOLLY).complete()[PIXELS].caption.text
+    said = Timeline(lesson, experiments.DOLLY).complete()[PIXELS].caption.text
     assert "the tower was 97.4 px high and is 172 px now" in said
     assert f"The crate was {before.crate:.1f} px high and is {after.crate:.1f} px now" in said
 
 
 def test_doubling_f_doubles_every_distance_from_the_principal_point():
-    near, far = states(dataclasses.replace(presets.ZOOM, f=presets.ZOOM.f / 2))[-1], preset("zoom")[-1]
+    near, far = states(dataclasses.replace(experiments.ZOOM, f=experiments.ZOOM.f / 2))[-1], preset("zoom")[-1]
     c = far.shot.K[:2, 2]
     np.testing.assert_allclose(far.now.uv - c, 2 * (near.now.uv - c), atol=1e-9)
     np.testing.assert_allclose(far.now.xy, near.now.xy, atol=1e-12)
@@ -147,7 +146,7 @@ def test_rails_meet_where_the_formula_says_wherever_the_camera_stands():
     shot = run_[-1].shot
     far = np.array([[x, 1e7, 0.06] for x in (-0.75, 0.75)])
     np.testing.assert_allclose(project(far, shot.T_camera_world, shot.K), [shot.vanishing] * 2, atol=1e-3)
-    assert abs(presets.shift_of_vanishing(run_)) < 1e-9
+    assert abs(experiments.shift_of_vanishing(run_)) < 1e-9
     moved = shot.T_camera_world.copy()
     moved[:3, 3] = (7.0, -3.0, 2.0)
     np.testing.assert_allclose(vanishing_points(np.array([[0.0, 1, 0]]), moved, shot.K)[0], shot.vanishing)
@@ -158,7 +157,7 @@ def test_rails_meet_where_the_formula_says_wherever_the_camera_stands():
 def test_the_ball_is_an_ellipse_off_the_axis_and_round_on_it():
     shot = preset("ball")[-1].shot
     assert shot.ball_ratio > 1.35
-    on_axis = dataclasses.replace(presets.BALL, target=tuple(float(x) for x in BALL_CENTER))
+    on_axis = dataclasses.replace(experiments.BALL, target=tuple(float(x) for x in BALL_CENTER))
     assert shot_of(on_axis).ball_ratio == pytest.approx(1.0, abs=1e-9)
 
 
@@ -184,7 +183,7 @@ def test_radial_lenses_move_along_the_radius_and_more_further_out(name, sign):
 def test_barrel_bows_edges_outwards_and_pincushion_inwards():
     """The middle of a straight edge above the centre, against the line through its bent ends."""
     edge = np.column_stack([[-0.5, 0.0, 0.5], [-0.4, -0.4, -0.4]])
-    for params, sign in ((presets.BARREL, 1), (presets.PINCUSHION, -1)):
+    for params, sign in ((experiments.BARREL, 1), (experiments.PINCUSHION, -1)):
         ends = distort(edge, params.k1, params.k2)
         bow = ends[[0, 2], 1].mean() - ends[1, 1]  # y points down: positive is outwards here
         assert sign * bow > 0.005
@@ -222,7 +221,7 @@ def test_a_lamp_behind_gets_a_pixel_well_inside_only_if_divided_anyway():
     assert state.false == 1
     assert round(state.now.p_camera[5, 2]) == -2
     assert np.isnan(states(Params(point=5))[PIXELS].now.uv[5]).all()
-    assert tone(presets.BEHIND, PIXELS) == "wrong"
+    assert tone(experiments.BEHIND, PIXELS) == "wrong"
 
 
 def test_the_inverted_pose_loses_nearly_every_point():
@@ -232,7 +231,7 @@ def test_the_inverted_pose_loses_nearly_every_point():
     np.testing.assert_allclose(
         state.now.p_camera[2], (inverse(state.shot.T_camera_world) @ [*street().points[2], 1])[:3]
     )
-    assert tone(presets.INVERTED, 1) == "wrong"
+    assert tone(experiments.INVERTED, 1) == "wrong"
 
 
 def test_opengl_axes_make_depths_negative_and_mirror_the_picture():
@@ -256,7 +255,7 @@ def test_a_lens_fed_with_pixels_is_off_by_millions():
     assert run_[DIVIDE].error < 1e-9
     assert run_[DISTORT].error > 1e6
     assert (
-        Timeline(lesson, presets.LENS_ON_PIXELS)
+        Timeline(lesson, experiments.LENS_ON_PIXELS)
         .complete()[PIXELS]
         .caption.text.startswith("K (x′, y′, 1) is the pixel")
     )
@@ -279,7 +278,7 @@ def test_a_forgotten_k_is_shifted_and_twice_too_large():
 
 def test_the_edited_photograph_is_the_one_its_k_describes():
     """Corners of the outline, drawn by the edited K, lie where the halved photograph has its own edges."""
-    full, half = shot_of(Params()), shot_of(presets.CROP_RIGHT)
+    full, half = shot_of(Params()), shot_of(experiments.CROP_RIGHT)
     np.testing.assert_allclose((half.uv + 0.5) * 2 - 0.5 + [60, 40], full.uv)
     blocks = full.picture[40:, 60:].reshape(100, 2, 130, 2, 3).mean(axis=(1, 3))
     assert np.abs(half.picture - blocks).max() <= 0.5
@@ -393,7 +392,7 @@ def test_a_lens_that_bends_where_there_is_none_is_not_said_to_do_nothing():
 
 def test_round_trips_end_where_they_began_and_not_at_a_rounding():
     assert captions(Params())[BACK].endswith("we come out where we began.")
-    assert "1.09 m from where we began" in captions(presets.RAY_LENGTH)[BACK]
+    assert "1.09 m from where we began" in captions(experiments.RAY_LENGTH)[BACK]
 
 
 # The functions of the exercises

@@ -10,10 +10,9 @@ import trimesh
 
 from lessons.transforms.body import numbers_of
 from lessons.transforms.compare import change, jump_out_of_lock
+from lessons.transforms.experiments import complete, directions_left, halfway
 from lessons.transforms.lesson import lesson
-from lessons.transforms.params import Compare, Method, Params
-from lessons.transforms.presets import complete, directions_left, halfway
-from lessons.transforms.states import Built, Moved
+from lessons.transforms.state import Built, Compare, Method, Moved, Params
 from tests.runs import finished
 from workbench.algorithms.composition import Factor, compose
 from workbench.errors import InputError

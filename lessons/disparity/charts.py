@@ -4,13 +4,14 @@ import math
 
 import numpy as np
 
-from lessons.disparity.marks import patches
-from lessons.disparity.states import State
+from lessons.disparity.state import State
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.stereo import depth_interval
-from workbench.scene import Curve, Field, Picture, Primitive, Scalar, Table
+from workbench.scene import PALETTE, Curve, Field, Picture, Primitive, Scalar, Table
 
 BINS = 12
+GAP = 2
+LEAST_SPAN = 60.0  # grey levels: noise alone shall not look like a texture
 
 
 def beside(state: State) -> dict[str, Primitive]:
@@ -129,3 +130,41 @@ def _m(z: float) -> str:
 
 def _no_infinity(values: np.ndarray) -> np.ndarray:
     return np.where(np.isfinite(values), values, np.nan).astype(np.float32)
+
+
+def framed(picture: np.ndarray, center: tuple[int, int], window: int) -> np.ndarray:
+    """Return a copy of an RGB picture with a frame around the window at `center` (u, v), as far as it is inside."""
+    u, v = center
+    half = max(window // 2, 1) + 1
+    h, w = picture.shape[:2]
+    marked = picture.copy()
+    rows, columns = np.mgrid[v - half : v + half + 1, u - half : u + half + 1]
+    edge = np.maximum(np.abs(rows - v), np.abs(columns - u)) == half
+    inside = edge & (rows >= 0) & (rows < h) & (columns >= 0) & (columns < w)
+    marked[rows[inside], columns[inside]] = PALETTE["highlight"]
+    return marked
+
+
+def patches(left: np.ndarray, right: np.ndarray, uv: tuple[int, int], d: int, window: int) -> np.ndarray:
+    """Return the windows around left (u, v) and right (u - d, v) side by side, both brightened alike, each framed.
+
+    What lies outside the pictures is grey.
+    """
+    u, v = uv
+    half = max(window // 2, 3) + 1
+    cuts = [_cut(picture, x, v, half) for picture, x in ((left, u), (right, u - d))]
+    low = float(np.min(cuts))
+    span = max(float(np.max(cuts)) - low, LEAST_SPAN)
+    bright = [np.rint((cut - low) * (255.0 / span)).astype(np.uint8) for cut in cuts]
+    one, two = (framed(cut, (half, half), window) for cut in bright)
+    gap = np.full((one.shape[0], GAP, 3), 255, np.uint8)
+    return np.concatenate([one, gap, two], axis=1)
+
+
+def _cut(picture: np.ndarray, u: int, v: int, half: int) -> np.ndarray:
+    h, w = picture.shape[:2]
+    rows, columns = np.mgrid[v - half : v + half + 1, u - half : u + half + 1]
+    inside = (rows >= 0) & (rows < h) & (columns >= 0) & (columns < w)
+    cut = np.full((*rows.shape, 3), 128, np.uint8)
+    cut[inside] = picture[rows[inside], columns[inside]]
+    return cut

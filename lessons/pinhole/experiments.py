@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lessons.pinhole.params import Params
-from lessons.pinhole.state import State
+from lessons.pinhole.state import Params, State
 from workbench.geometry.cameras import camera_center, project, vanishing_points
 from workbench.geometry.motions import motion
 from workbench.lesson import Preset, Question

@@ -4,8 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lessons.chamfer_emd.params import Params
-from lessons.chamfer_emd.states import Side, State
+from lessons.chamfer_emd.state import Params, Side, State
 from lessons.chamfer_emd.words import metres, share, squared
 from workbench.lesson import Preset, Question
 

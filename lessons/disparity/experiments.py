@@ -7,8 +7,7 @@ import numpy as np
 import scipy
 
 from lessons.disparity.pairs import setup_of
-from lessons.disparity.params import Params
-from lessons.disparity.states import State
+from lessons.disparity.state import Params, State
 from lessons.disparity.words import flat_parts
 from workbench.algorithms.disparity import Stage
 from workbench.lesson import Preset, Question

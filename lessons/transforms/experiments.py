@@ -6,8 +6,7 @@ import numpy as np
 
 from lessons.transforms.body import numbers_of
 from lessons.transforms.compare import in_degrees, jump_out_of_lock
-from lessons.transforms.params import Params
-from lessons.transforms.states import Built, Moved, State
+from lessons.transforms.state import Built, Moved, Params, State
 from workbench.geometry.rotations import euler_axes
 from workbench.lesson import Preset, Question
 
