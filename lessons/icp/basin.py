@@ -6,9 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from lessons.icp.prepared import scans_of
-from lessons.icp.scans import Scans
-from lessons.icp.state import Params, Try
+from lessons.icp.scans import scans_of
+from lessons.icp.state import Params, Scans, Try
 from workbench.algorithms.icp import Align, Gate, icp
 from workbench.geometry.alignment import align_affine, align_rigid, align_similarity
 from workbench.geometry.motions import inverse

@@ -3,8 +3,7 @@
 import numpy as np
 
 from lessons.icp.basin import thin_rows
-from lessons.icp.scans import Scans
-from lessons.icp.state import State
+from lessons.icp.state import Scans, State
 from lessons.icp.words import caption
 from workbench.geometry.motions import apply, inverse
 from workbench.numerals import length

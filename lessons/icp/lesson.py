@@ -2,9 +2,6 @@
 
 What it teaches: ICP walks downhill from where it starts, home or into another valley, so a small RMSE proves nothing; the
 start, the gate, the error measure and how evenly the scans are sampled decide.
-
-`state.py` has the inputs and what a step holds, `prepared.py` and `scans.py` the clouds, `basin.py` the tries from other
-starts, `draw.py` and `words.py` the picture, `experiments.py` the presets and questions.
 """
 
 from collections.abc import Iterator
@@ -14,7 +11,7 @@ from pathlib import Path
 from lessons.icp.basin import align_of, gate_of, tries_of
 from lessons.icp.draw import draw
 from lessons.icp.experiments import PRESETS, QUESTIONS
-from lessons.icp.prepared import scans_of
+from lessons.icp.scans import scans_of
 from lessons.icp.state import Params, State, Try
 from workbench.algorithms.icp import Align, Match, PlaneStep, icp
 from workbench.geometry.alignment import align_rigid, degrees_between, point_to_plane_step

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lessons.icp.prepared import WIDTH
+from lessons.icp.scans import WIDTH
 from lessons.icp.state import State
 from workbench.algorithms.icp import Stop
 from workbench.numerals import angle, length, percent
