@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from lessons.ransac.shapes import frames, outline, plane_polygon
+from lessons.ransac.shapes import frames, outline
 from lessons.ransac.state import State, Subject
-from lessons.ransac.words import caption_of
+from lessons.ransac.words import caption
 from workbench.algorithms.ransac import Fit
+from workbench.geometry.clipping import plane_in_box
 from workbench.geometry.polylines import fan
 from workbench.scene import Classes, Curve, Label, Mesh, Picture, Points, Primitive, Role, Scalar, Scene, Segments
 
@@ -17,7 +18,7 @@ RIVAL_COLORS: dict[str, Role] = {"least squares": "other", "Huber": "neutral"}
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    scene: dict[str, Primitive] = {"caption": caption_of(state)}
+    scene: dict[str, Primitive] = {"caption": caption(state)}
     scene |= _background(state.subject) | _rows(state) | _sample(state) | _models(state) | _curves(state)
     return scene
 
@@ -82,7 +83,7 @@ def _model(
         rows = np.flatnonzero(subject.is_inlier)[:EPIPOLAR_ROWS]
     scene: dict[str, Primitive] = {path: Segments(outline(subject, estimate, rows), color, width, name=name)}
     if subject.model.name == "plane" and opacity > 0.0:
-        corners = plane_polygon(subject, estimate)
+        corners = plane_in_box(estimate, subject.low, subject.high)
         if len(corners):
             scene[f"{path}/surface"] = Mesh(
                 subject.places[0](corners), fan(len(corners)), color, opacity=opacity, flat=True

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from lessons.ransac.words import caption_of as caption
+from lessons.ransac.words import caption
 from tests.readings import NUMBER, near, near_length, number
 from tests.truths.ransac import (
     apart,
