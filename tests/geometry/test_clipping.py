@@ -13,7 +13,7 @@ SEEDS = st.integers(0, 10_000)
 
 
 def inside(p: np.ndarray, d: int) -> np.ndarray:
-    return ((p >= LOW[:d] - 1e-9) & (p <= HIGH[:d] + 1e-9)).all(axis=-1)
+    return np.asarray(((p >= LOW[:d] - 1e-9) & (p <= HIGH[:d] + 1e-9)).all(axis=-1))
 
 
 @settings(max_examples=60, deadline=None)
