@@ -5,7 +5,7 @@ import functools
 import numpy as np
 
 from lessons.transforms.state import FRONT, Body, Built, Ghost, Moved, State
-from lessons.transforms.words import caption_of_build, caption_of_move, length
+from lessons.transforms.words import caption_of_build, caption_of_move
 from workbench.geometry.affine import decompose, kind_of, transform, transform_directions, translation
 from workbench.geometry.invariants import Change
 from workbench.geometry.rotations import (
@@ -16,7 +16,7 @@ from workbench.geometry.rotations import (
     matrix_to_euler,
     quaternion_from_matrix,
 )
-from workbench.numerals import ROUND_OFF, brief, fixed, fixed_row
+from workbench.numerals import ROUND_OFF, angle, fixed, fixed_row, length, percent
 from workbench.scene import Axes, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments, Table
 
 MIDDLE = np.arange(-180.0, 181.0, 5.0)  # degrees
@@ -185,9 +185,9 @@ def _amount(change: Change) -> str:
     if change.name == "orientation":
         return "flipped"
     if change.unit == "rad":
-        return f"up to {brief(np.degrees(change.amount))}°"
+        return f"up to {angle(np.degrees(change.amount))}"
     most = "up to " if change.name == "edge lengths" else ""  # area and volume are one number each
-    return f"{most}{brief(100 * change.amount)} %"
+    return f"{most}{percent(change.amount)}"
 
 
 def _invariants(state: State) -> Table:
@@ -224,11 +224,11 @@ def _in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder
     affine = np.array_equal(T[3], (0, 0, 0, 1))
     parts = decompose(T if affine else T_world_body)
     R = parts.rotation
-    axis, angle = axis_angle_from_rotation(R)
+    axis, radians = axis_angle_from_rotation(R)
     rows = [
         (f"Euler {order}", ", ".join(f"{fixed(a, 1)}°" for a in np.degrees(matrix_to_euler(R, order)))),
-        ("axis", fixed_row(axis, 2) if angle > ROUND_OFF else "any"),
-        ("angle", f"{fixed(np.degrees(angle), 1)}°"),
+        ("axis", fixed_row(axis, 2) if radians > ROUND_OFF else "any"),
+        ("angle", f"{fixed(np.degrees(radians), 1)}°"),
         ("quaternion w, x, y, z", fixed_row(quaternion_from_matrix(R), 2)),
     ]
     if affine:

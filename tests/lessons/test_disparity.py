@@ -172,7 +172,7 @@ class TestPresets:
         fewer = boards(states(replace(ONE_PIXEL, disparity_error=-1.0))[LAST])
         assert fewer[20] - 20 == pytest.approx(80 / 3 - 20, rel=0.02)
         shown = timeline(lesson.preset("one-pixel").params)[LAST].caption.text
-        assert "1 m by 1.2 cm, 5 m by 31.2 cm, 20 m by 5.00 m. Measured: 1.2 cm, 29." in shown
+        assert "1 m by 12.5 mm, 5 m by 0.312 m, 20 m by 5 m. Measured: 12.3 mm, 0.29" in shown
 
     def test_the_boards_are_found_where_they_stand_whatever_the_seed(self):
         for seed in (1, 5, 9):
@@ -243,7 +243,7 @@ class TestQuestions:
         for wrong in (20 * 0.0125, 20.0, 80 / 3 - 20, 1.0, 16.0):  # linear growth, the wrong side, other numbers
             assert abs(wrong - answer) > question.tolerance
         why = question.why(states(question.params))
-        assert "80 / 5 = 16 m: it came 4.0" in why
+        assert "80 / 5 = 16 m: it came 4 m" in why
         assert "which says 5 m" in why
         assert timeline(question.params)[question.step or 0].caption.text.endswith("of the truth.")
         assert "Measured: " in timeline(question.params)[question.step or 0].caption.text

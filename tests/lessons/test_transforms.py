@@ -292,7 +292,7 @@ def test_a_screw_takes_the_origin_along_an_arc():
     straight = np.linspace(origins[0], origins[-1], len(origins))
     assert np.linalg.norm(origins - straight, axis=1).max() > 0.3
     aside = np.linalg.norm(origins - straight, axis=1)
-    assert f"its origin {aside[15]:.2f} m from where lerp has it" in opened("screw").caption.text
+    assert f"its origin {aside[15]:.3f} m from where lerp has it" in opened("screw").caption.text
     line = exp_axis(states[0], states[-1])
     from_line = np.linalg.norm(np.cross(origins - line[0], line[1]), axis=1)
     np.testing.assert_allclose(from_line, from_line[0])  # a helix: at one distance from the line that it goes along
