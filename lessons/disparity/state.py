@@ -45,7 +45,14 @@ class Params:
                               by=Pick("left/picture"))
     ] = (54, 80)  # fmt: skip
     shrink: Annotated[
-        int, Knob("Average blocks of k × k pixels first (motorcycle and own pairs)", 1, 16, label="Shrink k times")
+        int,
+        Knob(
+            "Average blocks of k × k pixels first (motorcycle and own pairs)",
+            1,
+            16,
+            label="Shrink k times",
+            of_files=True,
+        ),
     ] = 4
     doffs: Annotated[
         float,
