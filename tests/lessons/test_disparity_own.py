@@ -90,9 +90,8 @@ class TestOwnPairs:
         left, right = files
         mine = Params(left=left, right=right, shrink=2, doffs=3.0, own_focal_length=500.0, own_baseline=0.2, window=9)
         kept = with_own_files(lesson.preset("motorcycle").params, mine)
-        assert kept == replace(
-            mine, **{name: getattr(kept, name) for name in ("scene", "cost", "window", "max_disparity", "pixel")}
-        )
+        of_pair = ("left", "right", "shrink", "doffs", "own_focal_length", "own_baseline")
+        assert [getattr(kept, name) for name in of_pair] == [getattr(mine, name) for name in of_pair]
         assert kept.window == 3
 
     @pytest.mark.parametrize("known", [{}, {"own_focal_length": 300.0}, {"own_baseline": 0.1}])
