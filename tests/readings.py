@@ -31,6 +31,14 @@ def says_length(text: str, metres: float, digits: int | None = None) -> bool:
     return says(numeral, metres / _METRES[unit], digits)
 
 
+def says_percent(text: str, share: float) -> bool:
+    """Whether "7.3 %", "less than 0.01 %" or "0 %" says a share as exactly as it is written; 0 % is none at all."""
+    numeral = text.removesuffix(" %").removeprefix("less than ")
+    if text.startswith("less"):
+        return abs(100 * share) <= number(numeral)
+    return says(numeral, 100 * share) and (number(numeral) != 0 or abs(share) < 1e-7)
+
+
 def metres(text: str) -> float:
     """The length, in metres, that "0.82 m", "8.2 cm" or "3.1 mm" says."""
     numeral, unit = text.rsplit(" ", 1)

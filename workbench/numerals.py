@@ -82,3 +82,8 @@ def percent(share: float, places: int | None = None) -> str:
     if abs(value) < 0.01:
         return "0 %" if abs(value) < 1e-6 else "less than 0.01 %"
     return f"{brief(value, 2) if abs(value) < 99.5 else fixed_or_power(value, 0)} %"
+
+
+def counted(count: int, one: str, more: str = "") -> str:
+    """Write how many there are of what: "1 sample", "2 samples"; a plural that is no mere s is given."""
+    return f"{count:,} {one if count == 1 else more or f'{one}s'}"

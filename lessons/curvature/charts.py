@@ -30,7 +30,7 @@ def beside(state: State) -> dict[str, Primitive]:
 def _errors(state: State) -> dict[str, Primitive]:
     roles: dict[str, Role] = {"K": "source", "H": "other", "K by fit": "highlight", "H by fit": "truth"}
     return {
-        f"error {name}": Scalar(round(error, 6), name, "Error to the truth", "%", roles[name])
+        f"error {name}": Scalar(round(100 * error, 6), name, "Error to the truth", "%", roles[name])
         for name, error in state.errors.items()
     }
 

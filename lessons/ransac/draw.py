@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from lessons.ransac.shapes import fan, frames, outline, plane_polygon
-from lessons.ransac.state import State
-from lessons.ransac.subject import Subject
+from lessons.ransac.shapes import frames, outline, plane_polygon
+from lessons.ransac.state import State, Subject
 from lessons.ransac.words import caption_of
 from workbench.algorithms.ransac import Fit
+from workbench.geometry.polylines import fan
 from workbench.scene import Classes, Curve, Label, Mesh, Picture, Points, Primitive, Role, Scalar, Scene, Segments
 
 MOST_LINES = 150
@@ -84,7 +84,9 @@ def _model(
     if subject.model.name == "plane" and opacity > 0.0:
         corners = plane_polygon(subject, estimate)
         if len(corners):
-            scene[f"{path}/surface"] = Mesh(subject.places[0](corners), fan(corners), color, opacity=opacity, flat=True)
+            scene[f"{path}/surface"] = Mesh(
+                subject.places[0](corners), fan(len(corners)), color, opacity=opacity, flat=True
+            )
     return scene
 
 
@@ -144,6 +146,13 @@ def _histogram(fit: Fit, state: State) -> Curve:
     counts = np.histogram(fit.distances, edges)[0]
     x = (edges[1:] + edges[:-1]) / 2.0
     return Curve(
-        x, counts.astype(float), state.subject.noun, "Distances to the model", f"distance ({unit})", "how many",
-        "target", "bars", (limit,),
-    )  # fmt: skip
+        x,
+        counts.astype(float),
+        name=state.subject.noun,
+        chart="Distances to the model",
+        x_label=f"distance ({unit})",
+        y_label="how many",
+        color="target",
+        kind="bars",
+        marks=(limit,),
+    )

@@ -4,9 +4,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from lessons.ransac.subject import Subject
+from lessons.ransac.state import Subject
 from workbench.geometry.epipolar import epipolar_lines
 from workbench.geometry.homography import transform_pixels
+from workbench.geometry.polylines import segments
 
 ARC = np.linspace(0.0, 2.0 * np.pi, 65)
 NOTHING = np.zeros((0, 2, 3))
@@ -27,10 +28,10 @@ def _outline(subject: Subject, numbers: bytes, shape: tuple[int, ...], rows: tup
         return _placed(subject, _clipped_lines(estimate[None], subject.low, subject.high))
     if name == "plane":
         corners = plane_polygon(subject, estimate)
-        return _closed(subject.places[0](corners)) if len(corners) else NOTHING
+        return segments(subject.places[0](corners), closed=True) if len(corners) else NOTHING
     if name == "circle":
         points = estimate[:2] + estimate[2] * np.column_stack([np.cos(ARC), np.sin(ARC)])
-        return _placed(subject, _inside(_chain(points), subject.low, subject.high))
+        return _placed(subject, _inside(segments(points), subject.low, subject.high))
     if name == "sphere":
         return _placed(subject, _inside(_rings(estimate), subject.low, subject.high))
     if name == "homography":
@@ -59,21 +60,18 @@ def plane_polygon(subject: Subject, plane: np.ndarray) -> np.ndarray:
     return points[np.argsort(np.arctan2(v @ np.cross(normal, u), v @ u))]
 
 
-def fan(corners: np.ndarray) -> np.ndarray:
-    """Return the triangles of a convex polygon."""
-    k = np.arange(1, len(corners) - 1)
-    return np.column_stack([np.zeros_like(k), k, k + 1])
-
-
 @lru_cache(maxsize=64)
 def frames(subject: Subject) -> np.ndarray:
     """Return the borders of the two images, of the 2D window, or nothing."""
     if subject.sizes:
         borders = [np.array([[0, 0], [w, 0], [w, h], [0, h]], float) - 0.5 for w, h in subject.sizes]
-        return np.concatenate([_closed(place(border)) for place, border in zip(subject.places, borders, strict=True)])
+        return np.concatenate(
+            [segments(place(border), closed=True) for place, border in zip(subject.places, borders, strict=True)]
+        )
     if len(subject.low) == 2:
         (x0, y0), (x1, y1) = subject.low, subject.high
-        return _closed(subject.places[0](np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])))
+        border = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
+        return segments(subject.places[0](border), closed=True)
     return NOTHING
 
 
@@ -92,7 +90,7 @@ def _warped_grid(subject: Subject, H: np.ndarray, cells: int = 4, pieces: int = 
     t, ticks = np.linspace(0.0, 1.0, cells * pieces + 1), np.linspace(0.0, 1.0, cells + 1)
     lines = [np.column_stack([np.full_like(t, x), t]) for x in ticks]
     lines += [line[:, ::-1] for line in lines]
-    ends = np.concatenate([_chain(line * [w, h]) for line in lines])
+    ends = np.concatenate([segments(line * [w, h]) for line in lines])
     with np.errstate(all="ignore"):
         moved = transform_pixels(H, ends.reshape(-1, 2)).reshape(-1, 2, 2)
     return _placed(subject, _inside(moved, -0.15 * subject.sizes[1], 1.15 * subject.sizes[1]), 1)
@@ -104,7 +102,7 @@ def _rings(sphere: np.ndarray) -> np.ndarray:
     c, s, zero = np.cos(ARC), np.sin(ARC), np.zeros_like(ARC)
     rings = [np.column_stack([c, s, zero]), np.column_stack([c, zero, s]), np.column_stack([zero, c, s])]
     rings += [np.column_stack([0.8 * c, 0.8 * s, zero + z]) for z in (-0.6, 0.6)]
-    return np.concatenate([_chain(centre + radius * ring) for ring in rings])
+    return np.concatenate([segments(centre + radius * ring) for ring in rings])
 
 
 def _clipped_lines(lines: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
@@ -127,14 +125,6 @@ def _clipped_lines(lines: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.n
 def _inside(ends: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
     """Return the segments whose ends are both finite and inside the window."""
     return ends[(np.isfinite(ends) & (ends >= low) & (ends <= high)).all(axis=(1, 2))]
-
-
-def _chain(points: np.ndarray) -> np.ndarray:
-    return np.stack([points[:-1], points[1:]], axis=1)
-
-
-def _closed(points: np.ndarray) -> np.ndarray:
-    return np.stack([points, np.roll(points, -1, axis=0)], axis=1)
 
 
 def _placed(subject: Subject, ends: np.ndarray, k: int = 0) -> np.ndarray:

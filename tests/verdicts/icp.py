@@ -8,10 +8,9 @@ import numpy as np
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
+from lessons.icp.experiments import OVERLAP
 from lessons.icp.lesson import run as run_icp
-from lessons.icp.params import Params
-from lessons.icp.presets import OVERLAP
-from lessons.icp.state import State
+from lessons.icp.state import Params, State
 from lessons.icp.words import caption
 from tests.verdicts import Claim, Run
 from workbench.algorithms.icp import Stop

@@ -1,10 +1,10 @@
-"""Brings a person's own data into the picture, whatever their size, place and upward axis.
+"""Brings a person's own data into the picture, whatever their unit, size, place and upward axis.
 
 A frame says how: p_world = scale R_world_file (p_file - centre) + offset. Its box may leave out far points, so that a few of
 them do not shrink the rest.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -12,6 +12,8 @@ from jaxtyping import Float
 
 from workbench.geometry.motions import apply, motion
 
+Unit = Literal["m", "cm", "mm", "km"]
+METRES: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0}
 Up = Literal["z", "y", "-y", "x"]
 UPRIGHT: dict[Up, np.ndarray] = {  # R_world_file: takes the axis of the file that points up to the world's +Z
     "z": np.eye(3),
@@ -24,7 +26,7 @@ FAR = 2.0  # per cent of the points at either end of an axis that may be called 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Frame:
-    """How data of a file stand in the picture.
+    """How data of a file stand in the picture; by default as they are.
 
     Attributes:
         centre: The place in the file that the picture is about, in the file's unit.
@@ -33,10 +35,10 @@ class Frame:
         offset: Where the centre comes to in the picture, metres.
     """
 
-    centre: np.ndarray
-    scale: float
-    R_world_file: np.ndarray
-    offset: np.ndarray
+    centre: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    scale: float = 1.0
+    R_world_file: np.ndarray = field(default_factory=lambda: np.eye(3))
+    offset: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def shown(self, p_file: Float[np.ndarray, "*n 3"]) -> Float[np.ndarray, "*n 3"]:
         """Return points of the file as the picture has them."""
@@ -72,7 +74,7 @@ def frame(p_file: Float[np.ndarray, "n 3"], width: float, *, up: Up = "z", far: 
     """
     low, high = box(p_file, far)
     scale = width / (extent(p_file, far) or 1.0)
-    return Frame(centre=(low + high) / 2, scale=scale, R_world_file=UPRIGHT[up], offset=np.zeros(3))
+    return Frame(centre=(low + high) / 2, scale=scale, R_world_file=UPRIGHT[up])
 
 
 def box(p: Float[np.ndarray, "n d"], far: float = 0.0) -> tuple[np.ndarray, np.ndarray]:

@@ -1,67 +1,25 @@
-"""What a run is about: the rows to fit, what is true of them, and where they stand in the picture."""
+"""Where the rows of a run come from, built-in scenes or the person's own files, and where they stand in the picture."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from lessons.ransac.params import MOST_POINTS, Params
+from lessons.ransac.state import MOST_POINTS, Params, Subject
 from workbench.algorithms.models import MODELS, Model
 from workbench.data import robust
 from workbench.data.files import read_cloud, read_image
+from workbench.data.framing import METRES, extent, frame
 from workbench.data.matches import read_matches
 from workbench.data.robust import RobustScene
 from workbench.errors import InputError
 
 PIXEL = 1.0 / 500.0  # metres of the picture per pixel of the built-in images
-METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "km": 1000.0}
 FLOOR = -0.35  # height of the picture's ground
 GAP = 0.12
-UPRIGHT = {
-    "z": np.eye(3),
-    "y": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
-    "-y": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]),
-}
-
-
-@dataclass(frozen=True, eq=False)
-class Subject:
-    """The rows of a run, and how they are shown.
-
-    Attributes:
-        model: What is fitted.
-        p: The rows: points in metres, or matches in pixels.
-        truth: The true parameters, where known.
-        p_true: Rows free of noise that truly belong to the model, where known; else none.
-        is_inlier: Which rows were made from the model, where known.
-        quality: How much each row is trusted, where known.
-        low, high: The ends of the window in which models are drawn, in the unit of the rows.
-        places: For each half of a row that is a point (one, or two for a match), where it stands in the picture.
-        sizes: Of the two images, pixels; for matches only.
-        images: The images themselves, where the person gave them.
-        noun: What a row is called.
-    """
-
-    model: Model
-    p: np.ndarray
-    truth: np.ndarray | None
-    p_true: np.ndarray
-    is_inlier: np.ndarray | None
-    quality: np.ndarray | None
-    low: np.ndarray
-    high: np.ndarray
-    places: tuple[Callable[[np.ndarray], np.ndarray], ...]
-    sizes: tuple[np.ndarray, ...] = ()
-    images: tuple[np.ndarray | None, ...] = (None, None)
-    noun: str = "points"
-
-    @cached_property
-    def shown(self) -> tuple[np.ndarray, ...]:
-        """The rows as points of the picture, (n, 3); for matches one array per image."""
-        d = self.p.shape[1] // len(self.places)
-        return tuple(place(self.p[:, k * d : (k + 1) * d]) for k, place in enumerate(self.places))
+WIDTH = 2.2  # metres of the picture that own clouds are shown wide
 
 
 def subject_of(params: Params) -> Subject:
@@ -116,9 +74,9 @@ def _built_in(params: Params) -> Subject:
         return _of_matches(model, made.p, (size, size), PIXEL, **known)
     if model.columns == 2:
         low, high = np.array([-1.1, -1.1]), np.array([1.1, 1.1])
-        return Subject(model, made.p, low=low, high=high, places=(_stand_up,), **known)
+        return Subject(model=model, p=made.p, low=low, high=high, places=(_stand_up,), **known)
     low, high = np.array([-1.15, -1.15, -0.3]), np.array([1.15, 1.15, 1.5])
-    return Subject(model, made.p, low=low, high=high, places=(np.asarray,), **known)
+    return Subject(model=model, p=made.p, low=low, high=high, places=(np.asarray,), **known)
 
 
 def _own_cloud(params: Params, model: Model) -> Subject:
@@ -126,16 +84,15 @@ def _own_cloud(params: Params, model: Model) -> Subject:
     p = METRES[params.cloud_unit] * read_cloud(params.cloud, fewest=model.sample_size)
     if len(p) > MOST_POINTS:
         p = p[np.random.default_rng(params.scene_seed).choice(len(p), MOST_POINTS, replace=False)]
-    low, high = p.min(axis=0), p.max(axis=0)
-    centre, scale = (low + high) / 2.0, 2.2 / max(float((high - low).max()), 1e-12)
-    R_world_cloud = UPRIGHT[params.up]
-    raised = FLOOR - (scale * (p - centre) @ R_world_cloud.T)[:, 2].min()
-
-    def place(q: np.ndarray) -> np.ndarray:
-        return scale * (q - centre) @ R_world_cloud.T + np.array([0.0, 0.0, raised])
-
-    margin = 0.02 * (high - low).max()
-    return Subject(model, p, None, p[:0], None, None, low - margin, high + margin, (place,))
+    margin = 0.02 * extent(p)
+    return Subject(
+        model=model,
+        p=p,
+        p_true=p[:0],
+        low=p.min(axis=0) - margin,
+        high=p.max(axis=0) + margin,
+        places=(frame(p, WIDTH, up=params.up).standing(p, FLOOR).shown,),
+    )
 
 
 def _own_matches(params: Params, model: Model) -> Subject:
@@ -165,8 +122,17 @@ def _of_matches(
     width_first, height = sizes[0][0] * pixel, max(size[1] for size in sizes) * pixel
     left = (-GAP / 2 - width_first, GAP / 2)
     places = tuple(_on_image(x, height + FLOOR + 0.1, pixel) for x in left)
-    low, high = np.array([0.0, 0.0]), np.max(sizes, axis=0)
-    return Subject(model, p, low=low, high=high, places=places, sizes=sizes, images=images, noun="matches", **known)
+    return Subject(
+        model=model,
+        p=p,
+        low=np.array([0.0, 0.0]),
+        high=np.max(sizes, axis=0),
+        places=places,
+        sizes=sizes,
+        images=images,
+        noun="matches",
+        **known,
+    )
 
 
 def _on_image(left: float, top: float, pixel: float) -> Callable[[np.ndarray], np.ndarray]:

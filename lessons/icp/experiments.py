@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.icp.basin import ANGLES
-from lessons.icp.params import Params
-from lessons.icp.state import State
-from lessons.icp.words import length, off
+from lessons.icp.state import Params, State
+from lessons.icp.words import off
 from workbench.lesson import Preset, Question
+from workbench.numerals import length, percent
 
 HOME = Params()
 FAR = Params(start_angle=120.0)
@@ -123,7 +123,7 @@ def _matches_why(states: Sequence[State]) -> str:
     last = end(states)
     came = "came home to" if last.home else "ended"
     return (
-        f"{100.0 * states[0].right:.0f} %, and ICP still {came} {off(last)} from the truth: partners need not be right for"
+        f"{percent(states[0].right, 0)}, and ICP still {came} {off(last)} from the truth: partners need not be right for"
         " a fit to turn the source downhill."
     )
 

@@ -2,11 +2,10 @@
 
 from collections.abc import Iterable, Sequence
 
-from lessons.ransac.params import Params
-from lessons.ransac.state import State
-from lessons.ransac.words import length
+from lessons.ransac.state import Params, State
 from workbench.algorithms.ransac import iterations_needed
 from workbench.lesson import Preset, Question
+from workbench.numerals import length, percent
 
 HALF = Params()
 THIRTY = Params(outliers=0.3, seed=2)
@@ -155,8 +154,8 @@ def _near_answer(states: Sequence[State]) -> float:
 def _near_why(states: Sequence[State]) -> str:
     state = first(states, "inliers")
     return (
-        f"It reaches {100 * share_reached(state):.0f} % of them (blue). The three lie so close together that a noise of"
-        f" {length(state.params.noise, 'm')} tilts their plane freely. The formula for N promises a clean sample, not a good"
+        f"It reaches {percent(share_reached(state), 0)} of them (blue). The three lie so close together that a noise of"
+        f" {length(state.params.noise)} tilts their plane freely. The formula for N promises a clean sample, not a good"
         " model."
     )
 
@@ -175,7 +174,7 @@ def _planes_why(states: Sequence[State]) -> str:
     assert last.now.best is not None
     return (
         f"Its plane has {last.now.best.count} points near it and stands upright: the wall. The points of the table are"
-        f" {length(last.best_error, 'm')} from it (RMS). A score knows numbers, not wishes. For the table, take the wall's"
+        f" {length(last.best_error)} from it (RMS). A score knows numbers, not wishes. For the table, take the wall's"
         " points away and run again, or say that you want a level plane."
     )
 
@@ -188,9 +187,9 @@ def _huber_answer(states: Sequence[State]) -> float:
 
 def _huber_why(states: Sequence[State]) -> str:
     last = end(states)
-    squares, huber = (length(rival.error, "m") for rival in last.rivals)
+    squares, huber = (length(rival.error) for rival in last.rivals)
     return (
-        f"RANSAC {length(last.best_error, 'm')}, Huber {huber}, least squares {squares} off (RMS). An outlier pulls on"
+        f"RANSAC {length(last.best_error)}, Huber {huber}, least squares {squares} off (RMS). An outlier pulls on"
         " Huber's fit with the force of a point at the corner of its loss, however far it is; here nearly all of them pull"
         " upwards."
     )

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lessons.curvature.params import Params
-from lessons.curvature.state import State, at_stage
+from lessons.curvature.state import Params, State, at_stage
 from workbench.geometry.curvature import gaussian_curvature
 from workbench.lesson import Preset, Question
+from workbench.numerals import percent
 
 GAUSSIAN, MEAN, PRINCIPAL, TOTAL = 3, 5, 6, 8
 
@@ -160,8 +160,8 @@ def _why_finer(states: Sequence[State]) -> str:
     study = at_stage(states, "finer").study
     assert study is not None
     return (
-        f"It goes from {100 * study.K[0]:.1f} % to {100 * study.K[-1]:.1f} % (RMS). The triangles shrink but keep their odd"
-        f" shapes, and so does the error of defect / area; that of the quadric fit falls to {100 * study.K_fit[-1]:.1f} %."
+        f"It goes from {percent(study.K[0], 1)} to {percent(study.K[-1], 1)} (RMS). The triangles shrink but keep their odd"
+        f" shapes, and so does the error of defect / area; that of the quadric fit falls to {percent(study.K_fit[-1], 1)}."
     )
 
 
