@@ -7,11 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-<<<<<<< HEAD
-from workbench.numerals import angle, brief, fixed, fixed_or_power, fixed_row, length, percent, pixels
-=======
 from workbench.numerals import angle, brief, counted, fixed, fixed_or_power, fixed_row, length, percent, pixels
->>>>>>> part-form1
 
 NUMERAL = re.compile(r"−?\d{1,3}(,\d{3})*(\.\d+)?")
 
@@ -79,12 +75,9 @@ def test_brief_is_the_number_to_its_digits(value, digits):
         (percent(12.34), "1,234 %"),
         (percent(0.0734, 0), "7 %"),
         (percent(-0.0001, 1), "0.0 %"),
-<<<<<<< HEAD
-=======
         (counted(1, "vertex", "vertices"), "1 vertex"),
         (counted(0, "vertex", "vertices"), "0 vertices"),
         (counted(1234, "sample"), "1,234 samples"),
->>>>>>> part-form1
     ],
 )
 def test_numerals(text, said):

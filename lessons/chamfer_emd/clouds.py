@@ -4,7 +4,7 @@ import numpy as np
 
 from lessons.chamfer_emd.state import Clouds, Params, Start
 from workbench.data.files import read_cloud
-from workbench.data.framing import FAR, frame
+from workbench.data.framing import FAR, Frame, frame
 from workbench.data.point_sets import (
     blob,
     bumped,
@@ -41,17 +41,17 @@ def clouds_of(params: Params) -> Clouds:
         raise InputError("an own source needs an own target to flow to: give --target too")
     rng = np.random.default_rng(params.seed)
     if params.target is None:
-        framed, p_target = None, spread(params.shape, params.points)
+        framed, p_target = Frame(), spread(params.shape, params.points)
     else:
         whole = read_cloud(params.target)
         framed = frame(whole, WIDTH, far=FAR)
         p_target = framed.shown(some_points(whole, params.points, rng))
-    if params.source is None or framed is None:
+    if params.source is None:
         p_source, name = changed(p_target, params.start, params.amount, params, rng), _name(params)
     else:
         p_source = framed.shown(some_points(read_cloud(params.source), params.source_points or params.points, rng))
         name = params.source.name
-    return Clouds(p_source=p_source, p_target=p_target, name=name, scale=1.0 if framed is None else framed.scale)
+    return Clouds(p_source=p_source, p_target=p_target, name=name, scale=framed.scale)
 
 
 def changed(p_target: np.ndarray, start: Start, amount: float, params: Params, rng: np.random.Generator) -> np.ndarray:

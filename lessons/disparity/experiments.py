@@ -8,7 +8,7 @@ import scipy
 
 from lessons.disparity.pairs import setup_of
 from lessons.disparity.state import Params, State
-from lessons.disparity.words import flat_parts
+from lessons.disparity.truth import flat_parts
 from workbench.algorithms.disparity import Stage
 from workbench.lesson import Preset, Question
 from workbench.numerals import length, percent

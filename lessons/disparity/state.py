@@ -123,6 +123,12 @@ class Setup:
     metric: bool = True
 
     @functools.cached_property
+    def true_depth(self) -> np.ndarray:
+        """The true depth of every left pixel, metres: infinite where nothing shifts, NaN where the truth is not known."""
+        true = self.pair.disparity
+        return np.full(self.left.shape, np.nan) if true is None else self.pair.camera.depth(true)
+
+    @functools.cached_property
     def agreeing(self) -> tuple[float, float]:
         """The share of left pixels whose partners choose them back; and the same with the pictures exchanged.
 

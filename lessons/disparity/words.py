@@ -6,6 +6,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from lessons.disparity.state import State
+from lessons.disparity.truth import depth_errors, flat_parts, known_depths
 from workbench.algorithms.disparity import Stage
 from workbench.numerals import fixed, length, percent
 from workbench.scene import Caption
@@ -117,7 +118,7 @@ def _of_depth(state: State) -> Caption:
     depth = float(state.depth[v, u])
     d = "d" if camera.doffs == 0 else f"(d + {camera.doffs:.3g})"
     law = f"Z = f B / {d} with f = {setup.f:.4g} px, B = {camera.baseline:.3g} m"
-    true = _true_depth(state)
+    true = float(setup.true_depth[v, u])
     truth = f" (truth {true:.3f} m)" if math.isfinite(true) else " (truth: infinitely far)" if math.isinf(true) else ""
     if math.isnan(depth):
         here = f"left pixel ({u}, {v}) is unknown and stays so"
@@ -178,51 +179,9 @@ def _of_error(state: State) -> Caption:
     return Caption(text, _tone(state))
 
 
-def flat_parts(state: State) -> dict[float, np.ndarray]:
-    """Return, for every depth that hundreds of pixels share exactly, how far theirs is off, metres; empty without truth."""
-    setup = state.setup
-    truth, visible, camera = setup.pair.disparity, setup.pair.visible, setup.pair.camera
-    if truth is None or visible is None:
-        return {}
-    d = np.round(truth + camera.doffs, 6)
-    values, counts = np.unique(d[visible & (d > 0)], return_counts=True)
-    parts = {}
-    for value in values[counts > 300][::-1]:
-        depth = camera.f * camera.baseline / float(value)
-        here = visible & (d == value) & np.isfinite(state.depth)
-        if here.any():
-            parts[depth] = state.depth[here] - depth
-    return parts
-
-
-def depth_errors(state: State) -> np.ndarray:
-    """Return how far the depths that are known are from the true ones, metres; empty without truth."""
-    found, true = _known_depths(state)
-    return np.abs(found - true)
-
-
-def _known_depths(state: State) -> tuple[np.ndarray, np.ndarray]:
-    """Return the depths found and the true ones, metres, of the pixels where both are known and finite."""
-    setup = state.setup
-    truth, camera = setup.pair.disparity, setup.pair.camera
-    if truth is None:
-        return np.zeros(0), np.zeros(0)
-    known = np.isfinite(state.depth) & np.isfinite(truth) & (truth + camera.doffs > 0)
-    return state.depth[known], camera.f * camera.baseline / (truth[known] + camera.doffs)
-
-
-def _true_depth(state: State) -> float:
-    setup = state.setup
-    if setup.pair.disparity is None:
-        return math.nan
-    u, v = setup.pixel
-    d = float(setup.pair.disparity[v, u]) + setup.pair.camera.doffs
-    return math.inf if d == 0 else setup.pair.camera.f * setup.pair.camera.baseline / d if d > 0 else math.nan
-
-
 def _tone(state: State) -> Tone:
     """Judge the depths: good within 3 % in the median and with few wrong pixels, wrong beyond 10 % or with many."""
-    found, true = _known_depths(state)
+    found, true = known_depths(state)
     if not len(found):
         return "info"
     relative = float(np.median(np.abs(found / true - 1.0)))

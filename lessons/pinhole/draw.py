@@ -13,6 +13,7 @@ from workbench.data.street import street
 from workbench.geometry.cameras import camera_center, depths
 from workbench.geometry.distortion import Distortion, distort, invertible_radius
 from workbench.geometry.motions import apply, inverse
+from workbench.geometry.polylines import segments
 from workbench.numerals import fixed, pixels
 from workbench.scene import (
     Axes,
@@ -92,10 +93,11 @@ def _camera(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     k = state.params.point
     x, y, z = apply(state.shot.T_camera_world, state.now.p_world[k])
     corners = np.array([[0.0, 0, 0], [0, 0, z], [x, 0, z], [x, y, z]])
-    ends = np.stack([corners[:-1], corners[1:]], axis=1)
     names = (f"depth Z = {fixed(z, 2)} m", f"X = {fixed(x, 2)} m", f"Y = {fixed(y, 2)} m")
     return {
-        "ways": Segments(ends, Classes(np.arange(3), ("z", "x", "y"), names), 4, T_world_camera, name="X, Y, Z"),
+        "ways": Segments(
+            segments(corners), Classes(np.arange(3), ("z", "x", "y"), names), 4, T_world_camera, name="X, Y, Z"
+        ),
     }
 
 

@@ -8,6 +8,7 @@ from lessons.transforms.state import FRONT, Body, Built, Ghost, Moved, State
 from lessons.transforms.words import caption_of_build, caption_of_move
 from workbench.geometry.affine import decompose, kind_of, transform, transform_directions, translation
 from workbench.geometry.invariants import Change
+from workbench.geometry.polylines import segments
 from workbench.geometry.rotations import (
     EulerOrder,
     axis_angle_from_rotation,
@@ -50,8 +51,9 @@ def _draw_build(state: Built) -> Scene:
         "caption": caption_of_build(state),
     }
     if len(state.trail) > 1:
-        ends = np.stack([state.trail[:-1], state.trail[1:]], axis=1)
-        scene["trail"] = Segments(ends, "highlight", 2.5, name=f"vertex {body.point}, factor by factor")
+        scene["trail"] = Segments(
+            segments(state.trail), "highlight", 2.5, name=f"vertex {body.point}, factor by factor"
+        )
     if _affine(T):
         scene["front"] = _arrow(transform(T, body.p_door[None])[0], T, "highlight", "front: a direction, w = 0")
     if state.params.compare == "direction with w = 1":
@@ -77,7 +79,7 @@ def _draw_move(state: Moved) -> Scene:
         **_shown("end", body, state.T_world_end, "target", 0.15, "end"),
         **_shown("body", body, state.T_world_body, "source", 0.85, f"by {state.params.method}"),
         "shortest": _lines(body, state.T_world_shortest, "truth", "shortest turn"),
-        "shortest path": Segments(_steps(state.shortest.path), "truth", 2, name="its path"),
+        "shortest path": Segments(segments(state.shortest.path), "truth", 2, name="its path"),
         "vertex": Label(f"vertex {body.point}", way.path[-1], "highlight"),
         "off": Scalar(state.off, "from the shortest turn", "Error to truth", "deg", "truth"),
         "volume": Scalar(100 * state.volume, "volume", "Volume", "%"),
@@ -89,7 +91,7 @@ def _draw_move(state: Moved) -> Scene:
         "caption": caption_of_move(state),
     }
     if len(way.path) > 1:
-        scene["path"] = Segments(_steps(way.path), "source", 3, name=f"path of vertex {body.point}")
+        scene["path"] = Segments(segments(way.path), "source", 3, name=f"path of vertex {body.point}")
         speed = np.diff(way.turned) / np.diff(way.times)
         scene["speed"] = Curve(way.times[1:], speed, state.params.method, "Turning speed", "t", "deg per unit of t")
     return scene
@@ -238,10 +240,6 @@ def _in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder
             ("det T", fixed(float(np.linalg.det(T[:3, :3])), 2)),
         ]
     return Table("The rotation, in other numbers", ("name", "numbers"), tuple(rows))
-
-
-def _steps(path: np.ndarray) -> np.ndarray:
-    return np.stack([path[:-1], path[1:]], axis=1)
 
 
 def _affine(T: np.ndarray) -> bool:

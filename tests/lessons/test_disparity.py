@@ -31,7 +31,7 @@ from lessons.disparity.experiments import (
 from lessons.disparity.lesson import lesson
 from lessons.disparity.pairs import setup_of
 from lessons.disparity.state import Params
-from lessons.disparity.words import depth_errors
+from lessons.disparity.truth import depth_errors
 from tests.lessons.disparity_runs import BARE_PART, STRIPED_PART, off_in, preset, states, timeline, truth_of, visible_in
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.stereo import depth_from_disparity
