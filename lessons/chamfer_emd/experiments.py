@@ -5,8 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from lessons.chamfer_emd.state import Params, Side, State
-from lessons.chamfer_emd.words import metres, share, squared
+from lessons.chamfer_emd.words import metres, squared
 from workbench.lesson import Preset, Question
+from workbench.numerals import percent
 
 CLUMP = Params()
 FLIP = Params(start="bunched", amount=0.8, points=140)
@@ -105,8 +106,8 @@ def _spread_answer(states: Sequence[State]) -> float:
 def _spread_why(states: Sequence[State]) -> str:
     left, right = states[-1].left, states[-1].right
     return (
-        f"{share(nearer_side(left))} of its points stay on the nearer half ({share(nearer_side(right))} for earth mover's)."
-        " A few points near the far side serve all target points there, and the others feel no pull across."
+        f"{percent(nearer_side(left), 0)} of its points stay on the nearer half ({percent(nearer_side(right), 0)} for"
+        " earth mover's). A few points near the far side serve all target points there, and the others feel no pull across."
     )
 
 
@@ -133,9 +134,9 @@ def back_share(side: Side) -> float:
 def _missing_why(states: Sequence[State]) -> str:
     side = states[0].left
     return (
-        f"{share(back_share(side))} of {squared(side.numbers.chamfer)}. Every source point lies on a target point, so that"
-        f" the other side is {squared(side.numbers.to_target)} and its flow, on the left, stays where it is: it cannot see"
-        " what the source lacks."
+        f"{percent(back_share(side), 0)} of {squared(side.numbers.chamfer)}. Every source point lies on a target point, so"
+        f" that the other side is {squared(side.numbers.to_target)} and its flow, on the left, stays where it is: it cannot"
+        " see what the source lacks."
     )
 
 

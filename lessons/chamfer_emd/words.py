@@ -4,7 +4,7 @@ import numpy as np
 
 from lessons.chamfer_emd.state import Numbers, Side, State
 from workbench.algorithms.flow import Stop
-from workbench.numerals import brief
+from workbench.numerals import brief, percent
 from workbench.scene import Caption
 
 LOWERED = {
@@ -52,12 +52,12 @@ def _step(state: State, before_left: Numbers, before_right: Numbers) -> Caption:
         text += f"ended at {_lowered_value(state)}"
     else:
         text += f"{LOWERED[state.params.lowers]} {_value_before(state, before_left)} → {_lowered_value(state)}"
-    text += f", {share(left.numbers.astray)} of the mass astray. Right: earth mover's "
+    text += f", {percent(left.numbers.astray, 0)} of the mass astray. Right: earth mover's "
     if right.flow.step < state.step:
         text += f"ended at {metres(right.numbers.earth_movers)}"
     else:
         text += f"{metres(before_right.earth_movers)} → {metres(right.numbers.earth_movers)}"
-    text += f", {share(right.numbers.astray)} astray."
+    text += f", {percent(right.numbers.astray, 0)} astray."
     if not state.last:
         return Caption(text)
     text += f" Left {_why(left)}; right {_why(right)}."
@@ -103,11 +103,6 @@ def squared(value: float) -> str:
 def metres(value: float) -> str:
     """Return a number of metres with two digits that count."""
     return f"{significant(value, 2)} m"
-
-
-def share(value: float) -> str:
-    """Return a share in percent."""
-    return f"{100 * value:.0f} %"
 
 
 def significant(value: float, digits: int) -> str:

@@ -86,13 +86,12 @@ def _error_curves(state: State) -> dict[str, Primitive]:
     predicted = z * z / (setup.f * camera.baseline) * state.disparity_error
     name = f"Z² / (f B) · {state.disparity_error:g} px"
     shown: dict[str, Primitive] = {"error/predicted": Curve(z, predicted, name, chart, *labels, "source")}
-    if setup.pair.disparity is None or setup.pair.visible is None:
+    if setup.pair.visible is None:
         return shown
-    true_disparity = setup.pair.disparity + camera.doffs
-    known &= setup.pair.visible & (true_disparity > 0)
+    known &= setup.pair.visible & np.isfinite(setup.true_depth)
     if known.sum() < 10 * BINS:
         return shown
-    true = camera.f * camera.baseline / true_disparity[known]
+    true = setup.true_depth[known]
     off = np.abs(state.depth[known] - true)
     edges = np.unique(np.quantile(true, np.linspace(0, 1, BINS + 1)))
     bins = np.clip(np.searchsorted(edges, true, "right") - 1, 0, max(len(edges) - 2, 0))
@@ -114,9 +113,10 @@ def _table(state: State) -> Table:
         rows.append((f"± {error:g} px", f"{_m(near)} to {_m(far)}"))
     if setup.pair.disparity is not None:
         true = float(setup.pair.disparity[v, u])
-        true_depth = camera.f * camera.baseline / (true + camera.doffs) if true + camera.doffs > 0 else math.inf
         seen = "" if setup.pair.visible is None or setup.pair.visible[v, u] else ", hidden from the right camera"
-        rows.append(("truth", "unknown" if math.isnan(true) else f"{_px(true)}, {_m(true_depth)}{seen}"))
+        rows.append(
+            ("truth", "unknown" if math.isnan(true) else f"{_px(true)}, {_m(float(setup.true_depth[v, u]))}{seen}")
+        )
     return Table(f"Left pixel ({u}, {v})", ("", "value"), tuple(rows))
 
 

@@ -8,9 +8,10 @@ import scipy
 
 from lessons.disparity.pairs import setup_of
 from lessons.disparity.state import Params, State
-from lessons.disparity.words import flat_parts
+from lessons.disparity.truth import flat_parts
 from workbench.algorithms.disparity import Stage
 from workbench.lesson import Preset, Question
+from workbench.numerals import length, percent
 
 HOME = Params()
 BARE = Params(scene="plain wall", smoothness=0.0, pixel=(62, 60))
@@ -183,7 +184,7 @@ def _quarter_why(states: Sequence[State]) -> str:
     found = boards(states[DEPTH])
     return (
         "Z = f B / d: a quarter of the disparity is four times the depth. The boards were found at"
-        f" {found[5]:.2f} m and {found[20]:.1f} m."
+        f" {length(found[5])} and {length(found[20])}."
     )
 
 
@@ -194,8 +195,8 @@ def _nearer(states: Sequence[State]) -> float:
 def _nearer_why(states: Sequence[State]) -> str:
     near, far = 1.0 - boards(states[DEPTH])[1], _nearer(states)
     return (
-        f"Its 4 px became 5, and Z = f B / d with f B = 80 made of 20 m 80 / 5 = 16 m: it came {far:.2f} m nearer,"
-        f" {far / near:.0f} times as much as the board at 1 m ({100 * near:.1f} cm). The formula Z² / (f B), which says 5 m,"
+        f"Its 4 px became 5, and Z = f B / d with f B = 80 made of 20 m 80 / 5 = 16 m: it came {length(far)} nearer,"
+        f" {far / near:.0f} times as much as the board at 1 m ({length(near)}). The formula Z² / (f B), which says 5 m,"
         " is the tangent: 1 px too small would have put it 6.67 m further. Either way the error grows with Z², not with Z."
     )
 
@@ -215,8 +216,8 @@ def _averages(states: Sequence[State]) -> float:
 def _averages_why(states: Sequence[State]) -> str:
     of_depths, of_disparities = mean_depths(states)
     return (
-        f"The mean of the depths is {of_depths:.1f} m, the mean disparity stands for {of_disparities:.1f} m: 1 / d is not"
-        " linear, and the near board has by far the largest d."
+        f"The mean of the depths is {length(of_depths)}, the mean disparity stands for {length(of_disparities)}: 1 / d is"
+        " not linear, and the near board has by far the largest d."
     )
 
 
@@ -227,7 +228,7 @@ def _hidden(states: Sequence[State]) -> float:
 
 def _hidden_why(states: Sequence[State]) -> str:
     return (
-        f"{100 * hidden(PLANES):.1f} % became {100 * hidden(states[0].setup.params):.1f} %. The depths of the rest are"
+        f"{percent(hidden(PLANES), 1)} became {percent(hidden(states[0].setup.params), 1)}. The depths of the rest are"
         " about twice as exact: a longer baseline is a trade, not a gain."
     )
 
@@ -241,8 +242,8 @@ def _edges_why(states: Sequence[State]) -> str:
     state = last_choice(states)
     of_wrong, of_all = near_edges(state)
     return (
-        f"{100 * state.wrong:.0f} % of the map is wrong, and {100 * of_wrong:.0f} % of that lies within 10 px, half a"
-        f" window, of an edge, where only {100 * of_all:.0f} % of all pixels are."
+        f"{percent(state.wrong, 0)} of the map is wrong, and {percent(of_wrong, 0)} of that lies within 10 px, half a"
+        f" window, of an edge, where only {percent(of_all, 0)} of all pixels are."
     )
 
 
@@ -253,7 +254,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "nearer",
-        "Every disparity is measured 1 px too large: a board with 80 px, 1 m away, comes 1.2 cm nearer. How much nearer does"
+        "Every disparity is measured 1 px too large: a board with 80 px, 1 m away, comes 12 mm nearer. How much nearer does"
         " the board with 4 px come?",
         _nearer, _nearer_why, ONE_PIXEL, unit="m", tolerance=1.1, step=LAST,
     ),

@@ -16,6 +16,7 @@ from lessons.disparity.draw import draw
 from lessons.disparity.experiments import PRESETS, QUESTIONS
 from lessons.disparity.pairs import setup_of
 from lessons.disparity.state import Figures, Params, Setup, State
+from lessons.disparity.truth import judged
 from workbench.algorithms.cost_volume import (
     CostVolume,
     census_cost_volume,
@@ -65,7 +66,7 @@ def states_of(setup: Setup, steps: Iterator[Matching], depth_of: DepthOf) -> Ite
     params, camera = setup.params, setup.pair.camera
     disparity = state.disparity + params.disparity_error
     shown = abs(params.disparity_error) or USUAL_ERROR
-    wrong, error, unknown = _judged(setup, disparity)
+    wrong, error, unknown = judged(setup, disparity)
     last = replace(state, stage=None, disparity=disparity, before=before, wrong=wrong, error=error, unknown=unknown)
     for depths in reconstruct(disparity + camera.doffs, setup.f, camera.baseline, shown, depth_of):
         yield replace(last, depth=depths.depth, uncertainty=depths.uncertainty, disparity_error=shown)
@@ -79,7 +80,7 @@ def _of_matching(setup: Setup, now: Matching, depth_of: DepthOf, before: Figures
     costs[~np.isfinite(costs)] = np.nan
     piece = now.cost[-1].astype(np.float32) if comparing else None
     camera = setup.pair.camera
-    wrong, error, unknown = _judged(setup, now.disparity)
+    wrong, error, unknown = judged(setup, now.disparity)
     return State(
         setup=setup,
         stage=now.stage,
@@ -103,17 +104,6 @@ def _mean_lowest(now: Matching) -> float:
     chosen = np.clip(np.nan_to_num(now.disparity), 0, len(now.cost) - 1).astype(np.int64)
     lowest = np.take_along_axis(now.cost, chosen[None], axis=0)[0]
     return float(np.mean(lowest, where=np.isfinite(lowest)))
-
-
-def _judged(setup: Setup, disparity: np.ndarray) -> tuple[float, float, float]:
-    """Return the share of wrong pixels, the mean error of the right ones, and the share of unknown pixels."""
-    unknown = float(np.isnan(disparity).mean())
-    truth, visible = setup.pair.disparity, setup.pair.visible
-    if truth is None or visible is None or not visible.any():
-        return np.nan, np.nan, unknown
-    off = np.abs(disparity - truth)[visible]
-    right = off <= 1.0
-    return float((off > 1.0).mean()), float(off[right].mean()) if right.any() else np.nan, unknown
 
 
 lesson = Lesson(

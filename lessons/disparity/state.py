@@ -45,7 +45,14 @@ class Params:
                               by=Pick("left/picture"))
     ] = (54, 80)  # fmt: skip
     shrink: Annotated[
-        int, Knob("Average blocks of k × k pixels first (motorcycle and own pairs)", 1, 16, label="Shrink k times")
+        int,
+        Knob(
+            "Average blocks of k × k pixels first (motorcycle and own pairs)",
+            1,
+            16,
+            label="Shrink k times",
+            of_files=True,
+        ),
     ] = 4
     doffs: Annotated[
         float,
@@ -114,6 +121,12 @@ class Setup:
     max_disparity: int
     far: float
     metric: bool = True
+
+    @functools.cached_property
+    def true_depth(self) -> np.ndarray:
+        """The true depth of every left pixel, metres: infinite where nothing shifts, NaN where the truth is not known."""
+        true = self.pair.disparity
+        return np.full(self.left.shape, np.nan) if true is None else self.pair.camera.depth(true)
 
     @functools.cached_property
     def agreeing(self) -> tuple[float, float]:

@@ -7,13 +7,14 @@ import numpy as np
 
 from lessons.pinhole.shot import FACTORS
 from lessons.pinhole.state import State, name_of
-from lessons.pinhole.words import caption, count, metres, pair, triple
+from lessons.pinhole.words import caption, depth, pair, triple
 from workbench.algorithms import pinhole
 from workbench.data.street import street
 from workbench.geometry.cameras import camera_center, depths
 from workbench.geometry.distortion import Distortion, distort, invertible_radius
 from workbench.geometry.motions import apply, inverse
-from workbench.numerals import fixed
+from workbench.geometry.polylines import segments
+from workbench.numerals import fixed, pixels
 from workbench.scene import (
     Axes,
     Camera,
@@ -92,10 +93,11 @@ def _camera(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     k = state.params.point
     x, y, z = apply(state.shot.T_camera_world, state.now.p_world[k])
     corners = np.array([[0.0, 0, 0], [0, 0, z], [x, 0, z], [x, y, z]])
-    ends = np.stack([corners[:-1], corners[1:]], axis=1)
     names = (f"depth Z = {fixed(z, 2)} m", f"X = {fixed(x, 2)} m", f"Y = {fixed(y, 2)} m")
     return {
-        "ways": Segments(ends, Classes(np.arange(3), ("z", "x", "y"), names), 4, T_world_camera, name="X, Y, Z"),
+        "ways": Segments(
+            segments(corners), Classes(np.arange(3), ("z", "x", "y"), names), 4, T_world_camera, name="X, Y, Z"
+        ),
     }
 
 
@@ -205,7 +207,7 @@ def _tables(state: State) -> dict[str, Primitive]:
         p = now.p_camera[k]
         rows += [
             ("in the camera frame", f"{triple(p)} m"),
-            ("depth Z · ray length", f"{metres(p[2])} · {metres(float(np.linalg.norm(p)))} m"),
+            ("depth Z · ray length", f"{depth(p[2])} · {depth(float(np.linalg.norm(p)))}"),
         ]
     if now.reached("divide"):
         rows.append(("x, y = X/Z, Y/Z", pair(now.xy[k], 4)))
@@ -234,8 +236,8 @@ def _tables(state: State) -> dict[str, Primitive]:
     }
 
 
-def _height(pixels: float) -> str:
-    return f"{count(pixels)} px" if math.isfinite(pixels) else "has no pixel"
+def _height(height: float) -> str:
+    return pixels(height) if math.isfinite(height) else "has no pixel"
 
 
 def _ratio(ratio: float) -> str:

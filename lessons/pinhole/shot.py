@@ -22,6 +22,7 @@ from workbench.geometry.cameras import (
     vanishing_points,
 )
 from workbench.geometry.distortion import Distortion
+from workbench.geometry.polylines import segments
 from workbench.geometry.raster import MeshItem, SegmentItem, render
 from workbench.scene import PALETTE
 
@@ -85,8 +86,7 @@ def wires(T_camera_world: np.ndarray) -> np.ndarray:
     scene = street()
     ball = np.zeros((0, 2, 3))
     if np.linalg.norm(camera_center(T_camera_world) - BALL_CENTER) > 1.01 * BALL_RADIUS:
-        outline = sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 48)
-        ball = np.stack([outline, np.roll(outline, -1, axis=0)], axis=1)
+        ball = segments(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 48), closed=True)
     return np.concatenate([scene.edges, scene.rails, ball])
 
 

@@ -8,6 +8,7 @@ from lessons.transforms.state import Body, First, Params
 from workbench.algorithms.composition import Factor
 from workbench.algorithms.interpolation import FromEuler, Rodrigues
 from workbench.data.files import read_mesh
+from workbench.data.framing import frame
 from workbench.data.solids import outlined, solid
 from workbench.errors import InputError
 from workbench.geometry.affine import perspective, reflection, scaling, shear, translation
@@ -57,9 +58,7 @@ def body_of(params: Params) -> Body:
         p, faces = read_mesh(params.mesh)
         if len(faces) > MOST_FACES:
             raise InputError(f"{params.mesh.name}: {len(faces):,} faces; this lesson takes up to {MOST_FACES:,}")
-        low, high = p.min(axis=0), p.max(axis=0)
-        foot = np.array([*(low + high)[:2] / 2, low[2]])
-        made, name = outlined((p - foot) / (high - low).max(), faces, angle=0.6), "mesh"
+        made, name = outlined(frame(p, 1.0).standing(p).shown(p), faces, angle=0.6), "mesh"
     return Body(name=name, solid=made, measures=measure(made.p, made.faces), point=min(params.point, len(made.p) - 1))
 
 

@@ -5,9 +5,10 @@ import functools
 import numpy as np
 
 from lessons.transforms.state import FRONT, Body, Built, Ghost, Moved, State
-from lessons.transforms.words import caption_of_build, caption_of_move, length
+from lessons.transforms.words import caption_of_build, caption_of_move
 from workbench.geometry.affine import decompose, kind_of, transform, transform_directions, translation
 from workbench.geometry.invariants import Change
+from workbench.geometry.polylines import segments
 from workbench.geometry.rotations import (
     EulerOrder,
     axis_angle_from_rotation,
@@ -16,7 +17,7 @@ from workbench.geometry.rotations import (
     matrix_to_euler,
     quaternion_from_matrix,
 )
-from workbench.numerals import ROUND_OFF, brief, fixed, fixed_row
+from workbench.numerals import ROUND_OFF, angle, fixed, fixed_row, length, percent
 from workbench.scene import Axes, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments, Table
 
 MIDDLE = np.arange(-180.0, 181.0, 5.0)  # degrees
@@ -50,8 +51,9 @@ def _draw_build(state: Built) -> Scene:
         "caption": caption_of_build(state),
     }
     if len(state.trail) > 1:
-        ends = np.stack([state.trail[:-1], state.trail[1:]], axis=1)
-        scene["trail"] = Segments(ends, "highlight", 2.5, name=f"vertex {body.point}, factor by factor")
+        scene["trail"] = Segments(
+            segments(state.trail), "highlight", 2.5, name=f"vertex {body.point}, factor by factor"
+        )
     if _affine(T):
         scene["front"] = _arrow(transform(T, body.p_door[None])[0], T, "highlight", "front: a direction, w = 0")
     if state.params.compare == "direction with w = 1":
@@ -77,7 +79,7 @@ def _draw_move(state: Moved) -> Scene:
         **_shown("end", body, state.T_world_end, "target", 0.15, "end"),
         **_shown("body", body, state.T_world_body, "source", 0.85, f"by {state.params.method}"),
         "shortest": _lines(body, state.T_world_shortest, "truth", "shortest turn"),
-        "shortest path": Segments(_steps(state.shortest.path), "truth", 2, name="its path"),
+        "shortest path": Segments(segments(state.shortest.path), "truth", 2, name="its path"),
         "vertex": Label(f"vertex {body.point}", way.path[-1], "highlight"),
         "off": Scalar(state.off, "from the shortest turn", "Error to truth", "deg", "truth"),
         "volume": Scalar(100 * state.volume, "volume", "Volume", "%"),
@@ -89,7 +91,7 @@ def _draw_move(state: Moved) -> Scene:
         "caption": caption_of_move(state),
     }
     if len(way.path) > 1:
-        scene["path"] = Segments(_steps(way.path), "source", 3, name=f"path of vertex {body.point}")
+        scene["path"] = Segments(segments(way.path), "source", 3, name=f"path of vertex {body.point}")
         speed = np.diff(way.turned) / np.diff(way.times)
         scene["speed"] = Curve(way.times[1:], speed, state.params.method, "Turning speed", "t", "deg per unit of t")
     return scene
@@ -185,9 +187,9 @@ def _amount(change: Change) -> str:
     if change.name == "orientation":
         return "flipped"
     if change.unit == "rad":
-        return f"up to {brief(np.degrees(change.amount))}°"
+        return f"up to {angle(np.degrees(change.amount))}"
     most = "up to " if change.name == "edge lengths" else ""  # area and volume are one number each
-    return f"{most}{brief(100 * change.amount)} %"
+    return f"{most}{percent(change.amount)}"
 
 
 def _invariants(state: State) -> Table:
@@ -224,11 +226,11 @@ def _in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder
     affine = np.array_equal(T[3], (0, 0, 0, 1))
     parts = decompose(T if affine else T_world_body)
     R = parts.rotation
-    axis, angle = axis_angle_from_rotation(R)
+    axis, radians = axis_angle_from_rotation(R)
     rows = [
         (f"Euler {order}", ", ".join(f"{fixed(a, 1)}°" for a in np.degrees(matrix_to_euler(R, order)))),
-        ("axis", fixed_row(axis, 2) if angle > ROUND_OFF else "any"),
-        ("angle", f"{fixed(np.degrees(angle), 1)}°"),
+        ("axis", fixed_row(axis, 2) if radians > ROUND_OFF else "any"),
+        ("angle", f"{fixed(np.degrees(radians), 1)}°"),
         ("quaternion w, x, y, z", fixed_row(quaternion_from_matrix(R), 2)),
     ]
     if affine:
@@ -238,10 +240,6 @@ def _in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder
             ("det T", fixed(float(np.linalg.det(T[:3, :3])), 2)),
         ]
     return Table("The rotation, in other numbers", ("name", "numbers"), tuple(rows))
-
-
-def _steps(path: np.ndarray) -> np.ndarray:
-    return np.stack([path[:-1], path[1:]], axis=1)
 
 
 def _affine(T: np.ndarray) -> bool:

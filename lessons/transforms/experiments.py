@@ -9,6 +9,7 @@ from lessons.transforms.compare import in_degrees, jump_out_of_lock
 from lessons.transforms.state import Built, Moved, Params, State
 from workbench.geometry.rotations import euler_axes
 from workbench.lesson import Preset, Question
+from workbench.numerals import angle, length, percent
 
 ONE = (1.0, 1.0, 1.0)
 NO_TURN = (0.0, 0.0, 0.0)
@@ -164,7 +165,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         " it is moved first and turned afterwards?",
         answer=lambda states: complete(states).ghosts[0].distance,
         why=lambda states: (
-            f"{complete(states).ghosts[0].distance:.2f} m: turned last, the translation swings round to the y axis, and"
+            f"{length(complete(states).ghosts[0].distance)}: turned last, the translation swings round to the y axis, and"
             " (1.5, 0) and (0, 1.5) are √2 · 1.5 m apart."
         ),
         params=ORDER,
@@ -189,7 +190,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "The house is sheared by 0.8: its top slides sideways. What happens to its volume?",
         answer=_sheared,
         why=lambda states: (
-            f"It is {100 * volume_kept(complete(states)):.0f} % of what it was: every horizontal layer only slides, and"
+            f"It is {percent(volume_kept(complete(states)), 0)} of what it was: every horizontal layer only slides, and"
             f" det = {np.linalg.det(complete(states).T[:3, :3]):.2f}."
         ),
         params=SHEAR,
@@ -201,8 +202,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "Heading 170° at the start, −170° at the end, and the number is blended. How many degrees does the house turn?",
         answer=lambda states: float(_end(states).way.turned[-1]),
         why=lambda states: (
-            f"{_end(states).way.turned[-1]:.0f}°: the number runs through 0°. The two headings are only"
-            f" {_end(states).shortest.turned[-1]:.0f}° apart."
+            f"{angle(_end(states).way.turned[-1])}: the number runs through 0°. The two headings are only"
+            f" {angle(_end(states).shortest.turned[-1])} apart."
         ),
         params=AVERAGE,
         unit="deg",
@@ -214,7 +215,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         " volume does the house keep?",
         answer=lambda states: 100.0 * halfway(states).volume,
         why=lambda states: (
-            f"{100 * halfway(states).volume:.2f} %: across the axis every length shrinks to cos 85° = 0.087, and the volume"
+            f"{percent(halfway(states).volume)}: across the axis every length shrinks to cos 85° = 0.087, and the volume"
             " to its square."
         ),
         params=ENTRIES,

@@ -19,9 +19,9 @@ from workbench.algorithms.composition import Invert, compose
 from workbench.algorithms.interpolation import FromEuler, Rodrigues
 from workbench.geometry import rotations
 from workbench.geometry.affine import transform
-from workbench.geometry.alignment import nearest_rotation
+from workbench.geometry.alignment import degrees_between, nearest_rotation
 from workbench.geometry.invariants import changes, measure
-from workbench.geometry.motions import apply, exp_so3, inverse, motion, rotation_angle
+from workbench.geometry.motions import apply, exp_so3, inverse, motion
 from workbench.lesson import Lesson, View
 
 
@@ -114,13 +114,13 @@ def _move(
             T_world_shortest=best.T_world_body,
             way=way,
             shortest=shortest_way,
-            off=_degrees_between(best.T_world_body, T),
+            off=degrees_between(best.T_world_body, T),
             by_all=changes(body.measures, after),
         )
 
 
 def _gone(way: Way, now: between.State, before: between.State, p_point: np.ndarray) -> Way:
-    turned = (way.turned[-1] if len(way.turned) else 0.0) + _degrees_between(before.T_world_body, now.T_world_body)
+    turned = (way.turned[-1] if len(way.turned) else 0.0) + degrees_between(before.T_world_body, now.T_world_body)
     path = np.vstack([way.path, apply(now.T_world_body, p_point)])
     volume = np.linalg.det(now.T_world_body[:3, :3])
     return Way(
@@ -129,11 +129,6 @@ def _gone(way: Way, now: between.State, before: between.State, p_point: np.ndarr
         turned=np.append(way.turned, turned),
         volume=np.append(way.volume, volume),
     )
-
-
-def _degrees_between(T: np.ndarray, other: np.ndarray) -> float:
-    """Return the angle between two rotations, or between the rotations nearest to what are none."""
-    return float(np.degrees(rotation_angle(nearest_rotation(T[:3, :3]).T @ nearest_rotation(other[:3, :3]))))
 
 
 lesson = Lesson(

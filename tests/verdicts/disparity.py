@@ -7,7 +7,7 @@ import numpy as np
 
 from lessons.disparity.lesson import lesson
 from lessons.disparity.words import caption
-from tests.readings import LENGTH, NUMBER, metres, number, says
+from tests.readings import LENGTH, NUMBER, metres, number, says, says_length
 from tests.truths.disparity import (
     CHOSEN,
     comparing,
@@ -121,18 +121,13 @@ def first_order(run: Run, k: int, found: re.Match[str]) -> bool:
 
 def measured(run: Run, k: int, found: re.Match[str]) -> bool:
     """The boards, at 1, 5 and 20 m, moved by this in the median."""
-    state = run.states[k]
-    true = np.round(true_depth(state.setup), 6)
-    moved = []
-    for z in (1.0, 5.0, 20.0):
-        here = (true == z) & state.setup.pair.visible & np.isfinite(state.depth)
-        moved.append(abs(float(np.median(state.depth[here])) - z))
-    said = [metres(part) for part in found["list"].split(", ")]
-    return bool(np.allclose(said, moved, rtol=0.01, atol=6e-4))
+    said = found["list"].split(", ")
+    moved = [abs(depth - z) for z, depth in found_at(run, k).items()]
+    return all(says_length(text, off_by) for text, off_by in zip(said, moved, strict=True))
 
 
 def half_within(run: Run, k: int, found: re.Match[str]) -> bool:
-    return bool(np.isclose(metres(found["z"]), np.median(depths_off(run.states[k])[0]), rtol=0.01, atol=6e-4))
+    return says_length(found["z"], float(np.median(depths_off(run.states[k])[0])))
 
 
 def exchanged(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -275,7 +270,7 @@ LINES = {
         Claim("Every disparity is made 1 px too large", lambda run, k, _: run.params.disparity_error == 1.0),
         Claim(
             r"The last step tells how far each board moves: by Z² / \(f B\), and measured",
-            lambda run, k, _: "20 m by 5.00 m. Measured: " in caption(run.states[-1]).text,
+            lambda run, k, _: "20 m by 5 m. Measured: " in caption(run.states[-1]).text,
         ),
     ),
     "sky": (
@@ -316,7 +311,7 @@ def came_nearer(run: Run, k: int, found: re.Match[str]) -> bool:
     return (
         says(found["far"], 20 - at[20])
         and says(found["times"], (20 - at[20]) / (1 - at[1]))
-        and says(found["near"], 100 * (1 - at[1]))
+        and says_length(found["near"], 1 - at[1])
         and abs(20 - at[20] - (20 - 80 / 5)) < 0.05
     )
 
@@ -360,7 +355,7 @@ WHYS = {
     "nearer": (
         Claim(
             rf"it came (?P<far>{NUMBER}) m nearer, (?P<times>\d+) times as much as the board at 1 m"
-            rf" \((?P<near>{NUMBER}) cm\)",
+            rf" \((?P<near>{LENGTH})\)",
             came_nearer,
         ),
         Claim(

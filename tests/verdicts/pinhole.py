@@ -8,7 +8,7 @@ import numpy as np
 
 from lessons.pinhole import words
 from lessons.pinhole.lesson import run as follow
-from tests.readings import NUMBER, POWER, close, number, says
+from tests.readings import LENGTH, NUMBER, POWER, close, number, says, says_length
 from tests.truths.pinhole import (
     CRATE,
     STAGES,
@@ -115,7 +115,7 @@ def _came_back(run: Run, k: int, m: re.Match[str]) -> bool:
     start = all(says(text, float(value)) for text, value in zip(m.groups()[:3], now.p_center, strict=True))
     if m[4] is None:
         return start and miss < 1e-6
-    return start and says(m[4], 1000 * miss if m[5] == "mm" else miss)
+    return start and says_length(m[4], miss, 3)
 
 
 def _heights(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -186,7 +186,7 @@ CAPTIONS = (
     Claim(rf"The rails stay 1.5 m apart; their pictures run towards \(({NUMBER}), ({NUMBER})\)", _rails),
     Claim(rf"the ball's outline is ({NUMBER}) times as long as wide", _ball),
     Claim(rf"it gives a ray from {POINT} m, but not how far to go along it. With .* we come out"
-          rf" (?:where we began|({NUMBER}) (mm|m) from where we began)", _came_back),
+          rf" (?:where we began|({LENGTH}) from where we began)", _came_back),
     Claim("the followed point has no pixel, so nothing leads back to it", lambda run, k, m: bool(
         np.isnan(run.states[k].now.uv[run.params.point]).all())),
     Claim("The pose is inverted: camera-to-world stands where world-to-camera belongs", _wrong("pose inverted")),
@@ -205,8 +205,8 @@ CAPTIONS = (
         number(m[1]) == lost(run, k)[0] and number(m[2]) == len(street().points))),
     Claim(rf"({NUMBER}) points? ha(?:s|ve) a pixel that the true camera does not give", lambda run, k, m: (
         number(m[1]) == lost(run, k)[1])),
-    Claim(rf"[Tt]he median distance of points that come back from where they are is ({NUMBER}) m", lambda run, k, m: says(
-        m[1], median_back(run))),
+    Claim(rf"[Tt]he median distance of points that come back from where they are is ({LENGTH})", lambda run, k, m: (
+        says_length(m[1], median_back(run)))),
     Claim(rf"^(?!.*(?:{BLAME}))", lambda run, k, m: right(run, k) is not False),  # who blames nobody says that all is right
 )  # fmt: skip
 
