@@ -4,15 +4,14 @@ import math
 
 import numpy as np
 
-from lessons.disparity.beside import beside
-from lessons.disparity.marks import framed
-from lessons.disparity.pairs import Setup
-from lessons.disparity.states import State
+from lessons.disparity.charts import beside, framed
+from lessons.disparity.state import Setup, State
 from lessons.disparity.words import caption
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.cameras import back_project
 from workbench.geometry.motions import motion
-from workbench.geometry.stereo import depth_cloud, depth_interval, points_on_ray
+from workbench.geometry.polylines import segments
+from workbench.geometry.stereo import depth_cloud, depth_from_disparity, depth_interval, points_on_ray
 from workbench.scene import Camera, Color, Field, Label, Picture, Points, Primitive, Scene, Segments
 
 # The left camera is at the world's origin and looks along +Y.
@@ -162,12 +161,10 @@ def _followed(state: State) -> dict[str, Primitive]:
         )
         eye = np.array([camera.baseline, 0.0, 0.0])
         scene["partner ray"] = Segments(np.array([[eye, p[0]]]), "source", 1.5, T_WORLD_LEFT, name="ray of its partner")
-    if setup.pair.disparity is not None:
-        d = float(setup.pair.disparity[v, u]) + camera.doffs
-        true = camera.f * camera.baseline / d if d > 0 else math.inf
-        if true <= setup.far:
-            p = points_on_ray((u, v), np.array([true]), camera)
-            scene["truth"] = Points(p, "truth", 1.7 * size, T_WORLD_LEFT, name="true point")
+    true = setup.true_depth[v, u]
+    if true <= setup.far:
+        p = points_on_ray((u, v), np.array([true]), camera)
+        scene["truth"] = Points(p, "truth", 1.7 * size, T_WORLD_LEFT, name="true point")
     return scene
 
 
@@ -184,9 +181,10 @@ def _swept(state: State) -> dict[str, Primitive]:
     corners = np.concatenate(
         [points_on_ray(uv, z, setup.pair.camera) for uv in ((0, 0), (w - 1, 0), (w - 1, h - 1), (0, h - 1))]
     )
-    ends = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     return {
-        "swept": Segments(ends, "other", 2.0, T_WORLD_LEFT, name="everything of this disparity"),
+        "swept": Segments(
+            segments(corners, closed=True), "other", 2.0, T_WORLD_LEFT, name="everything of this disparity"
+        ),
         "label/swept": Label(
             f"d = {state.done - 1} px{_metres(setup, depth, '.2f')}", corners[1], "other", T_WORLD_LEFT
         ),
@@ -200,5 +198,4 @@ def _metres(setup: Setup, depth: float, digits: str) -> str:
 def _depth(state: State, d: np.ndarray) -> np.ndarray:
     """Return the depths of whole disparities with the focal length in use."""
     camera = state.setup.pair.camera
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(d + camera.doffs >= 0, state.setup.f * camera.baseline / (d + camera.doffs), np.nan)
+    return depth_from_disparity(d + camera.doffs, state.setup.f, camera.baseline)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from workbench.geometry.motions import apply, exp_so3, motion
+from workbench.geometry.motions import apply, exp_so3, motion, rotation_angle
 
 CHUNK = 8192
 
@@ -144,6 +144,20 @@ def nearest_rotation(A: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
         A matrix of rank below 2 leaves the answer open; any one of them is returned.
     """
     return _rotation(A)[0]
+
+
+def degrees_between(T: Float[np.ndarray, "n n"], other: Float[np.ndarray, "n n"]) -> float:
+    """Return the angle between the rotations in two motions, in degrees within [0, 180].
+
+    Args:
+        T: A motion or an affine map, 4x4, or its linear part alone, 3x3.
+        other: Another between the same frames.
+
+    Note:
+        Of a map that scales or shears it is the nearest rotation that counts.
+    """
+    R, R_other = nearest_rotation(T[:3, :3]), nearest_rotation(other[:3, :3])
+    return float(np.degrees(rotation_angle(R @ R_other.T)))
 
 
 def rmse(T: Float[np.ndarray, "4 4"], p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]) -> float:

@@ -45,6 +45,10 @@ class StereoCamera:
         """The left camera's intrinsics."""
         return intrinsics(self.f, self.cx, self.cy)
 
+    def depth(self, d: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
+        """Return the depths, metres, of disparities as they were measured: `depth_from_disparity` of d + doffs."""
+        return depth_from_disparity(d + self.doffs, self.f, self.baseline)
+
     def shrunk(self, k: int) -> "StereoCamera":
         """Return the cameras of pictures with blocks of k x k pixels averaged: all but the baseline shrinks."""
         K = resize_intrinsics(self.K, 1.0 / k, 1.0 / k)
