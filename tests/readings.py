@@ -25,6 +25,18 @@ def says(text: str, value: float, digits: int | None = None) -> bool:
     return abs(float(said) - value) <= 0.51 * place + 1e-9 * max(abs(value), 1.0)
 
 
+def near(text: str, value: float, digits: int = 3) -> bool:
+    """Whether a numeral says a value to so many digits that count, where zeros behind them are left out."""
+    place = 10.0 ** (np.floor(np.log10(abs(value))) + 1 - digits) if value else 0.0
+    return abs(number(text) - value) <= 0.51 * place + 1e-9 * max(abs(value), 1.0)
+
+
+def near_length(text: str, metres: float, digits: int = 3) -> bool:
+    """Whether "0.8 m", "3.1 mm" or "0 mm" says a length to so many digits, or to two in µm."""
+    numeral, unit = text.rsplit(" ", 1)
+    return near(numeral, metres / _METRES[unit], min(digits, 2) if unit == "µm" else digits)
+
+
 def says_length(text: str, metres: float, digits: int | None = None) -> bool:
     """Whether "0.82 m", "3.1 mm" or "0 m" says a length."""
     numeral, unit = text.rsplit(" ", 1)

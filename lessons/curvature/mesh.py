@@ -2,13 +2,13 @@
 
 import functools
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from lessons.curvature.state import MOST_OWN, Params, Subject, Upward
 from workbench.data.files import read_mesh, stamp
-from workbench.data.framing import UPRIGHT, Up, box, extent
+from workbench.data.framing import UPRIGHT, Up, box, extent, likely_up
 from workbench.data.surfaces import SURFACES, Surface, inside_out, scaled, with_noise
 from workbench.errors import InputError
 from workbench.geometry.meshes import check_mesh, edges, on_boundary, vertex_normals, welded
@@ -82,7 +82,7 @@ def front_of(p: np.ndarray, normals: np.ndarray, border: np.ndarray) -> int:
 def _own(path: Path, _stamp: tuple[int, int], *, size: float, turned: bool, up: Upward) -> Subject:
     """Read a mesh, mend what can be mended, stand it up, make it OWN_SIZE long about the origin; anew when it changed."""
     p_file, faces, mended = _mended(path)
-    axis = own_up(p_file, path.suffix.lower()) if up == "auto" else up
+    axis = likely_up(p_file, path.suffix.lower()) if up == "auto" else up
     enlarged = size * OWN_SIZE / extent(p_file)
     p = p_file @ facing_viewer(p_file, axis).T
     low, high = box(p)
@@ -118,19 +118,6 @@ def _mended(path: Path) -> tuple[np.ndarray, np.ndarray, tuple[str, ...]]:
         (split, f"{counted(split, 'vertex', 'vertices')} added where sheets only touch, one for each sheet"),
     )
     return placed, faces, tuple(words for count, words in done if count)
-
-
-def own_up(p: np.ndarray, kind: str) -> Literal["y", "z"]:
-    """Return the axis of a file that is likely to point up.
-
-    It is the one on which the mesh stands, its lowest point being near 0 or above while the other axis has the mesh on both
-    sides; where neither or both are so, z in stl files (machines and printers), and y in all others (graphics).
-    """
-    low, size = p.min(axis=0), float(np.ptp(p, axis=0).max())
-    stands = low > -0.05 * size
-    if stands[1] != stands[2]:
-        return "y" if stands[1] else "z"
-    return "z" if kind == ".stl" else "y"
 
 
 def facing_viewer(p: np.ndarray, up: Up) -> np.ndarray:

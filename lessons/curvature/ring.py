@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lessons.curvature.state import State, two_rings
+from lessons.curvature.state import State
 from workbench.algorithms.curvature import Measured
 from workbench.geometry.polylines import segments
 from workbench.numerals import brief
@@ -154,7 +154,7 @@ def patch(state: State) -> dict[str, Primitive]:
     """Return the quadric at the vertex over its two rings, and the vertices it was fitted to."""
     now, quadrics = state.now, state.now.quadrics
     assert quadrics is not None
-    near = two_rings(state)
+    near = state.two_rings
     scene: dict[str, Primitive] = {
         "fitted": Points(
             now.p[near] + 0.1 * edge_length(now) * now.normals[near],

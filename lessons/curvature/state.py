@@ -9,6 +9,7 @@ import numpy as np
 from workbench.algorithms.curvature import Measured
 from workbench.data.framing import Up
 from workbench.data.surfaces import MOST_JITTER, Surface
+from workbench.geometry.meshes import vertices_within
 from workbench.knobs import Knob, Pick
 
 Shape = Literal["torus", "sphere", "cylinder", "saddle", "catenoid", "plane"]
@@ -118,6 +119,11 @@ class State:
         """Whether the vertex that is looked at lies on the border."""
         return bool(self.subject.border[self.now.vertex])
 
+    @property
+    def two_rings(self) -> np.ndarray:
+        """The vertices at most two edges away from the one that is looked at, itself included."""
+        return vertices_within(self.subject.edges, self.now.vertex, 2)
+
     def true(self, name: str) -> float:
         """Return the analytic `gaussian`, `mean`, `k1` or `k2` at the vertex; NaN where nobody knows."""
         surface = self.subject.truth
@@ -127,24 +133,3 @@ class State:
 def at_stage(states, stage: str) -> State:
     """Return the state of a run at a stage."""
     return next(state for state in states if state.stage == stage)
-
-
-def surface_variation(state: State) -> float:
-    """Return lambda_0 / (lambda_0 + lambda_1 + lambda_2) of the vertex and its two rings: flat 0, at most 1/3.
-
-    Reference: Pauly, Gross and Kobbelt, Efficient simplification of point-sampled surfaces, 2002, equation 4.
-    """
-    near = state.subject.p[two_rings(state)]
-    values = np.linalg.eigvalsh(np.cov(near.T))
-    return float(values[0] / values.sum())
-
-
-def two_rings(state: State) -> np.ndarray:
-    """Return the vertices at most two edges away, the vertex itself included."""
-    a, b = state.subject.edges.T
-    near = np.zeros(len(state.subject.p), dtype=bool)
-    near[state.now.vertex] = True
-    for _ in range(2):
-        touched = near[a] | near[b]
-        near[a[touched]] = near[b[touched]] = True
-    return np.flatnonzero(near)

@@ -25,12 +25,13 @@ def study_of(params: Params, gaussian_curvature: Gaussian, mean_curvature_normal
     for made in meshes:
         p, faces = made.surface.p, made.surface.faces
         H = mean_from_normals(mean_curvature_normals(p, faces), made.normals)
-        for name, letter, estimate in (
+        estimates: tuple[tuple[str, Letter, np.ndarray], ...] = (
             ("K", "gaussian", gaussian_curvature(p, faces)),
             ("H", "mean", H),
             ("K_fit", "gaussian", made.K_fit),
             ("H_fit", "mean", made.H_fit),
-        ):
+        )
+        for name, letter, estimate in estimates:
             errors[name].append(error_of(made.surface, made.inside, letter, estimate))
     counts = np.array([len(made.surface.p) for made in meshes], dtype=float)
     return Study(counts=counts, **{name: np.array(values) for name, values in errors.items()})

@@ -74,7 +74,9 @@ def _basin(state: State) -> dict[str, Primitive]:
     x_label, metres = "start angle (deg)", "Basin: final RMSE and final distance"
 
     def curve(values: list[float], name: str, chart: str, unit: str, color: Role) -> Curve:
-        return Curve(angles, np.array(values), name, chart, x_label, unit, color, marks=marks)
+        return Curve(
+            angles, np.array(values), name, chart=chart, x_label=x_label, y_label=unit, color=color, marks=marks
+        )
 
     turns, distances = ([getattr(t.error, name) for t in state.tries] for name in ("rotation", "displacement"))
     return {

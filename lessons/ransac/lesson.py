@@ -43,7 +43,8 @@ def run(
     subject = subject_of(params)
     rng = np.random.default_rng(params.seed)
     distance = params.inlier_pixels if subject.model.unit == "px" else params.inlier_distance
-    model, judge = subject.model, Judge(subject.p, subject.model, distance, score_of(params, subject))
+    model = subject.model
+    judge = Judge(p=subject.p, model=model, inlier_distance=distance, score=score_of(params, subject))
     if model is PLANE:
         model = replace(PLANE, solve=from_points(checked(plane_from_points)))
         judge = counting(judge, count_inliers, decides=params.score == "count")
@@ -120,7 +121,8 @@ def counting(
 
     def counted(plane: np.ndarray) -> Fit:
         fit, votes = judge(plane), int(count_inliers(plane, judge.p, judge.inlier_distance))
-        return Counted(plane, fit.distances, fit.inliers, float(votes) if decides else fit.score, votes)
+        score = float(votes) if decides else fit.score
+        return Counted(estimate=plane, distances=fit.distances, inliers=fit.inliers, score=score, votes=votes)
 
     return counted
 

@@ -5,6 +5,7 @@ from functools import lru_cache
 import numpy as np
 
 from lessons.ransac.state import Subject
+from workbench.geometry.clipping import clip_lines, plane_in_box
 from workbench.geometry.epipolar import epipolar_lines
 from workbench.geometry.homography import transform_pixels
 from workbench.geometry.polylines import segments
@@ -25,9 +26,9 @@ def outline(subject: Subject, estimate: np.ndarray, rows: np.ndarray) -> np.ndar
 def _outline(subject: Subject, numbers: bytes, shape: tuple[int, ...], rows: tuple[int, ...]) -> np.ndarray:
     name, estimate = subject.model.name, np.frombuffer(numbers).reshape(shape)
     if name == "line":
-        return _placed(subject, _clipped_lines(estimate[None], subject.low, subject.high))
+        return _placed(subject, clip_lines(estimate[None], subject.low, subject.high))
     if name == "plane":
-        corners = plane_polygon(subject, estimate)
+        corners = plane_in_box(estimate, subject.low, subject.high)
         return segments(subject.places[0](corners), closed=True) if len(corners) else NOTHING
     if name == "circle":
         points = estimate[:2] + estimate[2] * np.column_stack([np.cos(ARC), np.sin(ARC)])
@@ -37,27 +38,6 @@ def _outline(subject: Subject, numbers: bytes, shape: tuple[int, ...], rows: tup
     if name == "homography":
         return _warped_grid(subject, estimate)
     return _epipolar(subject, estimate, np.array(rows))
-
-
-def plane_polygon(subject: Subject, plane: np.ndarray) -> np.ndarray:
-    """Return the corners (n, 3), in order, of the part of a plane inside the window; none where it passes by.
-
-    A plane turned over, or rounded differently, has the same corners in the same order.
-    """
-    low, high = subject.low, subject.high
-    corners = np.array([[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)])
-    edges = np.array([(i, j) for i in range(8) for j in range(i + 1, 8) if bin(i ^ j).count("1") == 1])
-    sides = corners @ plane[:3] + plane[3]
-    start, end = sides[edges[:, 0]], sides[edges[:, 1]]
-    cut = (start > 0) != (end > 0)
-    if not cut.any():
-        return np.zeros((0, 3))
-    share = (start[cut] / (start[cut] - end[cut]))[:, None]
-    points = (1.0 - share) * corners[edges[cut, 0]] + share * corners[edges[cut, 1]]
-    normal = plane[:3] * np.sign(plane[np.argmax(np.abs(plane[:3]))])
-    u = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
-    v = points - points.mean(axis=0)
-    return points[np.argsort(np.arctan2(v @ np.cross(normal, u), v @ u))]
 
 
 @lru_cache(maxsize=64)
@@ -80,7 +60,7 @@ def _epipolar(subject: Subject, F: np.ndarray, rows: np.ndarray) -> np.ndarray:
     matches, ends = subject.p[rows], []
     for k, lines in enumerate((epipolar_lines(F.T, matches[:, 2:]), epipolar_lines(F, matches[:, :2]))):
         known = lines[np.isfinite(lines).all(axis=1)]
-        ends.append(_placed(subject, _clipped_lines(known, np.zeros(2), subject.sizes[k]), k))
+        ends.append(_placed(subject, clip_lines(known, np.zeros(2), subject.sizes[k]), k))
     return np.concatenate(ends)
 
 
@@ -103,23 +83,6 @@ def _rings(sphere: np.ndarray) -> np.ndarray:
     rings = [np.column_stack([c, s, zero]), np.column_stack([c, zero, s]), np.column_stack([zero, c, s])]
     rings += [np.column_stack([0.8 * c, 0.8 * s, zero + z]) for z in (-0.6, 0.6)]
     return np.concatenate([segments(centre + radius * ring) for ring in rings])
-
-
-def _clipped_lines(lines: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-    """Return the parts (n, 2, 2) of lines (a, b, c) inside a window, by clipping each to the four sides."""
-    normals, offsets = lines[:, :2], lines[:, 2:]
-    foot = -normals * offsets
-    direction = np.column_stack([-normals[:, 1], normals[:, 0]])
-    with np.errstate(all="ignore"):
-        to_low, to_high = (low - foot) / direction, (high - foot) / direction
-    nearer, farther = np.fmin(to_low, to_high), np.fmax(to_low, to_high)
-    parallel = direction == 0.0
-    outside = (parallel & ((foot < low) | (foot > high))).any(axis=1)
-    enter = np.where(parallel, -np.inf, nearer).max(axis=1, initial=-np.inf)
-    leave = np.where(parallel, np.inf, farther).min(axis=1, initial=np.inf)
-    seen = (enter < leave) & ~outside
-    t = np.stack([enter[seen], leave[seen]], axis=1)
-    return foot[seen, None] + t[:, :, None] * direction[seen, None]
 
 
 def _inside(ends: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:

@@ -10,7 +10,7 @@ from workbench.scene import Caption
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven")
 
 
-def caption_of(state: State) -> Caption:
+def caption(state: State) -> Caption:
     """Return what just happened, with its numbers."""
     return {
         "sample": _sample,

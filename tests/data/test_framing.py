@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.test_motions import motions
-from workbench.data.framing import UPRIGHT, Up, box, extent, frame, ground_grid, round_below
+from workbench.data.framing import UPRIGHT, Up, box, extent, frame, ground_grid, likely_up, round_below
 from workbench.geometry.motions import apply
 
 UPS = st.sampled_from(sorted(UPRIGHT))
@@ -74,6 +74,23 @@ def test_degenerate_clouds_have_a_frame():
     assert frame(place, 1.2).scale == 1.2
     nearly = np.concatenate([np.zeros((200, 3)), [[4.0, 0.0, 0.0]]])  # the box without far points is one place
     assert extent(nearly, far=2.0) == 4.0
+
+
+@pytest.mark.parametrize(
+    ("lift", "kind", "up"),
+    [
+        ([0.0, 1.0, 0.0], ".obj", "y"),
+        ([0.0, 0.0, 1.0], ".obj", "z"),
+        ([0.0, 1.0, 0.0], ".stl", "y"),
+        ([0.0, 0.0, 0.0], ".obj", "y"),
+        ([0.0, 0.0, 0.0], ".stl", "z"),
+        ([1.0, 1.0, 1.0], ".stl", "z"),
+    ],
+)
+def test_what_stands_on_an_axis_has_it_upwards(lift, kind, up):
+    p = np.random.default_rng(0).uniform(-1, 1, (300, 3)) + np.array(lift)
+    assert likely_up(p, kind) == up
+    assert likely_up(1000 * p, kind) == up
 
 
 @given(st.floats(1e-6, 1e6))

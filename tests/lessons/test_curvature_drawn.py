@@ -5,7 +5,7 @@ import pytest
 import trimesh
 
 from lessons.curvature import ring
-from lessons.curvature.state import Params, two_rings
+from lessons.curvature.state import Params
 from tests.lessons.curvature_runs import at, part, preset, scene, surface_field, timeline
 from workbench.scene import Mesh, Points, Segments, Table
 
@@ -79,7 +79,7 @@ def test_the_patch_passes_the_vertices_of_its_fit():
     drawn = ring.patch(state)
     patch, fitted = part(Mesh, drawn, "patch"), part(Points, drawn, "fitted")
     assert state.now.quadrics is not None
-    assert len(fitted.p) == state.now.quadrics.neighbours[state.now.vertex] == len(two_rings(state))
+    assert len(fitted.p) == state.now.quadrics.neighbours[state.now.vertex] == len(state.two_rings)
     gaps = np.linalg.norm(fitted.p[:, None] - patch.p[None], axis=2).min(axis=1)
     away = np.linalg.norm(fitted.p - state.now.p[state.now.vertex], axis=1)
     assert gaps[away < 0.8 * away.max()].max() < ring.edge_length(state.now) / 4

@@ -1,6 +1,7 @@
 """Own meshes in the curvature lesson: how they are mended, stood up and said to be, and which are refused."""
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from lessons.curvature.state import Params
 from tests.lessons.curvature_runs import STAGES, at, part, surface_field, timeline
 from workbench.data.files import read_mesh
 from workbench.errors import InputError
+from workbench.knobs import with_own_files
 from workbench.scene import Curve, Scalar, caption_of
 from workbench.timeline import Timeline
 
@@ -124,6 +126,11 @@ def test_an_own_mesh_stands_upright_and_turns_its_broad_side_to_the_viewer(tmp_p
     assert np.ptp(p @ np.cross(eye, [0, 0, 1])) == pytest.approx(4 / 3)
     upside = timeline(dataclasses.replace(params, up="x")).states()[0].subject.p
     assert np.ptp(upside[:, 2]) == pytest.approx(4 / 3)
+
+
+def test_which_axis_points_up_is_kept_with_an_own_mesh():
+    mine = Params(mesh=Path("mine.stl"), up="-y", size=2.0)
+    assert with_own_files(Params(), mine) == Params(mesh=Path("mine.stl"), up="-y")
 
 
 def test_minus_y_stands_it_on_its_head(tmp_path):

@@ -1,6 +1,7 @@
 """Own clouds and matches in the RANSAC lesson: how they are read, what does not fit, and what is said of it."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from lessons.ransac.words import is_right
 from tests.lessons.ransac_runs import best, members, part, states_of, truth_of
 from workbench.algorithms.models import MODELS
 from workbench.errors import InputError
+from workbench.knobs import with_own_files
 from workbench.scene import Caption, Points
 from workbench.timeline import Timeline
 
@@ -38,6 +40,12 @@ def captions_of(params) -> list[Caption]:
     timeline = Timeline(lesson, params).complete()
     assert timeline.stopped is None, timeline.failure
     return [step.caption for step in timeline.known()]
+
+
+def test_what_says_how_to_read_an_own_cloud_is_kept_with_it():
+    mine = Params(cloud=Path("mine.ply"), cloud_unit="mm", up="-y", outliers=0.9)
+    kept = with_own_files(Params(), mine)
+    assert kept == replace(Params(), cloud=Path("mine.ply"), cloud_unit="mm", up="-y")
 
 
 def test_an_own_cloud_in_another_unit_is_noticed_and_converted(tmp_path):

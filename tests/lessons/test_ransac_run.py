@@ -7,11 +7,11 @@ from lessons.ransac import experiments
 from lessons.ransac.experiments import end, first
 from lessons.ransac.lesson import chosen_sample, lesson, run
 from lessons.ransac.rows import subject_of
-from lessons.ransac.shapes import outline, plane_polygon
+from lessons.ransac.shapes import outline
 from lessons.ransac.state import Params
 from lessons.ransac.words import is_right
 from tests.lessons.ransac_runs import best, part, rivals, states_of, truth_of
-from workbench.algorithms.models import MODELS, PLANE
+from workbench.algorithms.models import MODELS
 from workbench.algorithms.ransac import iterations_needed
 from workbench.algorithms.scores import count_inliers
 from workbench.errors import InputError
@@ -109,18 +109,6 @@ def test_another_right_function_draws_the_same_pictures(exercise, function):
         assert end([pair.theirs for pair in pairs])
         assert [pair.trouble for pair in pairs if pair.trouble] == []
         assert [k for k, pair in enumerate(pairs) if pair.first] == []
-
-
-def test_a_polygon_does_not_depend_on_the_side_of_the_normal():
-    subject, rng = subject_of(Params()), np.random.default_rng(5)
-    for _ in range(20):
-        plane = PLANE.solve(rng.uniform(-0.8, 0.8, (1, 3, 3)))[0]
-        corners = plane_polygon(subject, plane)
-        np.testing.assert_allclose(plane_polygon(subject, -plane), corners, atol=1e-12)
-        np.testing.assert_allclose(plane_polygon(subject, plane * (1.0 + 1e-15)), corners, atol=1e-12)
-        steps = np.roll(corners, -1, axis=0) - corners
-        turns = np.cross(steps, np.roll(steps, -1, axis=0)) @ plane[:3]
-        assert (turns > 0).all() or (turns < 0).all(), "convex, in order"
 
 
 def test_a_function_that_returns_no_plane_is_told_so():

@@ -89,6 +89,22 @@ def extent(p: Float[np.ndarray, "n d"], far: float = 0.0) -> float:
     return float((high - low).max()) or float(np.ptp(p, axis=0).max())
 
 
+def likely_up(p: Float[np.ndarray, "n 3"], kind: str) -> Up:
+    """Return the axis of a mesh file that is likely to point up.
+
+    It is the one on which the mesh stands, its lowest point being near 0 or above while the other axis has the mesh on both
+    sides; where neither or both are so, z in stl files (machines and printers), and y in all others (graphics).
+
+    Args:
+        p: The vertices.
+        kind: The ending of the file's name, with its dot, in lower case.
+    """
+    stands = p.min(axis=0) > -0.05 * extent(p)
+    if stands[1] != stands[2]:
+        return "y" if stands[1] else "z"
+    return "z" if kind == ".stl" else "y"
+
+
 def round_below(length: float) -> float:
     """Return the largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) that is no longer than a positive length."""
     power = 10.0 ** np.floor(np.log10(length))

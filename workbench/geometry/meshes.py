@@ -162,6 +162,17 @@ def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.n
     return around[order], np.array(ring if first else ring[:-1])
 
 
+def vertices_within(edges: Int[np.ndarray, "e 2"], vertex: int, steps: int) -> Int[np.ndarray, " n"]:
+    """Return the vertices that are at most so many edges away from one, itself included, in ascending order."""
+    a, b = edges.T
+    near = np.zeros(max(int(edges.max(initial=-1)), vertex) + 1, dtype=bool)
+    near[vertex] = True
+    for _ in range(steps):
+        touched = near[a] | near[b]
+        near[a[touched]] = near[b[touched]] = True
+    return np.flatnonzero(near)
+
+
 def euler_characteristic(faces: Faces) -> int:
     """Return chi = V - E + F, counting the vertices in use: 2 for a sphere, 0 for a torus, 2 - 2g for genus g."""
     return len(np.unique(faces)) - len(edges(faces)) + len(faces)

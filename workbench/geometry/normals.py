@@ -57,6 +57,17 @@ def on_a_line(p: Float[np.ndarray, "n 3"], k: int = 16) -> Bool[np.ndarray, "n"]
     return line
 
 
+def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
+    """Return lambda_0 / (lambda_0 + lambda_1 + lambda_2) of the points' covariance: 0 where they are flat, at most 1/3.
+
+    It is 0 too for points at one place.
+
+    Reference: Pauly, Gross and Kobbelt, Efficient simplification of point-sampled surfaces, 2002, equation 4.
+    """
+    values = np.linalg.eigvalsh(np.cov(p.T))
+    return float(values[0] / values.sum()) if values.sum() > 0 else 0.0
+
+
 def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Yield rows of p and the covariances of their k nearest points, in chunks that fit the cache."""
     tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
