@@ -21,7 +21,7 @@ from workbench.geometry.rotations import (
     matrix_from_quaternion,
     quaternion_from_matrix,
 )
-from workbench.watch import watched
+from workbench.tracing import traced
 
 Times = Float[np.ndarray, "n"]
 Pose = Float[np.ndarray, "4 4"]
@@ -39,7 +39,7 @@ class State:
     T_world_body: Pose
 
 
-@watched
+@traced
 def slerp_and_lerp(
     T_world_start: Pose, T_world_end: Pose, times: Times, rotation_from_axis_angle: Rodrigues
 ) -> Iterator[State]:
@@ -60,7 +60,7 @@ def slerp_and_lerp(
         yield State(t, motion(R, p))
 
 
-@watched
+@traced
 def slerp_to_minus_q(T_world_start: Pose, T_world_end: Pose, times: Times) -> Iterator[State]:
     """Yield poses on the great circle to the farther of the two quaternions that both are the end's rotation.
 
@@ -81,7 +81,7 @@ def slerp_to_minus_q(T_world_start: Pose, T_world_end: Pose, times: Times) -> It
         yield State(t, motion(R, p))
 
 
-@watched
+@traced
 def lerp_of_euler_angles(
     angles_start: Float[np.ndarray, "3"],
     angles_end: Float[np.ndarray, "3"],
@@ -109,7 +109,7 @@ def lerp_of_euler_angles(
         yield State(t, motion(R, p))
 
 
-@watched
+@traced
 def lerp_of_entries(T_world_start: Pose, T_world_end: Pose, times: Times) -> Iterator[State]:
     """Yield matrices with each of the sixteen entries interpolated linearly; between the ends they are no rigid motions.
 
@@ -123,7 +123,7 @@ def lerp_of_entries(T_world_start: Pose, T_world_end: Pose, times: Times) -> Ite
         yield State(t, T)
 
 
-@watched
+@traced
 def along_a_screw(
     T_world_start: Pose, T_world_end: Pose, times: Times, invert_rigid: Callable[[np.ndarray], np.ndarray]
 ) -> Iterator[State]:

@@ -12,7 +12,7 @@ from enum import Enum
 import numpy as np
 from jaxtyping import Float
 
-from workbench.watch import unwatched, watched
+from workbench.tracing import traced, untraced
 
 MOST_ENTRIES = 50_000_000  # of a cost matrix: 400 MB, and the plan is as large again
 
@@ -60,7 +60,7 @@ class Blurred:
         return float(np.vdot(self.plan(cost), cost))
 
 
-@watched
+@traced
 def sinkhorn_steps(
     cost: Float[np.ndarray, "n m"], regularisation: float, *, max_sweeps: int = 10_000, tolerance: float = 1e-9
 ) -> Iterator[Blurred]:
@@ -111,7 +111,7 @@ def sinkhorn(
 ) -> Blurred:
     """Return the last state of `sinkhorn_steps`.
 
-    A listener (`workbench.watch`) of the run that calls this goes on watching that run, not this one.
+    Its steps are not traced (`workbench.tracing`): a trace of the run that calls this goes on with that run.
 
     Args:
         cost: What it costs to move a unit of mass from row to column.
@@ -122,7 +122,7 @@ def sinkhorn(
     Raises:
         ValueError: As `sinkhorn_steps`.
     """
-    with unwatched():
+    with untraced():
         *_, last = sinkhorn_steps(cost, regularisation, max_sweeps=max_sweeps, tolerance=tolerance)
     return last
 
