@@ -95,3 +95,12 @@ def test_errors_are_announced(name):
 def test_a_module_names_its_source(path):
     cited = re.search(r"^ *References?: \S", path.read_text(encoding="utf-8"), re.MULTILINE)
     assert bool(cited) != (name_of(path) in NO_PAPER), f"{name_of(path)}: a Reference, or a reason in NO_PAPER"
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_everything_that_goes_in_and_comes_out_has_a_type(name):
+    node = FUNCTIONS[name]
+    named = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs, node.args.vararg]
+    bare = [part.arg for part in named if part and part.annotation is None and part.arg not in ("self", "cls")]
+    assert not bare, f"{name}: no type for {bare}"
+    assert node.returns is not None, f"{name}: no type for what it returns"

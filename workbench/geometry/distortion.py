@@ -148,7 +148,9 @@ def columns(rows: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "d n"]:
     return np.ascontiguousarray(rows.T, dtype=float)
 
 
-def bend(x, y, k1: float, k2: float, p1: float, p2: float, k3: float):
+def bend(
+    x: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"], k1: float, k2: float, p1: float, p2: float, k3: float
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
     """Return x' and y' of eq. 1, from columns.
 
     Args:
