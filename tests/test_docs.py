@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+import workbench
 from workbench import cli
 from workbench.lesson import catalog
 
@@ -147,6 +148,10 @@ PRIVATE = re.findall(r"^\| `([^`]+)` \| `([^`]+)`", read("docs/upgrading.md"), r
 def test_what_is_relied_on_of_viser_and_rerun_is_where_the_page_says(file, word):
     found = re.search(rf"(?<!\w){re.escape(word)}(?!\w)", read(file))
     assert found, f"{file} has no {word}: docs/upgrading.md is out of date"
+
+
+def test_the_citation_names_this_version():
+    assert f"version: {workbench.__version__}\n" in read("CITATION.cff")
 
 
 def test_packages_that_are_pinned_are_pinned_as_said():

@@ -42,7 +42,9 @@ class Ran:
 
 def main() -> int:
     """Run the benchmarks and print or write the page."""
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks", description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.benchmarks", description="Run all benchmarks, one after the other."
+    )
     parser.add_argument("--write", type=Path, metavar="FILE", help="write the page instead of printing it")
     parser.add_argument("--only", nargs="+", metavar="NAME", choices=names(), help="of " + ", ".join(names()))
     given = parser.parse_args()
@@ -90,6 +92,8 @@ def page(ran: list[Ran]) -> str:
         "",
         "Written by `python -m tests.benchmarks --write docs/speed.md`; do not edit. Compare ratios taken in one run:",
         "absolute times change with the machine and with what else it does. Peers that are not installed are left out.",
+        "A ratio is ours over the best peer, below 1 where ours is the faster; a floor is the ratio that a prototype in",
+        "numpy and scipy reached.",
         "",
         "| | |",
         "|---|---|",
