@@ -39,12 +39,15 @@ ALLOWED = {
     "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
                                      "workbench.images", "workbench.progress", "workbench.atomic"},
     "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic"},
+    "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset", "workbench.session"},
     "workbench.publish": LESSON | {
-        "workbench.publish", "workbench.recording", "workbench.viewer", "workbench.typeset", "workbench.session",
+        "workbench.publish", "workbench.page", "workbench.recording", "workbench.viewer", "workbench.typeset",
+        "workbench.session",
         "workbench.links", "workbench.images", "workbench.progress", "workbench.flags", "workbench.atomic",
     },
     "workbench.viewer": LESSON | {
-        "workbench.viewer", "workbench.session", "workbench.links", "workbench.picking", "workbench.typeset",
+        "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.links",
+        "workbench.picking", "workbench.typeset",
         "workbench.recording", "workbench.exercise",
     },
     "workbench.flags": LESSON | {"workbench.flags"},
