@@ -57,17 +57,26 @@ class Model:
 
 
 def finite(estimates: Float[np.ndarray, "k ..."]) -> Float[np.ndarray, "j ..."]:
-    """Return the estimates without a NaN: the solvers mark a degenerate sample by it."""
+    """Return the estimates that have no NaN: the solvers mark a degenerate sample by it."""
     return estimates[np.isfinite(estimates).all(axis=tuple(range(1, estimates.ndim)))]
 
 
 def from_points(solver: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndarray], np.ndarray]:
-    """Make a `Model.solve` of a function that takes one sample and gives one estimate, NaN for a degenerate one."""
+    """Return a `Model.solve` made of a function that takes one sample and gives one estimate, NaN for a degenerate one."""
     return lambda samples: finite(np.stack([np.asarray(solver(sample), dtype=float) for sample in samples]))
 
 
 def rms_distance(model: Model, estimate: Float[np.ndarray, "..."], p: Float[np.ndarray, "n d"]) -> float:
-    """Return the root mean square distance of the rows to an estimate: its error, where the rows are free of noise."""
+    """Return the root mean square distance of the rows to an estimate: its error, where the rows are free of noise.
+
+    Args:
+        model: What the estimate is of.
+        estimate: Its parameters.
+        p: The rows.
+
+    Returns:
+        In the unit of the model's distances.
+    """
     return float(np.sqrt(np.square(model.distances(estimate, p)).mean()))
 
 

@@ -12,7 +12,7 @@ MOST_CUTS = 12
 def clip_segments(
     p: Float[np.ndarray, "n 2 3"], ahead: Float[np.ndarray, "n 2"]
 ) -> tuple[Float[np.ndarray, "m 2 3"], Int[np.ndarray, " m"]]:
-    """Keep of each segment what lies ahead of a plane.
+    """Return the part of each segment that lies ahead of a plane.
 
     Args:
         p: Both ends of each segment, in any frame.
@@ -30,7 +30,7 @@ def clip_segments(
 def clip_triangles(
     p: Float[np.ndarray, "n 3 3"], ahead: Float[np.ndarray, "n 3"]
 ) -> tuple[Float[np.ndarray, "m 3 3"], Int[np.ndarray, " m"]]:
-    """Keep of each triangle what lies ahead of a plane: nothing, one triangle or two.
+    """Return the part of each triangle that lies ahead of a plane: nothing, one triangle or two.
 
     Args:
         p: The corners of each triangle, in any frame.
@@ -51,6 +51,11 @@ def clip_to_rectangle(
     uv: Float[np.ndarray, "n 2 2"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
     """Return from which to which share of its length each segment lies in a rectangle.
+
+    Args:
+        uv: Both ends of each segment, pixels.
+        low: Lowest coordinates of the rectangle.
+        high: Its highest coordinates.
 
     Returns:
         Start and stop in [0, 1]; start is not below stop for a segment that misses the rectangle or has NaN ends.
@@ -124,7 +129,7 @@ def cut_finely(
     low: Float[np.ndarray, "2"],
     high: Float[np.ndarray, "2"],
 ) -> tuple[Float[np.ndarray, "m c 3"], Int[np.ndarray, " m"]]:
-    """Halve edges until all are short in a flat picture, dropping what is outside it on the way.
+    """Return segments or triangles with edges halved until all are short in a flat picture; those outside it are dropped.
 
     Args:
         p: Segments (c = 2) or triangles (c = 3), all ahead of the camera.

@@ -41,10 +41,10 @@ def point_normals(
 
 
 def on_a_line(p: Float[np.ndarray, "n 3"], k: int = 16) -> Bool[np.ndarray, "n"]:
-    """Tell of each point whether its k nearest points lie along a line, so that its normal means nothing.
+    """Return of each point whether its k nearest points lie along a line, so that its normal means nothing.
 
-    So they do on one ring of a lidar scan: of their variances along the principal axes, the second is at most a fifth of
-    the largest. Coinciding points count as a line.
+    They count as a line where the second of their variances along the principal axes is at most a fifth of the largest,
+    as on one ring of a lidar scan. Coinciding points count as a line.
 
     Args:
         p: Points, metres.
