@@ -10,7 +10,13 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 BASE = {"workbench", "workbench.axis", "workbench.errors", "workbench.watch", "workbench.authors"}
 DRAWING = BASE | {"workbench.scene", "workbench.knobs"}
-LESSON = DRAWING | {"workbench.lesson", "workbench.timeline", "workbench.picking", "workbench.questions"}
+LESSON = DRAWING | {
+    "workbench.lesson",
+    "workbench.loading",
+    "workbench.timeline",
+    "workbench.picking",
+    "workbench.questions",
+}
 MATHS = BASE | {"workbench.geometry"}
 
 # what a part may import of the workbench; longer names win
@@ -28,6 +34,7 @@ ALLOWED = {
     "workbench.data": MATHS | {"workbench.data"},
     "workbench.lesson": DRAWING,
     "workbench.timeline": LESSON,
+    "workbench.loading": LESSON,
     "workbench.listing": {"workbench.lesson"},
     "workbench.links": LESSON,
     "workbench.picking": DRAWING,
