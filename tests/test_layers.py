@@ -54,6 +54,7 @@ ALLOWED = {
         "workbench.viewer", "workbench.session", "workbench.links", "workbench.picking", "workbench.typeset",
         "workbench.recording", "workbench.exercise",
     },
+    "workbench.authoring": LESSON | {"workbench.authoring", "workbench.exercise", "workbench.flags", "workbench.typeset"},
     "workbench.flags": LESSON | {"workbench.flags"},
     "workbench.cli": None,  # the top: it may import everything
     "workbench.__main__": None,

@@ -207,6 +207,21 @@ def grade(
 
 
 @command
+def validate(
+    lesson: Annotated[str, Option("The lesson: its name, or the path of its file or folder.", "LESSON")],
+    /,
+) -> int:
+    """Hold a lesson and its exercises to what is promised of all of them; exit code 1 where something is wrong."""
+    from workbench.authoring.validate import validate as held_to_its_promises
+
+    found = held_to_its_promises(lesson, lambda line: sys.stdout.write(f"{line}\n") and sys.stdout.flush())
+    if found.wrong:
+        return 1
+    sys.stdout.write(f"{found.name}: holds ({found.looked_at} checks)\n")
+    return 0
+
+
+@command
 def publish(
     out: Annotated[Path, Option("Folder to write the site into.", "OUT")],
     /,
