@@ -146,9 +146,12 @@ class Lesson(Generic[P, S]):
             yield f": page is a Path, not {self.page!r}: Path(__file__).with_name(...) finds it beside the lesson"
         yield from _not_called_with(self.run, "run", "the params and, by keyword, functions that have defaults")
         yield from _not_called_with(self.draw, "draw", "one state")
-        names = [preset.name for preset in self.presets] + [question.name for question in self.questions]
-        if len(set(names)) != len(names):
-            yield ": two presets or questions share a name"
+        places: dict[str, str] = {}
+        for what, ones in (("preset", self.presets), ("question", self.questions)):
+            for i, one in enumerate(ones, 1):
+                if one.name in places:
+                    yield f": {places[one.name]} and {what} {i} share the name {one.name!r}; each is a run of the page"
+                places[one.name] = f"{what} {i}"
         for what, one in [("preset", p) for p in self.presets] + [("question", q) for q in self.questions]:
             try:
                 self.check(one.params)
