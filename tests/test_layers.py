@@ -65,7 +65,8 @@ ALLOWED = {
 
 OUTSIDE = {"viser": ("workbench.viewer", "workbench.publish"), "rerun": ("workbench.recording",)}
 
-MODULES = sorted([*(ROOT / "workbench").rglob("*.py"), *(ROOT / "lessons").rglob("*.py")])
+FILES = [*(ROOT / "workbench").rglob("*.py"), *(ROOT / "lessons").rglob("*.py")]
+MODULES = sorted(path for path in FILES if "template" not in path.parts)  # a lesson to be copied to anywhere
 
 
 def name_of(path: Path) -> str:

@@ -207,6 +207,20 @@ def grade(
 
 
 @command
+def new(
+    name: Annotated[str, Option("What the lesson is called: small letters, digits and _.", "NAME")],
+    /,
+    out: Annotated[Path, Option("Folder to make the lesson's folder in.", "DIR", short="-o")] = Path(),
+) -> None:
+    """Write a folder with a lesson that runs, to be made your own."""
+    from workbench.authoring.new import new_lesson
+
+    for path in new_lesson(name, out):
+        sys.stdout.write(f"{path}\n")
+    sys.stdout.write(f"Open it: {command_line('show', out / name)}\n")
+
+
+@command
 def validate(
     lesson: Annotated[str, Option("The lesson: its name, or the path of its file or folder.", "LESSON")],
     /,
