@@ -34,7 +34,7 @@ from workbench.scene import (
     Segments,
     Table,
 )
-from workbench.watch import watched
+from workbench.tracing import traced
 
 Turn = Callable[[float], np.ndarray]
 """turn(angle in radians) -> T_world_source."""
@@ -84,7 +84,7 @@ def turn_about_z(angle: float) -> np.ndarray:
     return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
 
 
-@watched
+@traced
 def approach(p_source: np.ndarray, p_target: np.ndarray, params: Params, turn: Turn) -> Iterator[State]:
     """Turn the source step by step until it lies on the target."""
     for k in range(params.steps):

@@ -62,7 +62,7 @@ def test_the_command_of_any_params_opens_them(chosen):
     lesson = chosen.draw(st.sampled_from(LESSONS))
     values = {field.name: chosen.draw(values_of(field), field.name) for field in fields_of(lesson.params)}
     try:
-        params = lesson.check(lesson.params(**values))
+        params = lesson.validated(lesson.params(**values))
     except ValueError:
         return  # what the lesson itself refuses together
     assert opened(show_command(lesson, params)).params == params

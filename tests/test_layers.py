@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-BASE = {"workbench", "workbench.axis", "workbench.errors", "workbench.watch", "workbench.authors"}
+BASE = {"workbench", "workbench.axis", "workbench.errors", "workbench.tracing", "workbench.authors"}
 DRAWING = BASE | {"workbench.scene", "workbench.knobs"}
 LESSON = DRAWING | {
     "workbench.lesson",
@@ -23,7 +23,7 @@ MATHS = BASE | {"workbench.geometry"}
 ALLOWED = {
     "workbench.axis": {"workbench.numerals"},
     "workbench.errors": set(),
-    "workbench.watch": set(),
+    "workbench.tracing": set(),
     "workbench.authors": {"workbench", "workbench.errors"},
     "workbench.questions": LESSON,
     "workbench.scene": set(),
@@ -45,7 +45,7 @@ ALLOWED = {
     "workbench.session": LESSON | {"workbench.session"},
     "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
                                      "workbench.images", "workbench.progress", "workbench.atomic"},
-    "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress"},
+    "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.recording", "workbench.viewer", "workbench.typeset", "workbench.session",
         "workbench.links", "workbench.images", "workbench.progress", "workbench.flags", "workbench.atomic",

@@ -1,6 +1,6 @@
 """The commands. Adding one is a matter of one function: `@command`, a signature of options, a docstring.
 
-Heavy modules (the viewer, the recorder, tyro) are imported inside the functions that need them: `workbench list` answers
+Heavy modules (the viewer, the recorder) are imported inside the functions that need them: `workbench list` answers
 at once. Every InputError becomes one line on stderr and exit code 2.
 """
 

@@ -1,21 +1,20 @@
-"""Command-line flags made from the signature of a command and the Params of a lesson, by tyro.
+"""Command-line flags made from the signature of a command and the Params of a lesson.
 
 A command is a function whose parameters are `Annotated[type, Option(...)]`, positional on the command line where they are
 positional-only. A parameter of type `Chosen` becomes LESSON, --preset and one flag per Params field; one of type
 `Serving` becomes --host, --port and --no-browser. Whatever cannot be used raises InputError with one line.
 """
 
-import contextlib
+import argparse
 import difflib
 import inspect
-import io
 import os
 import re
 import shlex
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, make_dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Annotated, Any, TypeAlias, get_args
+from typing import Annotated, Any, TypeAlias, get_args, get_origin
 
 from workbench import knobs
 from workbench.errors import InputError
@@ -29,9 +28,6 @@ RESERVED = frozenset(
 
 SWITCHES = frozenset({"--no-browser", "--force"})
 """Flags without a value, of the commands that take a lesson."""
-
-Flag: TypeAlias = tuple[str, Any, Any]
-"""A field of what tyro fills in: name, annotated type, default; `...` where one must be given."""
 
 
 @dataclass(frozen=True)
@@ -65,13 +61,44 @@ class Chosen:
     preset: str | None = None
 
 
-@dataclass(frozen=True)
-class _Part:
-    """One parameter of a command: its flags, how its value is read off what was given, and whom the flags belong to."""
+Reader: TypeAlias = Callable[[argparse.Namespace], Any]
+"""Gives a command's argument its value out of what was read off the command line."""
 
-    flags: tuple[Flag, ...]
-    read: Callable[[Any], Any]
-    owner: Lesson | None = None
+
+class _Parser(argparse.ArgumentParser):
+    """Reads a command line; what it cannot use raises InputError."""
+
+    def error(self, message: str) -> Any:
+        found = re.match(r"argument (?:-\w/)?(\S+?): (.*)", message)
+        if found is None:
+            raise InputError(message)
+        name, why = found[1].partition("/")[0], found[2]
+        if why.startswith("expected"):
+            raise InputError(f"{name} needs a value behind it")
+        raise InputError(f"{name} takes no value" if why.startswith("ignored") else f"{name}: {why}")
+
+    def values(self, words: Sequence[str]) -> argparse.Namespace:
+        """Return what the words of a command line say; a name may have underscores for its hyphens."""
+        joined: list[str] = []
+        for word in words:
+            name, equals, value = word.partition("=")
+            word = name.replace("_", "-") + equals + value if name.startswith("--") else word
+            takes = self._option_string_actions.get(joined[-1]) if joined else None
+            if takes is not None and takes.nargs is None and re.match(r"-[\d.]", word):
+                joined[-1] += f"={word}"  # a negative number, not a flag
+            else:
+                joined.append(word)
+        values, unknown = self.parse_known_args(joined)
+        if unknown:
+            raise InputError(self._unknown(unknown[0]))
+        return values
+
+    def _unknown(self, word: str) -> str:
+        if not word.startswith("-"):
+            return f"{word!r} stands behind no flag; --help lists them all"
+        names = [name for name in self._option_string_actions if name.startswith("--")]
+        close = difflib.get_close_matches(word.partition("=")[0], names, 1)
+        return f"unknown flag {word}; " + (f"did you mean {close[0]}?" if close else "--help lists them all")
 
 
 def parse(
@@ -90,13 +117,19 @@ def parse(
         SystemExit: After `--help`, with code 0.
     """
     signature, left = inspect.signature(function), list(args)
-    parts = {name: _part(parameter, left, prog) for name, parameter in signature.parameters.items()}
-    for lesson in (part.owner for part in parts.values() if part.owner is not None):
-        prog, description = f"{prog} {lesson.name}", f"{description}\n\n{lesson.title}: {lesson.summary}"
-    values = _values([flag for part in parts.values() for flag in part.flags], left, prog, description)
+    parser = _Parser(prog, description=description, allow_abbrev=False, formatter_class=_Help)
+    readers = {name: _reader(parser, parameter, left) for name, parameter in signature.parameters.items()}
+    places = " ".join(f"{action.metavar} " for action in parser._actions if not action.option_strings)
+    parser.usage = f"{parser.prog} {places}[options]"
+    values = parser.values(left)
     call = signature.bind_partial()
-    call.arguments.update({name: part.read(values) for name, part in parts.items()})
+    call.arguments.update({name: read(values) for name, read in readers.items()})
     return lambda: function(*call.args, **call.kwargs)
+
+
+class _Help(argparse.RawDescriptionHelpFormatter):
+    def __init__(self, prog: str):
+        super().__init__(prog, max_help_position=28, width=100)
 
 
 def command_line(*words: object) -> str:
@@ -123,68 +156,125 @@ def _flag_of(field: knobs.Field, text: str) -> str:
     return f"--{name}={'FILE' if field.kind == 'path' else text}"
 
 
-def _part(parameter: inspect.Parameter, left: list[str], prog: str) -> _Part:
+def _reader(parser: _Parser, parameter: inspect.Parameter, left: list[str]) -> Reader:
+    """Add a parameter of a command to the parser, and return how its value is read."""
     if parameter.annotation is Chosen:
-        return _lesson_part(left, prog)
+        return _lesson_reader(parser, left)
     if parameter.annotation is Serving:
-        parts = {f.name: _option(f.name, f.type, f.default) for f in fields(Serving)}
-        group = _group("Serving", [flag for part in parts.values() for flag in part.flags])
-        return _Part(
-            (("serving", group, ...),),
-            lambda values: Serving(**{name: part.read(values.serving) for name, part in parts.items()}),
-        )
-    default = ... if parameter.default is parameter.empty else parameter.default
-    if isinstance(default, tuple):
-        left[:] = _gathered("--" + parameter.name.replace("_", "-"), left)
-    return _option(parameter.name, parameter.annotation, default, parameter.kind is parameter.POSITIONAL_ONLY)
+        group = parser.add_argument_group("serving options")
+        parts = {field.name: _option(group, field.name, field.type, field.default) for field in fields(Serving)}
+        return lambda values: Serving(**{name: read(values) for name, read in parts.items()})
+    positional = parameter.kind is parameter.POSITIONAL_ONLY
+    return _option(parser, parameter.name, parameter.annotation, parameter.default, positional=positional)
 
 
-def _option(name: str, annotation: Any, default: Any, positional: bool = False) -> _Part:
-    """Return an option of the command itself; whole numbers are read here, to say it in one line."""
+def _option(group: Any, name: str, annotation: Any, default: Any, *, positional: bool = False) -> Reader:
+    """Add an option of the command itself; a default of `Parameter.empty` means that it must be given."""
     kind, option = get_args(annotation)
-    if int not in (kind, *get_args(kind)):
-        return _Part((_flag(name, kind, option, default, positional),), lambda values: getattr(values, name))
-    flag = _flag(name, str | None, option, None if default is None else str(default), positional)
+    required = default is inspect.Parameter.empty
+    flag = "--" + name.rstrip("_").replace("_", "-")
+    many = get_origin(kind) is tuple
+    about = option.help.replace("%", "%%") + (" (required)" if required else "")
+    if kind is bool:
+        names = [f"--no-{name}" if default else flag, *([option.short] if option.short else [])]
+        group.add_argument(*names, dest=name, action="store_false" if default else "store_true", help=about)
+        return lambda values: getattr(values, name)
+    if default not in (None, inspect.Parameter.empty, ()):
+        about += f" (default: {default})"
+    if positional:
+        group.add_argument(name, nargs="?", metavar=option.placeholder, help=about)
+    else:
+        names = [*([option.short] if option.short else []), flag]
+        several = {"nargs": "+", "action": "extend"} if many else {}
+        shown = (option.placeholder or "").partition(" ")[0]
+        group.add_argument(*names, dest=name, metavar=shown, help=about, **several)
+    called = option.placeholder if positional else " ".join([option.short or flag, option.placeholder])
 
-    def read(values: Any) -> int | None:
-        text = getattr(values, name)
-        try:
-            return None if text is None else int(text)
-        except ValueError:
-            raise InputError(f"--{name} {text}: a whole number is needed") from None
+    def read(values: argparse.Namespace) -> Any:
+        given = getattr(values, name)
+        if given is None and required:
+            raise InputError(f"{called} is missing: {option.help}")
+        if given is None:
+            return default
+        if many:
+            if not any(given):
+                raise InputError(f"{flag} needs a value behind it")
+            return tuple(given)
+        return _converted(given, kind, called if positional else flag)
 
-    return _Part((flag,), read)
+    return read
 
 
-def _lesson_part(left: list[str], prog: str) -> _Part:
+def _converted(text: str, kind: Any, flag: str) -> Any:
+    kinds = (kind, *get_args(kind))
+    if Path in kinds:
+        return Path(text)
+    if int not in kinds:
+        return text
+    try:
+        return int(text)
+    except ValueError:
+        raise InputError(f"{flag} {text}: a whole number is needed") from None
+
+
+def _lesson_reader(parser: _Parser, left: list[str]) -> Reader:
     """Take the lesson's name out of the words that are left; its params become flags."""
     name = _lesson_named(left)
     if name is None:
         names = ", ".join(catalog())
         if "--help" not in left and "-h" not in left:
             raise InputError(f"which lesson? There are: {names}")
-        about = Option(
-            f"One of {names}, or a file my_lesson.py, or a folder. `{prog} LESSON --help` shows its parameters.",
-            "LESSON",
-        )
-        return _Part((_flag("lesson", str, about, ..., positional=True),), lambda values: None)
+        about = f"One of {names}, or a file or folder. `{parser.prog} LESSON --help` shows its parameters."
+        parser.add_argument("lesson", metavar="LESSON", help=about)
+        return lambda values: None
     left.remove(name)
     lesson = lesson_given(name)
     preset = _given("--preset", left)
     base = lesson.params() if preset is None else lesson.preset(preset).params
-    flags = [_param_flag(field, getattr(base, field.name)) for field in knobs.fields_of(lesson.params)]
-
-    def read(values: Any) -> Chosen:
-        given = vars(values.params)
-        wanted = {field: given[field] for field, _, default in flags if given[field] != default}
-        return Chosen(lesson, knobs.make(lesson.params, wanted, base=base), preset)
-
-    from tyro.conf import arg
-
+    parser.prog, parser.description = (
+        f"{parser.prog} {lesson.name}",
+        f"{parser.description}\n\n{lesson.title}: {lesson.summary}",
+    )
     presets = ", ".join(preset.name for preset in lesson.presets) or "none"
-    group = Annotated[_group("Params", flags), arg(name=lesson.name)]
-    start = _flag("preset", str | None, Option(f"Start from one of: {presets}.", "NAME"), None)
-    return _Part((("params", group, ...), start), read, lesson)
+    parser.add_argument("--preset", metavar="NAME", help=f"Start from one of: {presets}.")
+    group, fields_ = parser.add_argument_group(f"{lesson.name} options"), knobs.fields_of(lesson.params)
+    for field in fields_:
+        _add_param(group, field, getattr(base, field.name))
+
+    def read(values: argparse.Namespace) -> Chosen:
+        given = {field.name: value for field in fields_ if (value := getattr(values, field.name)) is not None}
+        return Chosen(lesson, knobs.make(lesson.params, given, base=base), preset)
+
+    return read
+
+
+def _add_param(group: Any, field: knobs.Field, default: Any) -> None:
+    """Add the flag of a Params field. It takes text: `knobs` knows kind and range, and says what is allowed."""
+    knob, about, flag = field.knob, field.knob.hint.rstrip("."), "--" + field.name.replace("_", "-")
+    shown = "" if default in (None, "") else f" (default: {_text(default)})"
+    if field.kind == "bool":
+        group.add_argument(
+            flag,
+            dest=field.name,
+            action=argparse.BooleanOptionalAction,
+            default=None,
+            help=f"{about}. (default: {'on' if default else 'off'})".replace("%", "%%"),
+        )
+        return
+    if field.kind in ("choice", "path"):
+        placeholder = "FILE" if field.kind == "path" else "{" + ",".join(field.choices) + "}"
+    else:
+        one = "INT" if field.kind in ("int", "ints") else "NUMBER"
+        placeholder = ",".join([one] * (field.length or 1))
+        unit = f" {knob.unit}" if knob.unit else ""
+        about = f"{about}: {knob.low:g} to {knob.high:g}{unit}{' each' if field.length else ''}"
+    group.add_argument(flag, dest=field.name, metavar=placeholder, help=f"{about}.{shown}".replace("%", "%%"))
+
+
+def _text(value: Any) -> str:
+    """Return a default as `--help` shows it."""
+    parts = value if isinstance(value, tuple) else (value,)
+    return ",".join(f"{part:g}" if isinstance(part, float) else str(part) for part in parts)
 
 
 def lesson_given(word: str) -> Lesson:
@@ -222,23 +312,6 @@ def _lesson_named(words: Sequence[str]) -> str | None:
     return None
 
 
-def _gathered(flag: str, words: Sequence[str]) -> list[str]:
-    """Return the words with a flag that takes many values once, at the end, however often it was given."""
-    values, others, taking = [], [], False
-    for word in words:
-        name, _, value = word.partition("=")
-        taking = name == flag or (taking and not word.startswith("-"))
-        if not taking:
-            others.append(word)
-        elif word != flag:
-            values.append(value if name == flag else word)
-    if len(others) == len(words):
-        return others
-    if not any(values):
-        raise InputError(f"{flag} needs a value behind it")
-    return [*others, flag, *values]
-
-
 def _given(flag: str, words: Sequence[str]) -> str | None:
     for word, following in zip(words, [*words[1:], ""], strict=False):
         if word == flag:
@@ -246,84 +319,3 @@ def _given(flag: str, words: Sequence[str]) -> str | None:
         if word.startswith(f"{flag}="):
             return word.partition("=")[2]
     return None
-
-
-def _param_flag(field: knobs.Field, default: Any) -> Flag:
-    """Return a flag for a Params field. It takes text: `knobs` knows kind and range, and says what is allowed."""
-    knob, about = field.knob, field.knob.hint.rstrip(".")
-    if field.kind == "bool":
-        return _flag(field.name, bool, Option(f"{about}."), default, pair=True)
-    if field.kind == "choice":
-        return _flag(field.name, str, Option(f"{about}.", "{" + ",".join(field.choices) + "}"), default)
-    if field.kind == "path":
-        return _flag(field.name, str, Option(f"{about}.", "FILE"), "" if default is None else str(default))
-    one = "INT" if field.kind in ("int", "ints") else "NUMBER"
-    unit = f" {knob.unit}" if knob.unit else ""
-    about = f"{about}: {knob.low:g} to {knob.high:g}{unit}{' each' if field.length else ''}."
-    text = ",".join(f"{part:.17g}" if part != float(f"{part:g}") else f"{part:g}" for part in _tuple(default))
-    return _flag(field.name, str, Option(about, ",".join([one] * (field.length or 1))), text)
-
-
-def _tuple(value: Any) -> tuple:
-    return value if isinstance(value, tuple) else (value,)
-
-
-def _flag(name: str, kind: Any, option: Option, default: Any, positional: bool = False, pair: bool = False) -> Flag:
-    from tyro.conf import FlagCreatePairsOff, Positional, arg
-
-    hint = "(required)" if default is ... else "" if default in (None, "", (), True, False) and not pair else None
-    aliases = (option.short,) if option.short else None
-    shown = name.rstrip("_") if name.endswith("_") else None  # a Python keyword, such as --with
-    config = arg(
-        name=shown,
-        help=option.help,
-        metavar=option.placeholder,
-        prefix_name=False,
-        aliases=aliases,
-        help_behavior_hint=hint,
-    )
-    annotated = Annotated[kind, config]
-    if positional:
-        return name, Positional[annotated], default
-    return name, annotated if pair or kind is not bool else FlagCreatePairsOff[annotated], default
-
-
-def _group(name: str, flags: Sequence[Flag]) -> type:
-    required = [flag[:2] for flag in flags if flag[2] is ...]
-    return make_dataclass(name, [*required, *(flag for flag in flags if flag[2] is not ...)])
-
-
-def _values(flags: Sequence[Flag], words: Sequence[str], prog: str, description: str) -> Any:
-    import tyro
-
-    complaint = io.StringIO()
-    try:
-        with contextlib.redirect_stderr(complaint):
-            values, unknown = tyro.cli(
-                _group("Options", flags), args=words, prog=prog, description=description, return_unknown_args=True
-            )
-    except SystemExit as stop:
-        if stop.code in (0, None):
-            raise
-        raise InputError(_sentence(complaint.getvalue())) from None
-    if unknown:
-        raise InputError(_unknown(unknown[0], values))
-    return values
-
-
-def _unknown(word: str, values: Any) -> str:
-    if not word.startswith("-"):
-        return f"{word!r} stands behind no flag; --help lists them all"
-    nested = [name for group in vars(values).values() if hasattr(group, "__dict__") for name in vars(group)]
-    names = [f"--{name.replace('_', '-')}" for name in (*vars(values), *nested)]
-    close = difflib.get_close_matches(word.partition("=")[0].replace("_", "-"), names, 1)
-    return f"unknown flag {word}; " + (f"did you mean {close[0]}?" if close else "--help lists them all")
-
-
-def _sentence(box: str) -> str:
-    """Return what a framed complaint says above its first rule, as one line."""
-    rows = [line.strip("│ ") for line in box.splitlines() if not line.startswith(("╭", "╰"))]
-    rows = rows[: next((i for i, row in enumerate(rows) if set(row) <= {"─"}), None)]
-    if rows and rows[0].startswith("Missing from"):
-        return f"{rows[1]} is missing: {' '.join(rows[2:]).removesuffix(' (required)')}"
-    return re.sub(r"Missing value for argument '(.*?)'\..*", r"\1 needs a value behind it", " ".join(rows))

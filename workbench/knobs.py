@@ -260,7 +260,7 @@ def with_own_files(params: P, mine: P) -> P:
     return dataclasses.replace(params, **{name: getattr(mine, name) for name in kept})  # type: ignore[type-var]
 
 
-def check(params: Any) -> Any:
+def validated(params: Any) -> Any:
     """Return the params when every field is inside its range; raise InputError with one line when one is not."""
     return make(type(params), {field.name: getattr(params, field.name) for field in fields_of(type(params))})
 

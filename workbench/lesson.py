@@ -17,7 +17,7 @@ import numpy as np
 
 from workbench.authors import at
 from workbench.errors import AuthorError, InputError, LeftOutWarning
-from workbench.knobs import check, fields_of
+from workbench.knobs import fields_of, validated
 from workbench.scene import Scene
 
 P = TypeVar("P")
@@ -123,7 +123,7 @@ class Lesson(Generic[P, S]):
     summary: str
     page: Path | None = None
     params: type[P]
-    run: Callable[..., Iterator[S]]
+    run: Callable[[P], Iterator[S]]
     draw: Callable[[S], Scene]
     order: int
     view: View = field(default_factory=View)
@@ -154,7 +154,7 @@ class Lesson(Generic[P, S]):
                 places[one.name] = f"{what} {i}"
         for what, one in [("preset", p) for p in self.presets] + [("question", q) for q in self.questions]:
             try:
-                self.check(one.params)
+                self.validated(one.params)
             except InputError as error:
                 yield f", {what} {one.name!r}: {error}"
 
@@ -188,11 +188,11 @@ class Lesson(Generic[P, S]):
         """Return the preset that has these params, the first if there are several."""
         return next((preset for preset in self.presets if preset.params == params), None)
 
-    def check(self, params: P) -> P:
+    def validated(self, params: P) -> P:
         """Return params when they are this lesson's and in range; raise InputError otherwise."""
         if not isinstance(params, self.params):
             raise InputError(f"lesson {self.name} takes {self.params.__name__}, not {type(params).__name__}")
-        return check(params)
+        return validated(params)
 
 
 @functools.cache

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-Progress = Callable[[str, int, int | None], None]
+Progress = Callable[[str, int, int | None], object]
 """progress(what is done, how much is done, of how much or None)."""
 
 

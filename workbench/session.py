@@ -14,12 +14,12 @@ from workbench.errors import AuthorError, InputError
 from workbench.lesson import Lesson
 from workbench.scene import Caption, Scene, ghost
 from workbench.timeline import Series, Timeline, Timelines
-from workbench.watch import Moment
+from workbench.tracing import Moment
 
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Look:
     """What a person sees now.
 
@@ -91,7 +91,7 @@ class Session:
         Raises:
             InputError: If the params are not the lesson's; nothing has changed then.
         """
-        params = lesson.check(params if params is not None else lesson.params())
+        params = lesson.validated(params if params is not None else lesson.params())
         other = lesson is not self.lesson
         self.lesson, self.playing, self.message = lesson, False, None
         if other:
@@ -241,11 +241,22 @@ class Session:
             other, at = self._pinned
             scene |= ghost(other[min(at, len(other) - 1)].scene, scene)
             pinned_series = other.series()
-        caption = self._trouble(k) or step.caption
         return Look(
-            self.lesson, self.params, timeline, k, len(timeline), timeline.finished, scene, caption, step.moment,
-            timeline.series(), pinned_series, self.playing, self.speed, self.pinned,
-        )  # fmt: skip
+            lesson=self.lesson,
+            params=self.params,
+            timeline=timeline,
+            k=k,
+            known=len(timeline),
+            finished=timeline.finished,
+            scene=scene,
+            caption=self._trouble(k) or step.caption,
+            moment=step.moment,
+            series=timeline.series(),
+            pinned_series=pinned_series,
+            playing=self.playing,
+            speed=self.speed,
+            pinned=self.pinned,
+        )
 
     def _go(self, params: Any) -> None:
         self.params, self.timeline = params, self._run(params)
@@ -276,6 +287,18 @@ class Session:
     def _blank(self) -> Look:
         text = self.message or self.timeline.stopped or ""
         return Look(
-            self.lesson, self.params, self.timeline, 0, 0, True, {}, Caption(text, "wrong"), None, {}, {},
-            False, self.speed, self.pinned,
-        )  # fmt: skip
+            lesson=self.lesson,
+            params=self.params,
+            timeline=self.timeline,
+            k=0,
+            known=0,
+            finished=True,
+            scene={},
+            caption=Caption(text, "wrong"),
+            moment=None,
+            series={},
+            pinned_series={},
+            playing=False,
+            speed=self.speed,
+            pinned=self.pinned,
+        )

@@ -15,7 +15,7 @@ from workbench.knobs import Field, Pick, fields_of
 from workbench.lesson import Lesson
 from workbench.picking import pickable
 from workbench.scene import PRIMITIVES, Caption, Primitive, Scalar, Scene, arrays, caption_of
-from workbench.watch import Moment, listening, moment_of
+from workbench.tracing import Moment, listening, moment_of
 
 MOST_STEPS = 5000
 MOST_BYTES = 512 * 2**20
@@ -67,7 +67,7 @@ class Timeline:
         most_steps: int = MOST_STEPS,
         most_bytes: int = MOST_BYTES,
     ):
-        self.lesson, self.params = lesson, lesson.check(params)
+        self.lesson, self.params = lesson, lesson.validated(params)
         self.finished = False
         self.stopped: str | None = None  # why the run ended before its end, in one line for a person
         self.failure: str | None = None  # the traceback of an error in the lesson's own code

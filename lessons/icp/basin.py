@@ -12,7 +12,7 @@ from lessons.icp.scans import Error, Scans
 from workbench.algorithms.icp import Align, Gate, icp
 from workbench.geometry.alignment import align_affine, align_rigid, align_similarity
 from workbench.geometry.motions import inverse
-from workbench.watch import unwatched
+from workbench.tracing import untraced
 
 ANGLES = tuple(range(0, 181, 15))
 POINTS, MAX_ITERATIONS, TOLERANCE = 300, 100, 1e-4
@@ -73,7 +73,7 @@ def _try(params: Params, angle: float) -> Try:
         max_iterations=MAX_ITERATIONS,
         tolerance=TOLERANCE,
     )
-    with unwatched():
+    with untraced():
         *_, end = states
     T = end.T_target_source
     return Try(angle, T @ inverse(scans.T_truth), scans.error(T), end.rmse)

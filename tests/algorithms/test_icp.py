@@ -13,7 +13,7 @@ from workbench.data.files import read_cloud, read_pose
 from workbench.geometry.alignment import align_affine, align_rigid, align_similarity, nearest_rotation
 from workbench.geometry.motions import apply, exp_so3, inverse, motion, rotation_angle
 from workbench.geometry.normals import point_normals
-from workbench.watch import listening
+from workbench.tracing import listening
 
 SEEDS = st.integers(0, 1000)
 

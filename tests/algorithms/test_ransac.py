@@ -20,7 +20,7 @@ from workbench.data.robust import (
     wire_scene,
 )
 from workbench.geometry.lines_planes import angle_between_planes
-from workbench.watch import listening
+from workbench.tracing import listening
 
 SCENES = {
     "line": lambda rng: line_scene(rng, count=200, outlier_ratio=0.4, sigma=0.01),

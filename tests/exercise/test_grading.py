@@ -9,8 +9,8 @@ from tests import fake
 from tests.exercise.centroid import EXERCISE, centroid
 from workbench.errors import InputError
 from workbench.exercise import reports
-from workbench.exercise.beside import beside, first_difference, gap
 from workbench.exercise.candidate import Candidate, held_to_contract
+from workbench.exercise.driven import driven, first_difference, gap
 from workbench.exercise.grading import grade_function, values_alike
 from workbench.exercise.model import Exercise, Verdict, band, check, contract, full
 from workbench.exercise.sandbox import StudentError
@@ -124,7 +124,7 @@ TURN = Exercise(
 
 
 def test_the_right_function_never_differs():
-    timeline = Timeline(beside(fake.lesson, TURN, turning), fake.Params()).complete()
+    timeline = Timeline(driven(fake.lesson, TURN, turning), fake.Params()).complete()
     assert len(timeline) == 6
     assert first_difference(timeline.known()) is None
     assert not any(path.startswith("ghost/") for step in timeline.known() for path in step.scene)
@@ -138,12 +138,12 @@ def test_every_scene_beside_a_students_function_is_drawn_once(turned):
         drawn.append(state)
         return fake.draw(state)
 
-    Timeline(beside(replace(fake.lesson, draw=draw), TURN, turned), fake.Params(steps=4)).complete()
+    Timeline(driven(replace(fake.lesson, draw=draw), TURN, turned), fake.Params(steps=4)).complete()
     assert len(drawn) == len({id(state) for state in drawn}) == 8
 
 
 def test_a_wrong_function_differs_from_a_step_on_with_the_reference_as_ghost():
-    timeline = Timeline(beside(fake.lesson, TURN, lambda angle: fake.turn_about_z(-angle)), fake.Params()).complete()
+    timeline = Timeline(driven(fake.lesson, TURN, lambda angle: fake.turn_about_z(-angle)), fake.Params()).complete()
     assert first_difference(timeline.known()) == 1  # at step 0 both turn by nothing
     assert "ghost/source" in timeline[1].scene
     assert timeline[1].caption.tone == "wrong"
@@ -156,7 +156,7 @@ def test_a_function_that_fails_becomes_the_caption_and_the_run_ends():
             raise ValueError("too far")
         return fake.turn_about_z(angle)
 
-    timeline = Timeline(beside(fake.lesson, TURN, late), fake.Params()).complete()
+    timeline = Timeline(driven(fake.lesson, TURN, late), fake.Params()).complete()
     assert timeline.stopped is None
     assert "too far" in timeline[-1].caption.text
     assert timeline[-1].caption.tone == "wrong"
@@ -175,7 +175,7 @@ def test_a_lesson_that_cannot_use_what_came_back_says_so_and_ends(where):
         return fake.draw(replace(state, error=state.error / state.T_world_source[2, 2].item()))
 
     lesson = replace(fake.lesson, run=run, draw=draw if where == "draw" else fake.draw)
-    timeline = Timeline(beside(lesson, TURN, lambda angle: np.zeros((4, 4))), fake.Params()).complete()
+    timeline = Timeline(driven(lesson, TURN, lambda angle: np.zeros((4, 4))), fake.Params()).complete()
     assert timeline.stopped is None
     assert "cannot go on with what turn returned" in timeline[-1].caption.text
     assert ("ZeroDivisionError" if where == "draw" else "index 9") in timeline[-1].caption.text

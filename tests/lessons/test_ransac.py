@@ -19,7 +19,7 @@ from workbench.algorithms.models import MODELS, PLANE
 from workbench.algorithms.ransac import Stop, iterations_needed
 from workbench.algorithms.scores import count_inliers
 from workbench.errors import InputError
-from workbench.exercise.beside import beside
+from workbench.exercise.driven import driven
 from workbench.exercise.finding import exercises_of
 from workbench.geometry.lines_planes import plane_from_points
 from workbench.scene import Caption, Classes, Points, Segments
@@ -358,7 +358,7 @@ RIGHT = [(exercise, function) for exercise in exercises_of(lesson) for function 
 def test_another_right_function_draws_the_same_pictures(exercise, function):
     """Whatever side its normals are on, and however it rounds."""
     for params in (Params(), presets.WIRE):
-        pairs = list(beside(lesson, exercise, function).run(params))
+        pairs = list(driven(lesson, exercise, function).run(params))
         assert end([pair.theirs for pair in pairs])
         assert [pair.trouble for pair in pairs if pair.trouble] == []
         assert [k for k, pair in enumerate(pairs) if pair.first] == []

@@ -5,6 +5,8 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -70,7 +72,7 @@ def test_workers_end_with_the_process_that_started_them(tmp_path, how):
     command = [sys.executable, str(script), str(tmp_path)]
     pipe: Any = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "start_new_session": True}
     process: Any
-    with subprocess.Popen(command, env=environment, **pipe) as process:
+    with subprocess.Popen(command, env=environment, preexec_fn=heed_ctrl_c, **pipe) as process, ended(process):
         places = [tmp_path / "a", tmp_path / "b"]
         until(lambda: process.poll() is not None or all(place.exists() for place in places))
         workers = [int(place.read_text()) for place in places]
@@ -81,6 +83,20 @@ def test_workers_end_with_the_process_that_started_them(tmp_path, how):
         said, _ = process.communicate(timeout=PATIENCE)  # ends when nobody holds the pipe any more
         assert said.count(b"Traceback") == (how == signal.SIGINT), said.decode()
         until(lambda: not any(is_alive(worker) for worker in workers))
+
+
+def heed_ctrl_c() -> None:
+    """What runs in a shell's background is started deaf to it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+@contextmanager
+def ended(process: subprocess.Popen) -> Iterator[None]:
+    """Leave nothing behind that would be waited for, whatever fails in the block."""
+    try:
+        yield
+    finally:
+        process.kill()
 
 
 def is_alive(process: int) -> bool:

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from workbench.lesson import catalog
 from workbench.recording.glyphs import safe
-from workbench.recording.page import plain_formula, plain_page
+from workbench.recording.plain_page import plain_formula, plain_page
 from workbench.recording.sink import markdown
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from workbench.watch import watched
+from workbench.tracing import traced
 
 Invert = Callable[[np.ndarray], np.ndarray]
 """invert_rigid(T_a_b) -> T_b_a."""
@@ -39,7 +39,7 @@ class State:
     T_world_body: Float[np.ndarray, "4 4"]
 
 
-@watched
+@traced
 def compose(shape: Sequence[Factor], motions: Sequence[Factor], invert_rigid: Invert) -> Iterator[State]:
     """Multiply factors from the right to the left, then take the rigid ones back.
 

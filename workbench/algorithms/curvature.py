@@ -16,7 +16,7 @@ from workbench.geometry.curvature import mean_from_normals, principal_curvatures
 from workbench.geometry.laplacian import mixed_areas
 from workbench.geometry.meshes import euler_characteristic, one_ring, vertex_normals
 from workbench.geometry.quadric_fit import Quadrics, fit_quadrics
-from workbench.watch import watched
+from workbench.tracing import traced
 
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
@@ -92,7 +92,7 @@ class Measured:
     chi: int = 0
 
 
-@watched
+@traced
 def measure_curvature(
     p: Points,
     faces: Faces,

@@ -27,7 +27,7 @@ from workbench.algorithms.disparity_map import (
 )
 from workbench.algorithms.semiglobal import semi_global
 from workbench.geometry.stereo import depth_from_disparity, depth_uncertainty
-from workbench.watch import watched
+from workbench.tracing import traced
 
 Choose: TypeAlias = Callable[[np.ndarray], np.ndarray]
 """choose(cost (d, h, w)) -> disparity (h, w), whole pixels."""
@@ -85,7 +85,7 @@ def usual_penalties(cost: Real[np.ndarray, "d h w"], smoothness: float) -> tuple
     return P2 / 3.0, P2
 
 
-@watched
+@traced
 def match(
     left: Real[np.ndarray, "h w"],
     right: Real[np.ndarray, "h w"],
@@ -140,7 +140,7 @@ class Depths:
     uncertainty: Float[np.ndarray, "h w"] | None = None
 
 
-@watched
+@traced
 def reconstruct(
     disparity: Float[np.ndarray, "h w"],
     f: float,

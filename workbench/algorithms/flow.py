@@ -11,7 +11,7 @@ from enum import Enum
 import numpy as np
 from jaxtyping import Float
 
-from workbench.watch import watched
+from workbench.tracing import traced
 
 Distance = Callable[[np.ndarray, np.ndarray], float]
 """distance(p_moving, p_target) -> a number that is not negative, and 0 for equal clouds."""
@@ -57,7 +57,7 @@ class Flow:
     stop: Stop | None = None
 
 
-@watched
+@traced
 def flow(
     p_moving: Float[np.ndarray, "n 3"],
     p_target: Float[np.ndarray, "m 3"],

@@ -16,7 +16,7 @@ from jaxtyping import Bool, Float, Int
 
 from workbench.geometry.alignment import align_rigid, point_to_plane_step
 from workbench.geometry.motions import apply
-from workbench.watch import watched
+from workbench.tracing import traced
 
 Match = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """match(p_target, p_source) -> for each source point, the index of its partner; both in the target frame."""
@@ -117,7 +117,7 @@ def nearest(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3
     return matcher(p_target, p_source)(p_target, p_source)
 
 
-@watched
+@traced
 def icp(
     p_target: Float[np.ndarray, "m 3"],
     p_source: Float[np.ndarray, "n 3"],

@@ -21,7 +21,7 @@ from workbench.geometry.rotations import (
     matrix_from_quaternion,
     quaternion_from_matrix,
 )
-from workbench.watch import watched
+from workbench.tracing import traced
 
 Times = Float[np.ndarray, "n"]
 Pose = Float[np.ndarray, "4 4"]
@@ -39,7 +39,7 @@ class State:
     T_world_body: Pose
 
 
-@watched
+@traced
 def slerp_and_lerp(
     T_world_start: Pose, T_world_end: Pose, times: Times, rotation_from_axis_angle: Rodrigues
 ) -> Iterator[State]:
@@ -53,7 +53,7 @@ def slerp_and_lerp(
         yield State(t, motion(R, p))
 
 
-@watched
+@traced
 def slerp_to_minus_q(T_world_start: Pose, T_world_end: Pose, times: Times) -> Iterator[State]:
     """Go along the great circle to the wrong one of the two quaternions that both are the end's rotation."""
     p_start, p_end = T_world_start[:3, 3], T_world_end[:3, 3]
@@ -66,7 +66,7 @@ def slerp_to_minus_q(T_world_start: Pose, T_world_end: Pose, times: Times) -> It
         yield State(t, motion(R, p))
 
 
-@watched
+@traced
 def lerp_of_euler_angles(
     angles_start: Float[np.ndarray, "3"],
     angles_end: Float[np.ndarray, "3"],
@@ -84,7 +84,7 @@ def lerp_of_euler_angles(
         yield State(t, motion(R, p))
 
 
-@watched
+@traced
 def lerp_of_entries(T_world_start: Pose, T_world_end: Pose, times: Times) -> Iterator[State]:
     """Let each of the sixteen numbers run at constant speed: what lies between is no rotation."""
     for t in times:
@@ -92,7 +92,7 @@ def lerp_of_entries(T_world_start: Pose, T_world_end: Pose, times: Times) -> Ite
         yield State(t, T)
 
 
-@watched
+@traced
 def along_a_screw(
     T_world_start: Pose, T_world_end: Pose, times: Times, invert_rigid: Callable[[np.ndarray], np.ndarray]
 ) -> Iterator[State]:

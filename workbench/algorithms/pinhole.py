@@ -13,7 +13,7 @@ from jaxtyping import Float
 from workbench.geometry import cameras, distortion
 from workbench.geometry.distortion import Distortion, is_invertible, undistort
 from workbench.geometry.motions import apply
-from workbench.watch import watched
+from workbench.tracing import traced
 
 Project = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 """project(p_world, T_camera_world, K) -> pixels (n, 2) without a lens, NaN for points behind the camera."""
@@ -61,7 +61,7 @@ def start(p_world: np.ndarray) -> State:
     return State("world", p_world, space, plane, plane, plane, np.full(3, np.nan), space)
 
 
-@watched
+@traced
 def follow(
     p_world: Float[np.ndarray, "n 3"],
     T_camera_world: Float[np.ndarray, "4 4"],

@@ -14,7 +14,7 @@ from jaxtyping import Bool, Float, Int
 
 from workbench.algorithms.models import Model
 from workbench.algorithms.scores import Score, count_score
-from workbench.watch import watched
+from workbench.tracing import traced
 
 Phase = Literal["sample", "degenerate", "model", "inliers", "best", "refit", "stop"]
 
@@ -136,7 +136,7 @@ class Judge:
         return Fit(estimate, distances, inliers, float(self.score(distances, self.inlier_distance)))
 
 
-@watched
+@traced
 def ransac(
     p: Float[np.ndarray, "n d"],
     model: Model,

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.algorithms.models import Model
-from workbench.watch import watched
+from workbench.tracing import traced
 
 
 class Settled(Enum):
@@ -57,7 +57,7 @@ def huber_weights(distances: Float[np.ndarray, " n"], corner: float) -> Float[np
     return corner / np.maximum(distances, corner)
 
 
-@watched
+@traced
 def huber_fit(
     p: Float[np.ndarray, "n d"], model: Model, *, corner: float, max_iterations: int = 50, tolerance: float = 1e-4
 ) -> Iterator[Reweighted]:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Real
 
-from workbench.watch import watched
+from workbench.tracing import traced
 
 DIRECTIONS = ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 1))
 """The eight steps (rows down, columns right) from one pixel of a path to the next."""
@@ -35,7 +35,7 @@ class PathSum:
     total: Real[np.ndarray, "d h w"]
 
 
-@watched
+@traced
 def semi_global(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Iterator[PathSum]:
     """Add up path costs, one direction per step.
 

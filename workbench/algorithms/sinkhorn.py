@@ -12,7 +12,7 @@ from enum import Enum
 import numpy as np
 from jaxtyping import Float
 
-from workbench.watch import unwatched, watched
+from workbench.tracing import traced, untraced
 
 MOST_ENTRIES = 50_000_000  # of a cost matrix: 400 MB, and the plan is as large again
 
@@ -60,7 +60,7 @@ class Blurred:
         return float(np.vdot(self.plan(cost), cost))
 
 
-@watched
+@traced
 def sinkhorn_steps(
     cost: Float[np.ndarray, "n m"], regularisation: float, *, max_sweeps: int = 10_000, tolerance: float = 1e-9
 ) -> Iterator[Blurred]:
@@ -110,7 +110,7 @@ def sinkhorn(
     cost: Float[np.ndarray, "n m"], regularisation: float, *, max_sweeps: int = 10_000, tolerance: float = 1e-9
 ) -> Blurred:
     """Return the last state of `sinkhorn_steps`; whoever watches a run that calls this goes on watching that run."""
-    with unwatched():
+    with untraced():
         *_, last = sinkhorn_steps(cost, regularisation, max_sweeps=max_sweeps, tolerance=tolerance)
     return last
 

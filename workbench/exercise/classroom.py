@@ -12,7 +12,7 @@ import io
 import json
 import os
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 import workbench
+from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_in, find_exercise
 from workbench.exercise.grading import grade_file
@@ -27,10 +28,7 @@ from workbench.exercise.model import Exercise
 from workbench.exercise.reports import SCHEMA_VERSION, as_dict
 from workbench.lesson import Lesson
 from workbench.loading import load
-from workbench.progress import bar
-
-Progress = Callable[[str, int, int], object]
-"""progress(the submission that is done, how many are done, of how many)."""
+from workbench.progress import Progress, bar
 
 
 def submissions(folder: Path) -> dict[str, Path]:
@@ -316,6 +314,4 @@ def _kept(path: Path) -> dict[str, Any] | None:
 
 
 def _write(path: Path, text: str) -> None:
-    partial = path.with_name(path.name + ".partial")
-    partial.write_text(text, encoding="utf-8")
-    partial.replace(path)
+    write_atomic(path, text.encode())

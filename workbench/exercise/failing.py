@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from workbench.errors import InputError
-from workbench.exercise.beside import beside, first_difference
+from workbench.exercise.driven import driven, first_difference
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox import Student
 from workbench.lesson import Lesson, catalog
@@ -36,7 +36,7 @@ def record_failing(
     out = path.with_suffix(".rrd") if out is None else out
     end = time.monotonic() + SECONDS
     with Student(path, exercise.name, seconds=exercise.contract.seconds) as student:
-        paired = beside(lesson, exercise, student)
+        paired = driven(lesson, exercise, student)
         for params in (lesson.params(), *(preset.params for preset in lesson.presets)):
             timeline = Timeline(paired, params)
             at = None

@@ -7,6 +7,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 import workbench
+from workbench.atomic import write_atomic
 from workbench.exercise.grading import Outcome, Report
 
 SCHEMA_VERSION = 1
@@ -133,9 +134,7 @@ def write_files(reports: Sequence[Report], folder: Path) -> None:
         "summary.md": markdown(reports),
     }
     for name, text in files.items():
-        partial = folder / (name + ".partial")
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(folder / name)
+        write_atomic(folder / name, text.encode())
 
 
 def printable(text: str) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
 from workbench.lesson import catalog
@@ -71,7 +72,7 @@ def write_starter(exercise: Exercise, folder: Path, *, force: bool = False) -> P
         raise InputError(f"{path} is there already: move it away, or start over with --force")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        path.write_text(starter(exercise), encoding="utf-8")
+        write_atomic(path, starter(exercise).encode())
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or 'cannot be written'}") from None
     return path

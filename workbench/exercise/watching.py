@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 from workbench.errors import InputError
-from workbench.exercise.beside import beside
+from workbench.exercise.driven import driven
 from workbench.exercise.finding import exercises_in
 from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise
@@ -34,7 +34,7 @@ class Watched:
         self.exercise: Exercise = exercises_in(path, lesson)[0]
         self._stamp = self._stamp_now()
         self._student = self._new()
-        self.lesson = beside(lesson, self.exercise, self._student)
+        self.lesson = driven(lesson, self.exercise, self._student)
         self.said: Report | str = RUNNING
 
     def changed(self) -> bool:
@@ -45,7 +45,7 @@ class Watched:
         self._stamp, self.said = stamp, RUNNING
         old = self._student
         self._student = self._new()
-        self.lesson = beside(self.original, self.exercise, self._student)
+        self.lesson = driven(self.original, self.exercise, self._student)
         old.close()
         return True
 

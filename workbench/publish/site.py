@@ -1,6 +1,6 @@
 """Writes a static site: a course page and one page per lesson, with replays that play from disk, offline."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from html.parser import HTMLParser
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote, urlsplit
@@ -10,6 +10,7 @@ import viser
 import workbench
 from workbench.errors import InputError
 from workbench.lesson import Lesson
+from workbench.progress import Progress
 from workbench.publish.ledger import NAME, Ledger, Listed
 from workbench.publish.lock import only_writer
 from workbench.publish.pages import course_page, lesson_page
@@ -21,9 +22,6 @@ from workbench.typeset import math_font_css
 STATIC = Path(__file__).with_name("static")
 PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = 300_000, 1_000_000, 4_000_000, 3_000_000
 COURSE_PAGE = "index.html"
-
-Progress = Callable[[str, int, int], object]
-"""progress(what is done, how much is done, of how much)."""
 
 
 def publish(

@@ -10,7 +10,7 @@ import rerun as rr
 from workbench.recording.chart import GREY, chart_curves, chart_frame, color_bar, frame_key, legend_bar, legend_names
 from workbench.recording.gather import Union, gathered
 from workbench.recording.glyphs import safe
-from workbench.recording.images import IMAGE, encoded, gone
+from workbench.recording.png import IMAGE, encoded, gone
 from workbench.recording.spatial import Aspect, ClassNumbers, aspects
 from workbench.scene import (
     PALETTE,

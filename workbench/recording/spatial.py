@@ -13,7 +13,7 @@ import numpy as np
 import rerun as rr
 
 from workbench.recording.glyphs import safe
-from workbench.recording.images import IMAGE, encoded, texture
+from workbench.recording.png import IMAGE, encoded, texture
 from workbench.scene import (
     PALETTE,
     Axes,

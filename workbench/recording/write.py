@@ -21,7 +21,7 @@ from workbench.recording.contents import contents_of, places, to_json
 from workbench.recording.gather import unions
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import one_run
-from workbench.recording.page import plain_page
+from workbench.recording.plain_page import plain_page
 from workbench.recording.read import FORMAT, digest
 from workbench.recording.sink import RerunSink, document
 from workbench.recording.streams import application_id, stream_bytes

@@ -7,8 +7,8 @@ from typing import Any
 
 import viser
 
+from workbench.tracing import Moment, source_of
 from workbench.viewer.style import escape
-from workbench.watch import Moment, source_of
 
 
 class CodeTab:

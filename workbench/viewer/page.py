@@ -18,7 +18,7 @@ import viser
 from workbench import links
 from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
-from workbench.exercise.beside import first_difference
+from workbench.exercise.driven import first_difference
 from workbench.exercise.finding import exercises_of
 from workbench.exercise.watching import Watched
 from workbench.knobs import Pick, fields_of

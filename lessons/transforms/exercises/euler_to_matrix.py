@@ -65,11 +65,8 @@ def some_angles(seed: int) -> np.ndarray:
 
 
 def _ordered(candidate: Function, angles: np.ndarray, order: str) -> Verdict:
-    return rotation_verdict(
-        candidate(angles, order),
-        rotations.euler_to_matrix(angles, order),
-        f'Order "{order}". {EULER_HINT}',  # type: ignore[arg-type]
-    )
+    right = rotations.euler_to_matrix(angles, order)  # type: ignore[arg-type]
+    return rotation_verdict(candidate(angles, order), right, f'Order "{order}". {EULER_HINT}')
 
 
 @check(2)

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from workbench.lesson import Lesson, View
-from workbench.watch import watched
+from workbench.tracing import traced
 
 from .draw import draw
 from .exercises.fit_circle import fit_circle
@@ -18,7 +18,7 @@ from .experiments import PRESETS, QUESTIONS
 from .state import CENTRE, RADIUS, Params, State, radii
 
 
-@watched
+@traced
 def refine(p: np.ndarray, circle: np.ndarray) -> Iterator[State]:
     """Yield circles whose squared distances to the points get smaller: Gauss-Newton."""
     for k in range(2, 40):

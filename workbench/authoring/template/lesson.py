@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from workbench.lesson import Lesson, View
-from workbench.watch import watched
+from workbench.tracing import traced
 
 from .draw import draw
 from .exercises.weighted_centroid import weighted_centroid
@@ -24,7 +24,7 @@ from .state import P_TRUE, Params, State
 Centroid = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
-@watched
+@traced
 def average(p: np.ndarray, w: np.ndarray, weighted_centroid: Centroid) -> Iterator[State]:
     """Yield the weighted centroid of the first fix, of the first two, and so on."""
     for k in range(1, len(p) + 1):

@@ -1,6 +1,6 @@
 """Watches where an algorithm stands each time it yields: its line, and its local variables.
 
-A suspended generator knows its line and its locals. `watched` reads them off at every yield, but only while somebody
+A suspended generator knows its line and its locals. `traced` reads them off at every yield, but only while somebody
 listens (`listening`), so an algorithm that nobody watches pays one attribute test per step.
 """
 
@@ -74,7 +74,7 @@ def listening() -> Iterator[Callable[[], Moment | None]]:
 
 
 @contextmanager
-def unwatched() -> Iterator[None]:
+def untraced() -> Iterator[None]:
     """Record nothing in this thread for the length of the block: for runs inside a run whose lines nobody looks at."""
     before, _listener.on = _listener.on, False
     try:
@@ -83,10 +83,10 @@ def unwatched() -> Iterator[None]:
         _listener.on = before
 
 
-def watched(algorithm: Callable[Options, Iterator[State]]) -> Callable[Options, Iterator[State]]:
+def traced(algorithm: Callable[Options, Iterator[State]]) -> Callable[Options, Iterator[State]]:
     """Let whoever listens know the line and the locals of this generator function at each of its yields.
 
-    Where one watched generator passes on what another yielded, the inner one, which did the work, is reported.
+    Where one traced generator passes on what another yielded, the inner one, which did the work, is reported.
     """
 
     @functools.wraps(algorithm)

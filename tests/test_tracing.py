@@ -1,16 +1,16 @@
 import numpy as np
 
-from workbench.watch import describe, listening, source_of, unwatched, watched
+from workbench.tracing import describe, listening, source_of, traced, untraced
 
 
-@watched
+@traced
 def inner(n):
     for i in range(n):
         square = i * i
         yield square, object()
 
 
-@watched
+@traced
 def outer(n):
     yield "first"
     yield from inner(n)
@@ -38,10 +38,10 @@ def test_the_generator_that_did_the_work_is_reported():
 
 
 def test_a_run_inside_a_run_can_go_unwatched():
-    @watched
+    @traced
     def around():
         yield "before"
-        with unwatched():
+        with untraced():
             *_, last = inner(3)
         yield last
 

@@ -44,7 +44,7 @@ class Pair:
     ghost: Scene
 
 
-def beside(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
+def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
     """Return the lesson driven by a student's function, with the reference's run as its ghost."""
     slots = {exercise.contract.slot: Candidate(function, exercise.reference, remember=False)}
 
