@@ -10,7 +10,7 @@ from workbench.authoring.validate import validate
 from workbench.cli import main
 
 CIRCLE = Path(__file__).resolve().parents[1] / "authors" / "circle"
-YIELD = "        yield State(k=k, p=p, circle=circle)\n"
+YIELD = "        yield State(k, p, circle)\n"
 
 
 @pytest.fixture
@@ -44,17 +44,17 @@ def test_what_is_not_there_is_no_finding(word, capfd):
     ("file", "old", "new", "said"),
     [
         ("lesson.py", YIELD, "        while k == 3: pass\n" + YIELD,
-         "circle: circle/lesson.py, line 29: the code did not come back for 2 s, at: the default run, after step 2"),
+         "circle: circle/lesson.py, line 30: the code did not come back for 2 s, at: the default run, after step 2"),
         ("draw.py", "import numpy as np\n", "import numpy as np\nwhile True: pass\n",
          "circle/draw.py, line 4: the code did not come back for 2 s, at: loading it"),
         ("lesson.py", YIELD, YIELD + "        __import__('time').sleep(0.1)\n        circle = circle - step\n",
          "run takes over 2 s; it is at step "),
         ("lesson.py", YIELD, "        __import__('os')._exit(3)\n", "the process ended (exit code 3)"),
-        ("lesson.py", YIELD, "        raise SystemExit\n", "lesson circle: circle/lesson.py, line 29: SystemExit"),
-        ("lesson.py", YIELD, "        __import__('ctypes').string_at(0)\n", "circle/lesson.py, line 29: the process ended"),
+        ("lesson.py", YIELD, "        raise SystemExit\n", "lesson circle: circle/lesson.py, line 30: SystemExit"),
+        ("lesson.py", YIELD, "        __import__('ctypes').string_at(0)\n", "circle/lesson.py, line 30: the process ended"),
         ("lesson.py", YIELD, "        p = np.ones((1 << 40, 2))\n" + YIELD, "MemoryError"),
-        ("state.py", "k: int", "k: int = 1 / 0", "circle/state.py, line 28: ZeroDivisionError"),
-        ("exercises/fit_circle.py", "TRUE =", "1 / 0\nTRUE =", "fit_circle.py, line"),
+        ("state.py", "    k: int\n", "    k: int = 1 / 0\n", "circle/state.py, line 25: ZeroDivisionError"),
+        ("exercises/fit_circle.py", "CIRCLE =", "1 / 0\nCIRCLE =", "fit_circle.py, line"),
     ],
 )  # fmt: skip
 def test_what_takes_a_process_down_is_a_line_with_its_place(folder, file, old, new, said):

@@ -169,7 +169,8 @@ def every_knob_goes_to_its_ends(subject: Subject) -> Found:
         for value in ends(field):
             where = f"{field.name} = {value}"
             run = subject.fresh(replace(base, **{field.name: value}), f"the run at {where}", MOST_STEPS)
-            yield None if run.failure is None else f"{run.stopped} (at {where})"
+            fine = run.failure is None or run.stopped == subject.default().stopped  # which is told already
+            yield None if fine else f"{run.stopped} (at {where})"
 
 
 @promise
@@ -202,7 +203,7 @@ def _preset(subject: Subject, preset: Preset) -> Found:
     yield None if NAME.fullmatch(preset.name) else f"{who}: a name is letters, digits, - and _"
     yield _length(f"{who}: its line", len(preset.line), LINE, "characters")
     run = subject.whole(preset.params, f"preset {preset.name!r}")
-    yield None if run.stopped is None else f"{who}: {run.stopped}"
+    yield None if run.stopped in (None, subject.default().stopped) else f"{who}: {run.stopped}"
     if run.stopped is None and preset.step is not None:
         yield _opens(run, who, preset.step)
 
@@ -232,7 +233,8 @@ def _question(subject: Subject, question: Question) -> Found:
         found = answer(subject.lesson, question, None, Runs)  # type: ignore[arg-type]
     except InputError as error:
         said = str(error)
-        yield said if said.startswith(who) else f"{who}: {said}"
+        if said != subject.default().stopped:
+            yield said if said.startswith(who) else f"{who}: {said}"
     else:
         yield None if found.why.strip() else f"{who}: {at(question.why)}why says nothing"
 

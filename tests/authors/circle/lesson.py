@@ -15,32 +15,30 @@ from workbench.tracing import traced
 from .draw import draw
 from .exercises.fit_circle import fit_circle
 from .experiments import PRESETS, QUESTIONS
-from .state import CENTRE, RADIUS, Params, State, radii
+from .state import TRUE, Params, State
 
 
 @traced
 def refine(p: np.ndarray, circle: np.ndarray) -> Iterator[State]:
-    """Yield circles whose squared distances to the points get smaller: Gauss-Newton."""
-    for k in range(2, 40):
-        v = (circle[:2] - p) / radii(p, circle)[:, None]  # how each distance changes as the centre moves
-        J = np.column_stack([v, -np.ones(len(p))])
-        step = np.linalg.lstsq(J, circle[2] - radii(p, circle), rcond=None)[0]
+    """Yield the circle, and circles whose squared distances to the points get smaller: Gauss-Newton."""
+    yield State(0, p, circle)
+    for k in range(1, 40):
+        r = np.linalg.norm(p - circle[:2], axis=1)
+        J = np.column_stack([(circle[:2] - p) / r[:, None], -np.ones(len(p))])  # how each distance changes
+        step = np.linalg.lstsq(J, circle[2] - r, rcond=None)[0]
         circle = circle + step
-        yield State(k=k, p=p, circle=circle)
+        yield State(k, p, circle)
         if np.abs(step).max() < 1e-9:
             return
 
 
 def run(params: Params, *, fit_circle: Callable[[np.ndarray], np.ndarray] = fit_circle) -> Iterator[State]:
-    """Yield the points, the algebraic circle, and its refinements."""
+    """Yield the algebraic circle through measured points, and its refinements."""
     rng = np.random.default_rng(params.seed)
     angles = np.radians(params.arc) * (np.arange(params.points) / params.points - 0.5)
-    p = CENTRE + RADIUS * np.column_stack([np.cos(angles), np.sin(angles)])
-    p = p + params.noise * rng.standard_normal(p.shape)
-    yield State(k=0, p=p)
-    circle = np.asarray(fit_circle(p), float)
-    yield State(k=1, p=p, circle=circle)
-    yield from refine(p, circle)
+    p = TRUE[:2] + TRUE[2] * np.column_stack([np.cos(angles), np.sin(angles)])
+    p += params.noise * rng.standard_normal(p.shape)
+    yield from refine(p, fit_circle(p))
 
 
 lesson = Lesson(
@@ -55,5 +53,4 @@ lesson = Lesson(
     view=View(eye=(0.4, 0.3, 4.0), target=(0.4, 0.3, 0.0)),
     presets=PRESETS,
     questions=QUESTIONS,
-    first_step=1,
 )

@@ -1,23 +1,10 @@
-"""Write the algebraic fit of a circle: x² + y² = 2ax + 2by + c is linear in a, b and c, so one least-squares system gives
-them. The lesson refines the circle that you return.
-"""
+"""Write the algebraic fit of a circle: x² + y² = 2ax + 2by + c is linear in a, b and c. The lesson refines your circle."""
 
 import numpy as np
 
-from workbench.exercise import (
-    Function,
-    Verdict,
-    alternative,
-    band,
-    check,
-    contract,
-    left_alone,
-    mistake,
-    refused,
-    worst,
-)
+from workbench.exercise import alternative, band, check, contract, left_alone, mistake, refused, worst
 
-TRUE = np.array([2.0, -1.0, 0.5])
+CIRCLE = np.array([2.0, -1.0, 0.5])
 HINT = "Solve [2x 2y 1] (a, b, c) = x² + y²; then r² = c + a² + b²."
 
 
@@ -27,7 +14,7 @@ def on_circle(circle: np.ndarray, degrees: float = 300.0, noise: float = 0.0) ->
     return p + noise * np.random.default_rng(7).standard_normal(p.shape)
 
 
-def judged(candidate: Function, p: np.ndarray) -> Verdict:
+def judged(candidate, p):
     off = 1000 * np.abs(candidate(p) - fit_circle(p)).max()
     return band("Largest error of x, y or r", float(off), "mm", good=0.01, fair=1.0, hint=HINT)
 
@@ -53,25 +40,25 @@ def fit_circle(p: np.ndarray) -> np.ndarray:
 
 
 @check(2)
-def points_on_a_circle(candidate: Function) -> Verdict:
+def points_on_a_circle(candidate):
     """Points on a circle give this circle."""
-    return judged(candidate, on_circle(TRUE))
+    return judged(candidate, on_circle(CIRCLE))
 
 
 @check(1)
-def points_are_left_alone(candidate: Function) -> Verdict:
+def points_are_left_alone(candidate):
     """The points that come in are not changed."""
-    return left_alone(candidate, judged(candidate, on_circle(TRUE)))
+    return left_alone(candidate, judged(candidate, on_circle(CIRCLE)))
 
 
 @check(2, public=False)
-def points_with_noise(candidate: Function) -> Verdict:
+def points_with_noise(candidate):
     """Points with noise on arcs give the least-squares solution of the linear system."""
-    return worst(judged(candidate, on_circle(TRUE, degrees, 0.02)) for degrees in (40.0, 120.0, 350.0))
+    return worst(judged(candidate, on_circle(CIRCLE, degrees, 0.02)) for degrees in (40.0, 120.0, 350.0))
 
 
 @check(1, public=False)
-def points_on_a_line(candidate: Function) -> Verdict:
+def points_on_a_line(candidate):
     """Points on one line are refused."""
     return refused(candidate, np.outer(np.arange(6.0), [1.0, 2.0]), what="Six points on a line")
 
