@@ -10,7 +10,8 @@ import pytest
 
 from workbench.errors import InputError
 from workbench.knobs import Gizmo, Knob, Pick
-from workbench.lesson import Lesson, Preset, Question, load
+from workbench.lesson import Lesson, Preset, Question
+from workbench.loading import load
 from workbench.scene import Caption, Curve, Points, Scalar, Scene, Table
 from workbench.session import Session
 from workbench.timeline import Timeline, Timelines

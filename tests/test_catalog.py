@@ -10,8 +10,9 @@ from tests import fake
 from workbench import listing
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
-from workbench.lesson import catalog, find, load
+from workbench.lesson import catalog, find
 from workbench.listing import listed
+from workbench.loading import load
 
 
 @pytest.fixture

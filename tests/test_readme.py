@@ -10,7 +10,8 @@ import pytest
 from workbench import links, open_recording
 from workbench.cli import main
 from workbench.errors import InputError
-from workbench.lesson import Lesson, load
+from workbench.lesson import Lesson
+from workbench.loading import load
 from workbench.publish import site
 from workbench.session import Session
 

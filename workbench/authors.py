@@ -43,12 +43,17 @@ def described(error: BaseException, function: object = None) -> str:
     frames = traceback.extract_tb(error.__traceback__)
     folder = str(Path(defined(function)[0]).parent) if defined(function)[0] else None
     beside = [f for f in frames if folder and _within(f.filename, folder)]
-    others = [f for f in frames if not f.filename.startswith(_OURS)]
+    others = [f for f in frames if not is_ours(f.filename)]
     if not (beside or others):
         return f"{at(function)}{kind}"
     frame = (beside or others)[-1]
     code = f" in `{frame.line[:80]}`" if frame.line else ""
     return f"{place(frame.filename, frame.lineno or 1)}: {kind}{code}"
+
+
+def is_ours(file: str) -> bool:
+    """Tell whether a file is of the workbench, of Python or of a library, and so not an author's."""
+    return file.startswith(_OURS)
 
 
 def at(function: object) -> str:

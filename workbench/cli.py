@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 from workbench import __version__
 from workbench.errors import InputError, one_line
-from workbench.flags import Chosen, Option, Serving, command_line, lesson_given, parse
+from workbench.flags import Chosen, Option, Serving, command_line, is_path, lesson_given, parse
 from workbench.lesson import catalog
 
 Command = Callable[..., int | None]
@@ -19,6 +19,9 @@ Command = Callable[..., int | None]
 COMMANDS: dict[str, Command] = {}
 
 Recording = Annotated[Path, Option("A recording made by `workbench record` or on the live page.", "FILE.rrd")]
+OwnLesson = Annotated[
+    str | None, Option("The lesson's own file or folder, where the catalogue does not have it.", "PATH")
+]
 Native = Annotated[bool, Option("Open Rerun's own window instead of the browser.")]
 
 
@@ -106,9 +109,7 @@ def reopen(
     file: Recording,
     /,
     serving: Serving,
-    lesson: Annotated[
-        str | None, Option("The lesson's own file, for a recording of a lesson from a single file.", "FILE.py")
-    ] = None,
+    lesson: OwnLesson = None,
     files: Annotated[bool, Option("Open the files that the recording names as its input.")] = False,
 ) -> None:
     """Open the live lesson at the params of a recording."""
@@ -138,18 +139,20 @@ def exercise(
     ] = None,
     /,
     out: Annotated[Path, Option("Folder to write into.", "DIR", short="-o")] = Path(),
+    lesson: OwnLesson = None,
     force: Annotated[bool, Option("Replace a file that is there: your work in it is lost.")] = False,
 ) -> None:
     """Write the starter file of an exercise, or list all exercises."""
     from workbench.exercise.finding import exercises, exercises_of, find_exercise
     from workbench.exercise.starter import write_starter
 
+    own = None if lesson is None else lesson_given(lesson)
     if name is None:
-        for item in exercises().values():
+        for item in exercises().values() if own is None else exercises_of(own):
             sys.stdout.write(f"{item.lesson:<12} {item.name:<25} {item.task.split('. ')[0].rstrip('.')}.\n")
         return
-    lesson = catalog().get(name)
-    for item in (lesson and exercises_of(lesson)) or (find_exercise(name),):
+    whole = catalog().get(name)
+    for item in (whole and exercises_of(whole)) or (find_exercise(name, own),):
         sys.stdout.write(f"{write_starter(item, out, force=force)}\n")
 
 
@@ -160,6 +163,7 @@ def check(
     out: Annotated[
         Path | None, Option("Folder for result.json, results.json, junit.xml, summary.md.", "DIR", short="-o")
     ] = None,
+    lesson: OwnLesson = None,
     hidden: Annotated[bool, Option("Run the hidden checks too, where they are installed.")] = False,
 ) -> int:
     """Judge one file by an exercise's checks; exit code 1 without full marks."""
@@ -168,11 +172,12 @@ def check(
     from workbench.exercise.grading import grade_file
     from workbench.exercise.reports import terminal, write_files
 
-    reports = [grade_file(file, item, hidden=hidden) for item in exercises_in(file)]
+    own = None if lesson is None else lesson_given(lesson)
+    reports = [grade_file(file, item, hidden=hidden) for item in exercises_in(file, own)]
     for report in reports:
         sys.stdout.write(terminal(report) + "\n")
         sys.stdout.flush()  # what follows takes a while
-        recorded = None if report.is_full else record_failing(report.exercise, file)
+        recorded = None if report.is_full else record_failing(report.exercise, file, lesson=own)
         if recorded is not None:
             sys.stdout.write(f"  Watch where it goes wrong: {command_line('replay', recorded)}\n")
     if out is not None:
@@ -186,15 +191,48 @@ def grade(
     /,
     out: Annotated[Path | None, Option("Folder for the results; DIR/graded by default.", "DIR", short="-o")] = None,
     only: Annotated[str | None, Option("Grade this exercise only.", "EXERCISE")] = None,
+    lesson: OwnLesson = None,
     jobs: Annotated[int | None, Option("How many submissions at a time; the number of cores by default.", "N")] = None,
     dask: Annotated[str | None, Option("Address of a Dask scheduler that does the work.", "ADDRESS")] = None,
 ) -> int:
     """Grade a folder of submissions; goes on where it was interrupted."""
-    from workbench.exercise.classroom import grade_folder
+    from workbench.exercise.classroom import Asked, grade_folder
 
+    if lesson is not None:
+        lesson_given(lesson)  # what is wrong with it is told once, before the first submission
+    asked = Asked(only, Path(lesson).resolve() if lesson is not None and is_path(lesson) else None)
     return grade_folder(
-        folder, out or folder / "graded", only=only, jobs=jobs, dask=dask, tell=sys.stderr, result=sys.stdout
+        folder, out or folder / "graded", asked=asked, jobs=jobs, dask=dask, tell=sys.stderr, result=sys.stdout
     )
+
+
+@command
+def new(
+    name: Annotated[str, Option("What the lesson is called: small letters, digits and _.", "NAME")],
+    /,
+    out: Annotated[Path, Option("Folder to make the lesson's folder in.", "DIR", short="-o")] = Path(),
+) -> None:
+    """Write a folder with a lesson that runs, to be made your own."""
+    from workbench.authoring.new import new_lesson
+
+    for path in new_lesson(name, out):
+        sys.stdout.write(f"{path}\n")
+    sys.stdout.write(f"Open it: {command_line('show', out / name)}\n")
+
+
+@command
+def validate(
+    lesson: Annotated[str, Option("The lesson: its name, or the path of its file or folder.", "LESSON")],
+    /,
+) -> int:
+    """Hold a lesson and its exercises to what is promised of all of them; exit code 1 where something is wrong."""
+    from workbench.authoring.validate import validate as held_to_its_promises
+
+    found = held_to_its_promises(lesson, lambda line: sys.stdout.write(f"{line}\n") and sys.stdout.flush())
+    if found.wrong:
+        return 1
+    sys.stdout.write(f"{found.name}: holds ({found.looked_at} checks)\n")
+    return 0
 
 
 @command

@@ -8,9 +8,9 @@ positional-only. A parameter of type `Chosen` becomes LESSON, --preset and one f
 import argparse
 import difflib
 import inspect
+import os
 import re
 import shlex
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -18,7 +18,8 @@ from typing import Annotated, Any, TypeAlias, get_args, get_origin
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.lesson import Lesson, catalog, find, load
+from workbench.lesson import Lesson, catalog, find
+from workbench.loading import load, taken_by, word_for
 
 RESERVED = frozenset(
     {"lesson", "preset", "step", "out", "force", "host", "port", "browser", "with", "native", "help", "params"}
@@ -144,9 +145,7 @@ def show_command(lesson: Lesson, params: Any) -> str:
     """
     given = knobs.changed(params)
     flags = [_flag_of(field, given[field.name]) for field in knobs.fields_of(type(params)) if field.name in given]
-    file = getattr(sys.modules.get(lesson.params.__module__), "__file__", None)
-    name = lesson.name if lesson.name in catalog() or file is None else Path(file).name
-    return command_line("show", name, *flags)
+    return command_line("show", word_for(lesson.name, lesson.params.__module__), *flags)
 
 
 def _flag_of(field: knobs.Field, text: str) -> str:
@@ -225,7 +224,7 @@ def _lesson_reader(parser: _Parser, left: list[str]) -> Reader:
         names = ", ".join(catalog())
         if "--help" not in left and "-h" not in left:
             raise InputError(f"which lesson? There are: {names}")
-        about = f"One of {names}, or a file my_lesson.py. `{parser.prog} LESSON --help` shows its parameters."
+        about = f"One of {names}, or a file or folder. `{parser.prog} LESSON --help` shows its parameters."
         parser.add_argument("lesson", metavar="LESSON", help=about)
         return lambda values: None
     left.remove(name)
@@ -279,14 +278,25 @@ def _text(value: Any) -> str:
 
 
 def lesson_given(word: str) -> Lesson:
-    """Return the lesson that a person names on the command line: by its name, or by the path of its file.
+    """Return the lesson that a person names on the command line: by its name, or by the path of its file or folder.
 
     For words that a person typed only, since the file is run; names out of files and links go to `find`.
 
     Raises:
-        InputError: If there is no such lesson, or the file cannot be used.
+        InputError: If there is no such lesson, the file cannot be used, or its lesson has the name of another.
     """
-    return load(Path(word)) if word.endswith(".py") else find(word)
+    if not is_path(word):
+        return find(word)
+    lesson = load(Path(word))
+    other = taken_by(lesson)
+    if other is not None:
+        raise InputError(f"{word}: its name {lesson.name!r} is taken by {other}; give it another")
+    return lesson
+
+
+def is_path(word: str) -> bool:
+    """Tell whether a word names a lesson by its path: a Python file, a folder, or what has a slash in it."""
+    return word not in catalog() and (word.endswith(".py") or os.sep in word or "/" in word or Path(word).is_dir())
 
 
 def _lesson_named(words: Sequence[str]) -> str | None:
@@ -297,7 +307,7 @@ def _lesson_named(words: Sequence[str]) -> str | None:
     if words and not words[0].startswith("-"):
         return words[0]
     for before, word in zip(["", *words], words, strict=False):
-        if word in catalog() or (word.endswith(".py") and (before in SWITCHES or not before.startswith("-"))):
+        if word in catalog() or (is_path(word) and (before in SWITCHES or not before.startswith("-"))):
             return word
     return None
 

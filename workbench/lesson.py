@@ -6,8 +6,6 @@ import importlib.metadata
 import importlib.util
 import inspect
 import pkgutil
-import sys
-import traceback
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -17,7 +15,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from workbench.authors import at, described
+from workbench.authors import at
 from workbench.errors import AuthorError, InputError, LeftOutWarning
 from workbench.knobs import fields_of, validated
 from workbench.scene import Scene
@@ -150,9 +148,12 @@ class Lesson(Generic[P, S]):
             yield f": page is a Path, not {self.page!r}: Path(__file__).with_name(...) finds it beside the lesson"
         yield from _not_called_with(self.run, "run", "the params and, by keyword, functions that have defaults")
         yield from _not_called_with(self.draw, "draw", "one state")
-        names = [preset.name for preset in self.presets] + [question.name for question in self.questions]
-        if len(set(names)) != len(names):
-            yield ": two presets or questions share a name"
+        places: dict[str, str] = {}
+        for what, ones in (("preset", self.presets), ("question", self.questions)):
+            for i, one in enumerate(ones, 1):
+                if one.name in places:
+                    yield f": {places[one.name]} and {what} {i} share the name {one.name!r}; each is a run of the page"
+                places[one.name] = f"{what} {i}"
         for what, one in [("preset", p) for p in self.presets] + [("question", q) for q in self.questions]:
             try:
                 self.validated(one.params)
@@ -203,7 +204,7 @@ def course() -> Mapping[str, Lesson]:
     lessons = importlib.import_module("lessons")
     for info in pkgutil.iter_modules(lessons.__path__, "lessons."):
         if info.ispkg and importlib.util.find_spec(f"{info.name}.lesson") is not None:
-            found.append(_lesson_in(importlib.import_module(f"{info.name}.lesson")))
+            found.append(lesson_in(importlib.import_module(f"{info.name}.lesson")))
     by_name = _in_order(found)
     if len(by_name) < len(found):
         raise ValueError("two lessons of the course share a name")
@@ -221,7 +222,7 @@ def catalog() -> Mapping[str, Lesson]:
     for entry in importlib.metadata.entry_points(group="workbench.lessons"):
         place = f"{entry.name} ({entry.value})"
         try:
-            lesson = _lesson_in(importlib.import_module(entry.module), entry.attr or "lesson")
+            lesson = lesson_in(importlib.import_module(entry.module), entry.attr or "lesson")
             if lesson.name in found:
                 raise InputError(f"its name {lesson.name!r} is taken by {places[lesson.name]}")
         except (Exception, SystemExit) as error:  # somebody else's lesson must not take the course down
@@ -260,32 +261,13 @@ def _not_called_with(function: Any, name: str, wanted: str) -> Iterator[str]:
         pass
 
 
-def load(path: Path) -> Lesson:
-    """Run a Python file and return the `lesson` that it defines.
-
-    The file is a program and may do anything: its path must come from the person, never out of a file or a link.
+def lesson_in(module: ModuleType, value: str = "lesson") -> Lesson:
+    """Return the lesson that a module defines under a name.
 
     Raises:
-        InputError: If the file is missing, fails, or defines no lesson.
+        InputError: If there is none.
     """
-    if not path.is_file():
-        raise InputError(f"{path}: no such file")
-    spec = importlib.util.spec_from_file_location(f"lesson_file_{path.stem}", path)
-    if spec is None or spec.loader is None:
-        raise InputError(f"{path}: not a Python file")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    try:
-        spec.loader.exec_module(module)
-        return _lesson_in(module)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
-    except (Exception, SystemExit) as error:
-        raise AuthorError(f"{path}: {described(error, module)}", traceback.format_exc()) from error
-
-
-def _lesson_in(module: ModuleType, value: str = "lesson") -> Lesson:
     lesson = getattr(module, value, None)
     if not isinstance(lesson, Lesson):
-        raise InputError(f"{module.__name__} defines no value `{value}` of type Lesson")
+        raise InputError(f"it defines no value `{value}` of type Lesson")
     return lesson

@@ -6,6 +6,7 @@ changed since is graded again.
 
 import contextlib
 import csv
+import functools
 import hashlib
 import io
 import json
@@ -14,6 +15,7 @@ from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -22,7 +24,10 @@ from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_in, find_exercise
 from workbench.exercise.grading import grade_file
+from workbench.exercise.model import Exercise
 from workbench.exercise.reports import SCHEMA_VERSION, as_dict
+from workbench.lesson import Lesson
+from workbench.loading import load
 from workbench.progress import Progress, bar
 
 
@@ -46,16 +51,46 @@ def submissions(folder: Path) -> dict[str, Path]:
     return found
 
 
-def grade_one(name: str, path: str, only: str | None) -> dict[str, Any]:
+@dataclass(frozen=True)
+class Asked:
+    """What a class was asked for: the one exercise (None: those whose functions a file defines), and of which lesson.
+
+    `lesson` is the path of a lesson that the catalogue does not have; the processes that grade load it by that.
+    """
+
+    only: str | None = None
+    lesson: Path | None = None
+
+    def exercises(self, path: Path) -> tuple[Exercise, ...]:
+        """Return the exercises that a submission is graded by.
+
+        Raises:
+            InputError: If there are none.
+        """
+        lesson = None if self.lesson is None else _loaded(self.lesson)
+        return (find_exercise(self.only, lesson),) if self.only else exercises_in(path, lesson)
+
+    def digest(self) -> str:
+        """Return what kept results must agree with."""
+        files = [] if self.lesson is None else sorted(self.lesson.rglob("*.py"))
+        return f"{self.only}" + "".join(hashlib.sha256(file.read_bytes()).hexdigest() for file in files)
+
+
+@functools.cache
+def _loaded(path: Path) -> Lesson:
+    return load(path)  # once in a process
+
+
+def grade_one(name: str, path: str, asked: Asked) -> dict[str, Any]:
     """Grade one submission and return its result as plain data; whatever goes wrong is part of the result."""
     result: dict[str, Any] = {
         "schema": SCHEMA_VERSION,
         "student": name,
         "file": path,
-        "digest": digest(Path(path), only),
+        "digest": digest(Path(path), asked),
     }
     try:
-        chosen = (find_exercise(only),) if only else exercises_in(Path(path))
+        chosen = asked.exercises(Path(path))
         result["reports"] = [as_dict(grade_file(Path(path), exercise)) for exercise in chosen]
         result["error"] = None
     except InputError as error:
@@ -69,7 +104,7 @@ def grade_class(
     folder: Path,
     out: Path,
     *,
-    only: str | None = None,
+    asked: Asked | None = None,
     executor: Executor | None = None,
     jobs: int = 2,
     progress: Progress | None = None,
@@ -79,7 +114,7 @@ def grade_class(
     Args:
         folder: Where the submissions are.
         out: Where the results go; what is there and still fits is not graded again.
-        only: The one exercise to grade; None grades those whose functions a file defines.
+        asked: Which exercises; those of the catalogue whose functions a file defines by default.
         executor: Where the work runs; None uses `jobs` processes of this machine.
         jobs: How many submissions are graded at a time.
         progress: Told of each that is done.
@@ -87,7 +122,7 @@ def grade_class(
     Raises:
         InputError: If the folder has no submissions or `out` cannot be written.
     """
-    found = submissions(folder)
+    found, asked = submissions(folder), asked or Asked()
     students = out / "students"
     try:
         students.mkdir(parents=True, exist_ok=True)
@@ -96,11 +131,11 @@ def grade_class(
     results: dict[str, dict[str, Any]] = {}
     for name, path in found.items():
         kept = _kept(_file(students, name))
-        if kept is not None and kept.get("digest") == digest(path, only):
+        if kept is not None and kept.get("digest") == digest(path, asked):
             results[name] = kept
     waiting = {name: path for name, path in found.items() if name not in results}
     done = len(results)
-    for name, result in _graded(waiting, only, executor, jobs):
+    for name, result in _graded(waiting, asked, executor, jobs):
         done += 1
         _write(_file(students, name), json.dumps(result, indent=1, ensure_ascii=False))
         results[name] = result
@@ -114,7 +149,7 @@ def grade_class(
 
 
 def grade_folder(
-    folder: Path, out: Path, *, only: str | None, jobs: int | None, dask: str | None, tell: TextIO, result: TextIO
+    folder: Path, out: Path, *, asked: Asked, jobs: int | None, dask: str | None, tell: TextIO, result: TextIO
 ) -> int:
     """Grade a folder as the command does, with a progress bar on `tell` and the summary on `result`.
 
@@ -123,15 +158,15 @@ def grade_folder(
     """
     if jobs is not None and jobs < 1:
         raise InputError(f"--jobs {jobs}: at least 1")
-    if only is not None:
-        find_exercise(only)
+    if asked.only is not None:
+        asked.exercises(folder)
     with contextlib.ExitStack() as stack:
         executor = None
         if dask is not None:
             executor = _dask_executor(dask, stack)
         progress = stack.enter_context(bar(tell, "Grading"))
         results = grade_class(
-            folder, out, only=only, executor=executor, jobs=jobs or os.cpu_count() or 1, progress=progress
+            folder, out, asked=asked, executor=executor, jobs=jobs or os.cpu_count() or 1, progress=progress
         )
     result.write(summary(results) + f"\nResults: {out / 'class.csv'}, {out / 'matrix.csv'}\n")
     graded = [one for one in results if one["error"] is None]
@@ -151,15 +186,15 @@ def _dask_executor(address: str, stack: contextlib.ExitStack) -> Executor:
     return client.get_executor()
 
 
-def _graded(waiting: dict[str, Path], only: str | None, executor: Executor | None, jobs: int) -> Any:
+def _graded(waiting: dict[str, Path], asked: Asked, executor: Executor | None, jobs: int) -> Any:
     """Yield (name, result) as they come; a worker process that dies costs its own submission only."""
     if executor is not None:
-        yield from _collected(executor, waiting, only)
+        yield from _collected(executor, waiting, asked)
         return
     left = dict(waiting)
     while left:
         with ProcessPoolExecutor(jobs) as pool:
-            for name, result in _collected(pool, left, only):
+            for name, result in _collected(pool, left, asked):
                 if result is None:
                     continue
                 left.pop(name)
@@ -169,16 +204,16 @@ def _graded(waiting: dict[str, Path], only: str | None, executor: Executor | Non
             left.pop(name)
             with ProcessPoolExecutor(1) as pool:
                 try:
-                    yield name, pool.submit(grade_one, name, str(path), only).result()
+                    yield name, pool.submit(grade_one, name, str(path), asked).result()
                 except BrokenProcessPool:
-                    yield name, _lost(name, path, only)
+                    yield name, _lost(name, path, asked)
 
 
-def _collected(executor: Executor, waiting: dict[str, Path], only: str | None) -> Any:
+def _collected(executor: Executor, waiting: dict[str, Path], asked: Asked) -> Any:
     futures: dict[Future, str] = {}
     try:
         for name, path in waiting.items():
-            futures[executor.submit(grade_one, name, str(path.resolve()), only)] = name
+            futures[executor.submit(grade_one, name, str(path.resolve()), asked)] = name
     except BrokenProcessPool:
         pass
     for future in as_completed(futures):
@@ -188,18 +223,18 @@ def _collected(executor: Executor, waiting: dict[str, Path], only: str | None) -
             yield futures[future], None
 
 
-def _lost(name: str, path: Path, only: str | None) -> dict[str, Any]:
-    kept = {"schema": SCHEMA_VERSION, "student": name, "file": str(path), "digest": digest(path, only), "reports": []}
+def _lost(name: str, path: Path, asked: Asked) -> dict[str, Any]:
+    kept = {"schema": SCHEMA_VERSION, "student": name, "file": str(path), "digest": digest(path, asked), "reports": []}
     return kept | {"error": "could not be graded: the grading process ended"}
 
 
-def digest(path: Path, only: str | None) -> str:
+def digest(path: Path, asked: Asked) -> str:
     """Return what a kept result must agree with: the file's content, the exercise asked for, and our version."""
     try:
         content = path.read_bytes()
     except OSError:
         content = b""
-    return hashlib.sha256(content + f"\0{only}\0{workbench.__version__}".encode()).hexdigest()
+    return hashlib.sha256(content + f"\0{asked.digest()}\0{workbench.__version__}".encode()).hexdigest()
 
 
 def class_csv(results: Sequence[dict[str, Any]]) -> str:

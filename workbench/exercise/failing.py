@@ -8,7 +8,7 @@ from workbench.errors import InputError
 from workbench.exercise.driven import driven, first_difference
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox import Student
-from workbench.lesson import catalog
+from workbench.lesson import Lesson, catalog
 from workbench.recording import record_bytes
 from workbench.timeline import Timeline
 
@@ -18,18 +18,21 @@ AFTER = 12
 """How many steps beyond the first difference are recorded."""
 
 
-def record_failing(exercise: Exercise, path: Path, out: Path | None = None) -> Path | None:
+def record_failing(
+    exercise: Exercise, path: Path, out: Path | None = None, lesson: Lesson | None = None
+) -> Path | None:
     """Write a recording of the student's run beside the reference's, from just before the first step that differs.
 
     Args:
         exercise: What the file is for.
         path: The student's file.
         out: The recording; beside the file, with its name, by default.
+        lesson: The exercise's lesson, where the catalogue does not have it.
 
     Returns:
         The recording's path; None where the lesson's runs show no difference soon, or none could be recorded.
     """
-    lesson = catalog()[exercise.lesson]
+    lesson = catalog()[exercise.lesson] if lesson is None else lesson
     out = path.with_suffix(".rrd") if out is None else out
     end = time.monotonic() + SECONDS
     with Student(path, exercise.name, seconds=exercise.contract.seconds) as student:

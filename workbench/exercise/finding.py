@@ -84,20 +84,28 @@ def _place(lesson: Lesson) -> str:
     return f"lesson {lesson.name} ({lesson.params.__module__})"
 
 
-def find_exercise(name: str) -> Exercise:
-    """Return an exercise by its name.
+def find_exercise(name: str, lesson: Lesson | None = None) -> Exercise:
+    """Return an exercise by its name: of a lesson, or where none is given, of the catalogue's.
 
     Raises:
         InputError: If there is none; lists those there are.
     """
-    found = exercises()
+    found = _of(lesson)
     if name not in found:
-        raise InputError(f"no exercise is named {name!r}; there are: {', '.join(found)}")
+        raise InputError(f"no exercise is named {name!r}; there are: {', '.join(found) or 'none'}")
     return found[name]
 
 
-def exercises_in(path: Path) -> tuple[Exercise, ...]:
+def _of(lesson: Lesson | None) -> dict[str, Exercise]:
+    return exercises() if lesson is None else {exercise.name: exercise for exercise in exercises_of(lesson)}
+
+
+def exercises_in(path: Path, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
     """Return the exercises whose functions a student's file defines, without running it.
+
+    Args:
+        path: The file.
+        lesson: The lesson whose exercises are looked for; all of the catalogue's where none is given.
 
     Raises:
         InputError: If the file cannot be read, does not parse (with the line), or defines none of them.
@@ -111,7 +119,8 @@ def exercises_in(path: Path) -> tuple[Exercise, ...]:
     except ValueError:  # not UTF-8, or with NUL bytes
         raise InputError(f"{path}: not a Python file") from None
     defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
-    found = tuple(exercise for name, exercise in exercises().items() if name in defined)
+    asked = _of(lesson)
+    found = tuple(exercise for name, exercise in asked.items() if name in defined)
     if not found:
-        raise InputError(f"{path}: defines none of the exercises' functions ({', '.join(exercises())})")
+        raise InputError(f"{path}: defines none of the exercises' functions ({', '.join(asked) or 'there are none'})")
     return found

@@ -11,6 +11,8 @@ import numpy as np
 from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
+from workbench.lesson import catalog
+from workbench.loading import word_for
 
 
 def starter(exercise: Exercise) -> str:
@@ -28,12 +30,13 @@ def starter(exercise: Exercise) -> str:
             f"    {call}\n        gives {result}" for call, result in exercise.contract.examples
         )
     indented = textwrap.indent(doc, "    ").lstrip()
+    _, watching, judging = commands(exercise)
     return f'''"""Exercise {exercise.name}, lesson {exercise.lesson}.
 
 {textwrap.fill(exercise.task, 100)}
 
-Watch it live:  workbench show {exercise.lesson} --with my_{exercise.name}.py
-Have it judged: workbench check my_{exercise.name}.py
+Watch it live:  {watching}
+Have it judged: {judging}
 """
 
 import numpy as np
@@ -44,6 +47,18 @@ def {exercise.name}({arguments}) -> {returned}:
     """
     raise NotImplementedError
 '''
+
+
+def commands(exercise: Exercise) -> tuple[str, str, str]:
+    """Return what a student types to get the starter file, to watch the function, and to have it judged."""
+    lesson = word_for(exercise.lesson, exercise.reference.__module__)
+    given = "" if lesson == exercise.lesson and lesson in catalog() else f" --lesson {lesson}"
+    file = f"my_{exercise.name}.py"
+    return (
+        f"workbench exercise {exercise.name}{given}",
+        f"workbench show {lesson} --with {file}",
+        f"workbench check {file}{given}",
+    )
 
 
 def write_starter(exercise: Exercise, folder: Path, *, force: bool = False) -> Path:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from workbench.errors import InputError
 from workbench.exercise.driven import driven
-from workbench.exercise.finding import exercises_in, exercises_of
+from workbench.exercise.finding import exercises_in
 from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox import Student
@@ -31,11 +31,7 @@ class Watched:
 
     def __init__(self, lesson: Lesson, path: Path):
         self.original, self.path = lesson, path
-        found = [exercise for exercise in exercises_in(path) if exercise.lesson == lesson.name]
-        if not found:
-            names = ", ".join(exercise.name for exercise in exercises_of(lesson)) or "none"
-            raise InputError(f"{path}: defines no function that lesson {lesson.name} can take; it takes: {names}")
-        self.exercise: Exercise = found[0]
+        self.exercise: Exercise = exercises_in(path, lesson)[0]
         self._stamp = self._stamp_now()
         self._student = self._new()
         self.lesson = driven(lesson, self.exercise, self._student)

@@ -67,10 +67,10 @@ def _file_of(name: str) -> Path | None:
     if not name:
         return None
     top, *parts = name.split(".")
-    loaded = _file_of_loaded(top)
-    if loaded is None or not parts:
+    loaded, folder = _file_of_loaded(top), _folder_of(top)
+    if folder is None or not parts:
         return loaded
-    place = loaded.parent.joinpath(*parts)
+    place = folder.joinpath(*parts)
     return next((file for file in (place.with_suffix(".py"), place / "__init__.py") if file.is_file()), None)
 
 
@@ -79,12 +79,18 @@ def _file_of_loaded(name: str) -> Path | None:
     return None if file is None else Path(file)
 
 
+def _folder_of(top: str) -> Path | None:
+    """Return the folder of a package, also of one without a file of its own; None where it is a single file."""
+    places = list(getattr(sys.modules.get(top) or importlib.import_module(top), "__path__", ()))
+    return Path(places[0]) if places else None
+
+
 def _module_of(file: Path, tops: Iterable[str]) -> str:
     """Return the name under which a file of one of these packages is imported, nothing where there is none."""
     for top in tops:
-        loaded = _file_of_loaded(top)
-        if loaded is not None and file.is_relative_to(loaded.parent) and loaded.name == "__init__.py":
-            parts = file.relative_to(loaded.parent).with_suffix("").parts
+        folder = _folder_of(top)
+        if folder is not None and file.is_relative_to(folder):
+            parts = file.relative_to(folder).with_suffix("").parts
             return ".".join((top, *(part for part in parts if part != "__init__")))
     return ""
 

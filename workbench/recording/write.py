@@ -13,7 +13,8 @@ import rerun as rr
 from workbench import __version__, knobs
 from workbench.atomic import remove_leftovers, write_atomic
 from workbench.errors import InputError
-from workbench.lesson import Lesson, find, load
+from workbench.lesson import Lesson, find
+from workbench.loading import load
 from workbench.progress import Progress, bar
 from workbench.recording.columns import facts, send_captions, send_series
 from workbench.recording.contents import contents_of, places, to_json
@@ -52,7 +53,7 @@ def record(
     preset instead.
 
     Args:
-        lesson: The lesson, its name, or the `Path` of a file that defines one, which is run (text is only looked up).
+        lesson: The lesson, its name, or the `Path` of its file or folder, which is run (text is only looked up).
         path: Where to write, `.rrd`.
         params: The whole inputs, as the lesson's Params; instead of a preset and values.
         preset: The preset to start from. Its name is kept in the recording where no value differs from it.

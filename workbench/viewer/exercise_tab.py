@@ -9,7 +9,7 @@ from workbench.exercise.finding import exercises_of
 from workbench.exercise.grading import Report
 from workbench.exercise.model import Exercise
 from workbench.exercise.reports import MARKS, counted
-from workbench.exercise.starter import starter
+from workbench.exercise.starter import commands, starter
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson
 from workbench.page.legend import escape
@@ -72,12 +72,7 @@ def _found(said: Report | str) -> str:
 
 def _task(exercise: Exercise, *, alone: bool) -> str:
     name = escape(exercise.name)
-    begin = (
-        ""
-        if alone
-        else f"<pre>workbench exercise {name}\nworkbench show {escape(exercise.lesson)} --with my_{name}.py\n"
-        f"workbench check my_{name}.py</pre>"
-    )
+    begin = "" if alone else f"<pre>{escape(chr(10).join(commands(exercise)))}</pre>"
     promises = "".join(
         f"<li>{escape(check.promise)} ({check.points:g})</li>" for check in exercise.checks if check.public
     )

@@ -1,0 +1,317 @@
+"""What every lesson promises, each as a function that looks and tells: what holds, and in sentences what does not.
+
+A promise yields None for everything that it found to hold, and one line for everything that does not; the line names the
+lesson's file, line, preset, question, knob or scene path. `workbench validate` and the tests of the course run the same.
+"""
+
+import inspect
+import re
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+from workbench.authors import at, place
+from workbench.errors import InputError
+from workbench.flags import RESERVED
+from workbench.knobs import Field, fields_of, from_json, to_json
+from workbench.lesson import Lesson, Preset, Question
+from workbench.questions import answer
+from workbench.scene import Scene, in_space, same
+from workbench.timeline import Timeline
+from workbench.typeset import inline_html, page_of
+
+Found: TypeAlias = Iterator[str | None]
+"""None for each thing that holds, a line for each that does not."""
+
+PARTS = ("Conventions", "Watch", "Predict", "Break it", "Your turn", "Pitfalls", "References")
+"""What a page has, among other parts."""
+WORDS = (350, 1100)
+CAPTION = (10, 400)
+LINE = (20, 220)
+LEAST_PRESETS = 3
+MOST_STEPS = 12
+"""Steps looked at where a run at the end of a range would take long."""
+SECONDS = 60.0
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,99}")
+"""What can be a folder, a file and a part of an address on any system."""
+OF_LESSONS: list[Callable[["Subject"], Found]] = []
+
+
+class Subject:
+    """A lesson that is looked at, and its runs.
+
+    Args:
+        lesson: The lesson.
+        whole: Returns a finished run at these params; by default it is made here, kept, and cut after `seconds`.
+        seconds: How long one run may take.
+        tell: Told what is run now, again at every step.
+    """
+
+    def __init__(
+        self,
+        lesson: Lesson,
+        whole: Callable[[Any], Timeline] | None = None,
+        *,
+        seconds: float = SECONDS,
+        tell: Callable[[str], object] = lambda doing: None,
+    ):
+        self.lesson, self.who, self.tell = lesson, f"lesson {lesson.name}", tell
+        self._whole, self._seconds = whole, seconds
+        self._kept: dict[Any, Timeline] = {}
+
+    def whole(self, params: Any, doing: str) -> Timeline:
+        """Return the run at these params, computed to its end or until it has taken too long, which `stopped` says."""
+        if self._whole is not None:
+            return self._whole(params)
+        if params not in self._kept:
+            if len(self._kept) >= 4:
+                self._kept.pop(next(iter(self._kept)))
+            self._kept[params] = self.fresh(params, doing)
+        return self._kept[params]
+
+    def fresh(self, params: Any, doing: str, steps: int | None = None) -> Timeline:
+        """Return a new run at these params, or its first steps."""
+        timeline = Timeline(self.lesson, params)
+        end = time.monotonic() + self._seconds
+        self.tell(doing)
+        while (steps is None or len(timeline) < steps) and timeline.extend():
+            self.tell(f"{doing}, after step {len(timeline) - 1}")
+            if time.monotonic() > end and not timeline.finished:
+                timeline.stopped = f"{self.who}: {at(self.lesson.run)}the run takes over {self._seconds:g} s; "
+                timeline.stopped += f"it is at step {len(timeline) - 1}"
+                timeline.finished = True
+        return timeline
+
+    def default(self) -> Timeline:
+        """Return the default run."""
+        return self.whole(self.lesson.params(), "the default run")
+
+
+def promise(function: Callable[[Subject], Found]) -> Callable[[Subject], Found]:
+    """Add a function to what every lesson promises."""
+    OF_LESSONS.append(function)
+    return function
+
+
+@promise
+def the_default_run_ends_well(subject: Subject) -> Found:
+    """The default run comes to its end by itself, in two steps or more, and opens at one of them."""
+    lesson, run = subject.lesson, subject.default()
+    yield run.stopped
+    if run.stopped is None:
+        few = f"{subject.who}: {at(lesson.run)}the default run has {len(run)} step; a lesson shows two or more"
+        yield few if len(run) < 2 else None
+        yield _opens(run, subject.who, lesson.first_step)
+
+
+@promise
+def every_step_says_what_happened(subject: Subject) -> Found:
+    """Every step has a caption of a few words, and they are not all the same."""
+    captions = [step.caption.text for step in subject.default().known()]
+    where = f"{subject.who}: {at(subject.lesson.draw)}"
+    for k, text in enumerate(captions):
+        yield _length(f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters")
+    if len(captions) > 1:
+        yield f"{where}every step has the caption {captions[0][:60]!r}" if len(set(captions)) == 1 else None
+
+
+@promise
+def every_step_shows_something_in_space(subject: Subject) -> Found:
+    """Every step shows something in space, and what stands at a path stays of one kind."""
+    kinds: dict[str, type] = {}
+    where = f"{subject.who}: {at(subject.lesson.draw)}"
+    for k, step in enumerate(subject.default().known()):
+        seen = any(in_space(primitive) for primitive in step.scene.values())
+        yield None if seen else f"{where}step {k} shows nothing in space; a scene has at least one thing there"
+        for path, primitive in step.scene.items():
+            kind = kinds.setdefault(path, type(primitive))
+            if kind is not type(primitive):
+                now, before = type(primitive).__name__, kind.__name__
+                yield f"{where}step {k}: {path!r} is of the kind {now} now, and was of the kind {before}"
+
+
+@promise
+def a_run_is_reproducible(subject: Subject) -> Found:
+    """The same params give the same scenes."""
+    run = subject.default()
+    again = subject.fresh(subject.lesson.params(), "the default run a second time")
+    where = f"{subject.who}: {at(subject.lesson.run)}"
+    hint = "take all chance from np.random.default_rng(params.seed)"
+    if len(run) != len(again):
+        yield f"{where}the default run has {len(run)} steps, and {len(again)} when it is run again; {hint}"
+        return
+    for k, (one, two) in enumerate(zip(run.known(), again.known(), strict=True)):
+        path = _differs(one.scene, two.scene)
+        if path is not None:
+            yield f"{where}run again, step {k} shows something else at {path!r}; {hint}"
+            return
+        yield None
+
+
+@promise
+def the_code_of_every_step_can_be_shown(subject: Subject) -> Found:
+    """Every step knows the line at which the algorithm stands."""
+    for k, step in enumerate(subject.default().known()):
+        if step.moment is None:
+            yield f"{subject.who}: {at(subject.lesson.run)}step {k} has no line to show; run is a generator function"
+            return
+        lines, first = step.moment.source
+        inside = first <= step.moment.line < first + len(lines)
+        yield None if inside else f"{subject.who}: {at(step.moment.function)}step {k} stands outside of its function"
+
+
+@promise
+def every_knob_goes_to_its_ends(subject: Subject) -> Found:
+    """With each knob at each end of its range, or at each of its choices, the run begins, or says why not in one line."""
+    base = subject.lesson.params()
+    for field in fields_of(subject.lesson.params):
+        for value in ends(field):
+            where = f"{field.name} = {value}"
+            run = subject.fresh(replace(base, **{field.name: value}), f"the run at {where}", MOST_STEPS)
+            fine = run.failure is None or run.stopped == subject.default().stopped  # which is told already
+            yield None if fine else f"{run.stopped} (at {where})"
+
+
+@promise
+def params_survive_the_way_through_text(subject: Subject) -> Found:
+    """Params are the same after they were written to a link or recording, and no field has a name that commands use."""
+    kind = subject.lesson.params
+    for params in (kind(), *(preset.params for preset in subject.lesson.presets)):
+        again = from_json(kind, to_json(params))
+        kept = again == params and hash(again) == hash(params)
+        yield (
+            None if kept else f"{subject.who}: {kind.__name__} written as text and read again is {again}, not {params}"
+        )
+    for field in fields_of(kind):
+        taken = field.name in RESERVED
+        yield f"{subject.who}: {kind.__name__}.{field.name}: commands use this name" if taken else None
+
+
+@promise
+def every_preset_runs_and_promises_something(subject: Subject) -> Found:
+    """There are presets; each runs to its end, opens at one of its steps, and says in a line what to look for."""
+    presets = subject.lesson.presets
+    few = f"{subject.who}: it has {len(presets)} presets; {LEAST_PRESETS} or more show what there is to see"
+    yield few if len(presets) < LEAST_PRESETS else None
+    for preset in presets:
+        yield from _preset(subject, preset)
+
+
+def _preset(subject: Subject, preset: Preset) -> Found:
+    who = f"{subject.who}, preset {preset.name!r}"
+    yield None if NAME.fullmatch(preset.name) else f"{who}: a name is letters, digits, - and _"
+    yield _length(f"{who}: its line", len(preset.line), LINE, "characters")
+    run = subject.whole(preset.params, f"preset {preset.name!r}")
+    yield None if run.stopped in (None, subject.default().stopped) else f"{who}: {run.stopped}"
+    if run.stopped is None and preset.step is not None:
+        yield _opens(run, who, preset.step)
+
+
+@promise
+def every_question_is_answered_by_its_run(subject: Subject) -> Found:
+    """There are questions; the run of each gives a finite answer and a reason, and opens at one of its steps."""
+    yield None if subject.lesson.questions else f"{subject.who}: it has no question to answer before looking"
+    for question in subject.lesson.questions:
+        yield from _question(subject, question)
+
+
+def _question(subject: Subject, question: Question) -> Found:
+    who = f"{subject.who}, question {question.name!r}"
+    yield None if NAME.fullmatch(question.name) else f"{who}: a name is letters, digits, - and _"
+    if not question.choices:
+        exact = f"{who}: its tolerance is {question.tolerance:g}; nobody guesses a number exactly"
+        yield None if question.tolerance > 0 else exact
+    yield None if inline_html(question.text).strip() else f"{who}: it has no text"
+
+    class Runs:
+        @staticmethod
+        def get(lesson: Lesson, params: Any) -> Timeline:
+            return subject.whole(params, f"the run of question {question.name!r}")
+
+    try:
+        found = answer(subject.lesson, question, None, Runs)  # type: ignore[arg-type]
+    except InputError as error:
+        said = str(error)
+        if said != subject.default().stopped:
+            yield said if said.startswith(who) else f"{who}: {said}"
+    else:
+        yield None if found.why.strip() else f"{who}: {at(question.why)}why says nothing"
+
+
+@promise
+def the_page_has_its_parts(subject: Subject) -> Found:
+    """There is a page, long enough and no longer, with the parts that people look for, and its pictures are there."""
+    lesson = subject.lesson
+    if lesson.page is None:
+        yield f"{subject.who}: it has no page; page=Path(__file__).with_name('page.md') gives it one"
+        return
+    text, where = lesson.text(), f"{subject.who}: {lesson.page}"
+    yield _length(f"{where}: the page", len(text.split()), WORDS, "words")
+    for part in PARTS:
+        yield None if part.lower() in text.lower() else f"{where}: the page has no part {part!r}"
+    try:
+        page_of(text, lesson.page)
+        yield None
+    except InputError as error:
+        yield f"{subject.who}: {error}"
+
+
+@promise
+def every_formula_is_read(subject: Subject) -> Found:
+    """The page has formulas, and all of them are ones that can be typeset."""
+    lesson = subject.lesson
+    if lesson.page is None:
+        return
+    text = lesson.text()
+    formulas = re.findall(r"<math.*?</math>", page_of(re.sub(r"!\[.*?\]\(.*?\)", "", text), None), re.DOTALL)
+    yield None if formulas else f"{subject.who}: {lesson.page}: the page has no formula between $ and $"
+    for formula in formulas:
+        unknown = re.search(r"\\[a-zA-Z]*", formula)
+        if unknown is None:
+            yield None
+            continue
+        line = next((i for i, row in enumerate(text.splitlines(), 1) if unknown[0] in row), 1)
+        yield f"{subject.who}: {place(str(lesson.page), line)}: {unknown[0]} is a TeX command that is not known here"
+
+
+@promise
+def run_takes_only_keywords_beside_params(subject: Subject) -> Found:
+    """`run` takes `params`, and by keyword functions that have defaults; the lesson's name can be a folder."""
+    lesson = subject.lesson
+    first, *slots = inspect.signature(lesson.run).parameters.values()
+    where = f"{subject.who}: {at(lesson.run)}run"
+    yield None if first.name == "params" else f"{where} calls its first argument {first.name!r}; it is 'params'"
+    for slot in slots:
+        good = slot.kind is slot.KEYWORD_ONLY and slot.default is not slot.empty
+        wanted = f"beside params it takes keywords with defaults: `*, {slot.name}=...`"
+        yield None if good else f"{where} takes {slot.name!r}; {wanted}"
+    yield None if NAME.fullmatch(lesson.name) else f"{subject.who}: a lesson's name is letters, digits, - and _"
+
+
+def ends(field: Field) -> list[Any]:
+    """Return the values of a knob at each end of its range, or each of its choices."""
+    low, high = field.knob.low, field.knob.high
+    if field.kind in ("float", "int"):
+        return [field.clean(low), field.clean(high)]
+    if field.kind in ("floats", "ints"):
+        return [field.clean([end] * field.length) for end in (low, high)]
+    return [False, True] if field.kind == "bool" else list(field.choices)
+
+
+def _opens(run: Timeline, who: str, step: int) -> str | None:
+    try:
+        run.opening(who, step)
+    except InputError as error:
+        return str(error)
+    return None
+
+
+def _length(what: str, length: int, wanted: tuple[int, int], unit: str) -> str | None:
+    least, most = wanted
+    return None if least <= length <= most else f"{what} has {length} {unit}; wanted are {least} to {most:,}"
+
+
+def _differs(one: Scene, two: Scene) -> str | None:
+    """Return the first path at which two scenes differ, None where they are the same."""
+    return next((path for path in {**one, **two} if not same(one.get(path), two.get(path))), None)
