@@ -7,7 +7,7 @@ import pytest
 import trimesh
 
 from lessons.transforms.experiments import complete
-from lessons.transforms.lesson import lesson
+from lessons.transforms.lesson import lesson, run
 from lessons.transforms.state import Built, Moved, Params
 from tests.lessons.transforms_runs import MOVE, built, opened, opened_at, preset, timeline
 from workbench.algorithms.composition import Factor, compose
@@ -137,7 +137,7 @@ def test_a_students_wrong_function_is_not_said_to_be_right():
     def shrinking(angles, order):
         return 0.9 * euler_to_matrix(angles, order)
 
-    turned = list(lesson.run(Params(scale=(1, 1, 1)), euler_to_matrix=shrinking))[1]
+    turned = list(run(Params(scale=(1, 1, 1)), euler_to_matrix=shrinking))[1]
     caption = caption_of(lesson.draw(turned))
     assert caption.tone == "wrong"
     assert "edge lengths" in caption.text
