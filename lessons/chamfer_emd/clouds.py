@@ -19,7 +19,7 @@ from workbench.data.point_sets import (
 )
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
-from workbench.numerals import percent
+from workbench.numerals import brief, percent
 
 WIDTH = 2.0  # metres of an own cloud's longest edge in the picture
 YARDSTICKS: tuple[tuple[str, Start, float], ...] = (
@@ -89,7 +89,7 @@ def yardsticks(clouds: Clouds, params: Params) -> tuple[tuple[str, np.ndarray], 
 
 
 def _name(params: Params) -> str:
-    part, metres = percent(min(params.amount, 1.0), 0), f"{params.amount:g} m"
+    part, metres = percent(min(params.amount, 1.0), 0), f"{brief(params.amount)} m"
     return {
         "blob": f"a blob of radius {metres}",
         "larger": f"the target {percent(params.amount, 0)} larger",

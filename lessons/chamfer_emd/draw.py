@@ -7,7 +7,7 @@ from lessons.chamfer_emd.state import Side, State
 from lessons.chamfer_emd.words import caption, left_label, right_label, significant
 from workbench.geometry.motions import motion
 from workbench.geometry.shape_distances import DEFINITIONS
-from workbench.numerals import percent
+from workbench.numerals import brief, percent
 from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments, Table
 
 T_WORLD_LEFT = motion(np.eye(3), np.array([-1.25, 0.0, 0.0]))
@@ -139,11 +139,11 @@ def _numbers_table(state: State) -> Table:
             rows.append((f"Chamfer, {name}, {unit}", *_both(left.definitions[name], right.definitions[name])))
     rows += [
         ("Earth mover's, exact, m", *_both(left.earth_movers, right.earth_movers)),
-        (f"Sinkhorn, blur {params.blur:g} m, m", *_both(state.left.sinkhorn, state.right.sinkhorn)),
+        (f"Sinkhorn, blur {brief(params.blur)} m, m", *_both(state.left.sinkhorn, state.right.sinkhorn)),
         ("Hausdorff, m", *_both(left.hausdorff, right.hausdorff)),
-        (f"F-score at {params.near:g} m", percent(left.f_score, 0), percent(right.f_score, 0)),
+        (f"F-score at {brief(params.near)} m", percent(left.f_score, 0), percent(right.f_score, 0)),
         ("Pairs by index, mean of squares, m²", *_both(left.index_mse, right.index_mse)),
-        (f"Mass astray by over {params.near:g} m", percent(left.astray, 0), percent(right.astray, 0)),
+        (f"Mass astray by over {brief(params.near)} m", percent(left.astray, 0), percent(right.astray, 0)),
     ]
     return Table("Distances to the target", ("", "left", "right"), tuple(rows))
 

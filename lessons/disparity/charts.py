@@ -5,8 +5,10 @@ import math
 import numpy as np
 
 from lessons.disparity.state import State
+from lessons.disparity.words import distance
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.stereo import depth_interval
+from workbench.numerals import brief, fixed
 from workbench.scene import PALETTE, Curve, Field, Picture, Primitive, Scalar, Table
 
 BINS = 12
@@ -84,7 +86,7 @@ def _error_curves(state: State) -> dict[str, Primitive]:
     chart, labels = "Depth error over depth", ("depth in m", "m")
     z = np.linspace(0.0, float(state.depth[known].max()), 60)[1:]
     predicted = z * z / (setup.f * camera.baseline) * state.disparity_error
-    name = f"Z² / (f B) · {state.disparity_error:g} px"
+    name = f"Z² / (f B) · {brief(state.disparity_error)} px"
     shown: dict[str, Primitive] = {"error/predicted": Curve(z, predicted, name, chart, *labels, "source")}
     if setup.pair.visible is None:
         return shown
@@ -105,27 +107,29 @@ def _table(state: State) -> Table:
     setup = state.setup
     camera, (u, v) = setup.pair.camera, setup.pixel
     depth = float(state.depth[v, u])
-    rows = [("disparity", _px(state.chosen)), ("depth", _m(depth) if setup.metric else "f and baseline are not known")]
+    rows = [
+        ("disparity", _px(state.chosen)),
+        ("depth", distance(depth) if setup.metric else "f and baseline are not known"),
+    ]
     if setup.metric and 0 < depth < math.inf:
         error = state.disparity_error or 1.0
         d = np.array([setup.f * camera.baseline / depth])
         near, far = (float(z[0]) for z in depth_interval(d, setup.f, camera.baseline, error))
-        rows.append((f"± {error:g} px", f"{_m(near)} to {_m(far)}"))
+        rows.append((f"± {brief(error)} px", f"{distance(near)} to {distance(far)}"))
     if setup.pair.disparity is not None:
         true = float(setup.pair.disparity[v, u])
         seen = "" if setup.pair.visible is None or setup.pair.visible[v, u] else ", hidden from the right camera"
         rows.append(
-            ("truth", "unknown" if math.isnan(true) else f"{_px(true)}, {_m(float(setup.true_depth[v, u]))}{seen}")
+            (
+                "truth",
+                "unknown" if math.isnan(true) else f"{_px(true)}, {distance(float(setup.true_depth[v, u]))}{seen}",
+            )
         )
     return Table(f"Left pixel ({u}, {v})", ("", "value"), tuple(rows))
 
 
 def _px(d: float) -> str:
-    return "unknown" if math.isnan(d) else f"{d:.2f} px"
-
-
-def _m(z: float) -> str:
-    return "unknown" if math.isnan(z) else "infinitely far" if math.isinf(z) else f"{z:.3f} m"
+    return "unknown" if math.isnan(d) else f"{fixed(d, 2)} px"
 
 
 def _no_infinity(values: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ import numpy as np
 from lessons.disparity.state import State
 from lessons.disparity.truth import depth_errors, flat_parts, known_depths
 from workbench.algorithms.disparity import Stage
-from workbench.numerals import fixed, length, percent
+from workbench.numerals import brief, fixed, length, percent
 from workbench.scene import Caption
 
 Tone: TypeAlias = Literal["info", "good", "wrong"]
@@ -46,7 +46,7 @@ def _compared(state: State) -> str:
         if d == 0
         else f"{fresh:,} pixels ({percent(fresh / n, 1)}) fit better than at any smaller shift"
     )
-    return f"{start}{found[0].upper()}{found[1:]}; the mean lowest cost is {state.lowest:.3g}."
+    return f"{start}{found[0].upper()}{found[1:]}; the mean lowest cost is {brief(state.lowest)}."
 
 
 def _aggregated(state: State) -> str:
@@ -63,10 +63,12 @@ def _aggregated(state: State) -> str:
 
 def _path(state: State) -> str:
     assert state.direction is not None
-    fell = "" if state.before is None else f"energy {state.before.energy:.4g} → {state.energy:.4g} per pixel"
+    fell = (
+        "" if state.before is None else f"energy {brief(state.before.energy, 4)} → {brief(state.energy, 4)} per pixel"
+    )
     P1, P2 = state.jumps
     return (
-        f"Path {state.done} of 8, {WAYS[state.direction]}: a step of 1 px costs P1 = {P1:.3g}, a jump P2 = {P2:.3g}; "
+        f"Path {state.done} of 8, {WAYS[state.direction]}: a step of 1 px costs P1 = {brief(P1)}, a jump P2 = {brief(P2)}; "
         f"{fell}{_change(state, ', ')}."
     )
 
@@ -102,7 +104,7 @@ def _refined(state: State) -> str:
     mean = float(moved.mean()) if known.any() else 0.0
     return (
         "The lowest point of the parabola through three costs lies between pixels: "
-        f"{mean:.2f} px from whole ones on average{_error(state)}."
+        f"{fixed(mean, 2)} px from whole ones on average{_error(state)}."
     )
 
 
@@ -116,27 +118,29 @@ def _of_depth(state: State) -> Caption:
     if not setup.metric:
         return _of_unknown_cameras(state)
     depth = float(state.depth[v, u])
-    d = "d" if camera.doffs == 0 else f"(d + {camera.doffs:.3g})"
-    law = f"Z = f B / {d} with f = {setup.f:.4g} px, B = {camera.baseline:.3g} m"
+    d = "d" if camera.doffs == 0 else f"(d + {brief(camera.doffs)})"
+    law = f"Z = f B / {d} with f = {brief(setup.f, 4)} px, B = {brief(camera.baseline)} m"
     true = float(setup.true_depth[v, u])
-    truth = f" (truth {true:.3f} m)" if math.isfinite(true) else " (truth: infinitely far)" if math.isinf(true) else ""
+    truth = "" if math.isnan(true) else f" (truth: {distance(true)})"
     if math.isnan(depth):
         here = f"left pixel ({u}, {v}) is unknown and stays so"
     elif math.isinf(depth):
         here = f"left pixel ({u}, {v}) has d = 0, which means infinitely far, not missing{truth}"
     else:
-        here = f"left pixel ({u}, {v}), d = {state.chosen:.2f} px, is {depth:.3f} m away{truth}"
+        here = f"left pixel ({u}, {v}), d = {fixed(state.chosen, 2)} px, is {distance(depth)} away{truth}"
     infinite = int(np.isinf(state.depth).sum())
     more = f" {infinite:,} pixels are infinitely far." if infinite else ""
     extra = (
-        "" if not setup.params.disparity_error else f" {setup.params.disparity_error:+g} px was added to every d first."
+        ""
+        if not setup.params.disparity_error
+        else f" {brief(setup.params.disparity_error)} px was added to every d first."
     )
     return Caption(f"{law}: {here}.{more}{extra}", _tone(state))
 
 
 def _of_unknown_cameras(state: State) -> Caption:
     u, v = state.setup.pixel
-    here = "is unknown" if math.isnan(state.chosen) else f"has d = {state.chosen:.2f} px"
+    here = "is unknown" if math.isnan(state.chosen) else f"has d = {fixed(state.chosen, 2)} px"
     return Caption(
         f"Left pixel ({u}, {v}) {here}. Z = f B / d needs f and the baseline B of these cameras, which are not known: give"
         " own_focal_length and own_baseline for metres. The cloud only shows what is nearer than what; its size is made up."
@@ -150,9 +154,9 @@ def _of_relative_error(state: State) -> Caption:
     if not len(known):
         return Caption("No pixel has a disparity above 0, so there is no error to show.", "wrong")
     at = [float(d) + state.setup.pair.camera.doffs for d in np.percentile(known, [98, 50])]
-    moved = ", ".join(f"at {d:.3g} px by {percent(e / d)}" for d in at if d > 0)
+    moved = ", ".join(f"at {brief(d)} px by {percent(e / d)}" for d in at if d > 0)
     return Caption(
-        f"To first order {e:g} px of error moves a depth by {e:g} px / d of itself, whatever the cameras: {moved}."
+        f"To first order {brief(e)} px of error moves a depth by {brief(e)} px / d of itself, whatever the cameras: {moved}."
     )
 
 
@@ -169,8 +173,8 @@ def _of_error(state: State) -> Caption:
         if 1 < len(flat) <= 4 and max(flat) > 1.2 * min(flat)
         else [float(z) for z in np.percentile(state.depth[known], [2, 98])]
     )
-    moved = ", ".join(f"{z:.3g} m by {length(z * z / fB * e)}" for z in at)
-    text = f"To first order {e:g} px of error moves a depth by Z² / (f B) · {e:g} px: {moved}."
+    moved = ", ".join(f"{length(z)} by {length(z * z / fB * e)}" for z in at)
+    text = f"To first order {brief(e)} px of error moves a depth by Z² / (f B) · {brief(e)} px: {moved}."
     if state.setup.params.disparity_error and at == list(flat):
         text += f" Measured: {', '.join(length(abs(float(np.median(off)))) for off in flat.values())}."
     off = depth_errors(state)
@@ -190,6 +194,11 @@ def _tone(state: State) -> Tone:
     return "info" if relative > 0.03 or state.wrong > 0.05 else "good"
 
 
+def distance(depth: float) -> str:
+    """Write how far away something is, in metres, to the millimetre."""
+    return "unknown" if math.isnan(depth) else "infinitely far" if math.isinf(depth) else f"{fixed(depth, 3)} m"
+
+
 def _wrong_now(state: State) -> str:
     return "" if math.isnan(state.wrong) else f"; {percent(state.wrong, 1)} are wrong"
 
@@ -203,4 +212,4 @@ def _change(state: State, lead: str) -> str:
 def _error(state: State) -> str:
     if state.before is None or math.isnan(state.error) or math.isnan(state.before.error):
         return ""
-    return f"; mean error of the right ones {state.before.error:.3f} → {state.error:.3f} px"
+    return f"; mean error of the right ones {fixed(state.before.error, 3)} → {fixed(state.error, 3)} px"

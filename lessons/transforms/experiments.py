@@ -9,7 +9,7 @@ from lessons.transforms.compare import in_degrees, jump_out_of_lock
 from lessons.transforms.state import Built, Moved, Params, State
 from workbench.geometry.rotations import euler_axes
 from workbench.lesson import Preset, Question
-from workbench.numerals import angle, length, percent
+from workbench.numerals import angle, fixed, length, percent
 
 ONE = (1.0, 1.0, 1.0)
 NO_TURN = (0.0, 0.0, 0.0)
@@ -191,7 +191,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=_sheared,
         why=lambda states: (
             f"It is {percent(volume_kept(complete(states)), 0)} of what it was: every horizontal layer only slides, and"
-            f" det = {np.linalg.det(complete(states).T[:3, :3]):.2f}."
+            f" det = {fixed(float(np.linalg.det(complete(states).T[:3, :3])), 2)}."
         ),
         params=SHEAR,
         choices=("It shrinks", "It stays", "It grows"),

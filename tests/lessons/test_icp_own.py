@@ -34,7 +34,7 @@ class TestOwnScans:
         gap = np.linalg.norm(apply(source.T_world_object, source.p) - p[state.icp.indices], axis=1)
         np.testing.assert_allclose(gap, state.scans.frame.scale * state.icp.distances, atol=1e-9)
 
-    @pytest.mark.parametrize(("up", "axis"), [("z", [0, 0, 1]), ("y", [0, 1, 0]), ("-y", [0, -1, 0])])
+    @pytest.mark.parametrize(("up", "axis"), [("z", [0, 0, 1]), ("y", [0, 1, 0]), ("-y", [0, -1, 0]), ("x", [1, 0, 0])])
     def test_they_stand_upright(self, two_files, up, axis):
         params = replace(two_files, up=up)
         scans, shown = states(params)[0].scans, scene(params, 0)

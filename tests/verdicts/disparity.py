@@ -97,10 +97,10 @@ def law(run: Run, k: int, found: re.Match[str]) -> bool:
     doffs = number(found["doffs"] or "0")
     true = float(true_depth(setup)[v, u])
     return bool(
-        np.isclose(f * B / (number(found["d"]) + doffs), number(found["z"]), rtol=0.01)
+        np.isclose(f * B / (number(found["d"]) + doffs), metres(found["z"]), rtol=0.01)
         and np.isclose(f * B, setup.f * setup.pair.camera.baseline, rtol=1e-3)
         and says(found["d"], state.disparity[v, u])
-        and (found["true"] is None or says(found["true"], true))
+        and (found["true"] is None or says_length(found["true"], true))
         and (found["true"] is not None or not np.isfinite(true))
     )
 
@@ -109,7 +109,7 @@ def is_infinite(run: Run, k: int, found: re.Match[str]) -> bool:
     state = run.states[k]
     u, v = state.setup.pixel
     true = float(true_depth(state.setup)[v, u])
-    said = np.isinf(true) if found["true"] is None else says(found["true"], true)
+    said = np.isinf(true) if found["true"] is None else says_length(found["true"], true)
     return bool(state.disparity[v, u] == 0 and said)
 
 
@@ -146,11 +146,11 @@ CAPTIONS = (
     Claim(rf"mean error of the right ones (?P<was>{NUMBER}) → (?P<is>{NUMBER}) px", error_change),
     Claim(
         rf"Z = f B / (?:d|\(d \+ (?P<doffs>{NUMBER})\)) with f = (?P<f>{NUMBER}) px, B = (?P<B>{NUMBER}) m: left pixel"
-        rf" \(\d+, \d+\), d = (?P<d>{NUMBER}) px, is (?P<z>{NUMBER}) m away(?: \(truth (?P<true>{NUMBER}) m\))?",
+        rf" \(\d+, \d+\), d = (?P<d>{NUMBER}) px, is (?P<z>{LENGTH}) away(?: \(truth: (?P<true>{LENGTH})\))?",
         law,
     ),
     Claim(
-        r"has d = 0, which means infinitely far, not missing \(truth(?:: infinitely far| (?P<true>\d+\.\d+) m)\)",
+        rf"has d = 0, which means infinitely far, not missing \(truth: (?:infinitely far|(?P<true>{LENGTH}))\)",
         is_infinite,
     ),
     Claim(
