@@ -249,6 +249,11 @@ def publish(
 
     names = dict.fromkeys(name for word in lesson for name in word.split(",") if name)
     chosen = [lesson_given(name) for name in names or catalog()]
+    given = dict[str, str]()
+    for word, one in zip(names or catalog(), chosen, strict=True):
+        if one.name in given:
+            raise InputError(f"{given[one.name]} and {word} are both named {one.name!r}: a site has one of a name")
+        given[one.name] = word
     with bar(sys.stderr, "Publishing") as progress:
         files = publish_site(out, chosen, base_url=base_url, force=force, remove_others=not names, progress=progress)
     sys.stdout.write(sizes_told(out, files) + "\n")
