@@ -2,7 +2,7 @@
 
 from workbench.lesson import Preset, Question
 
-from .state import Params
+from .state import Params, State
 
 SHORT = Params(arc=60.0)
 PRESETS = (
@@ -14,7 +14,7 @@ PRESETS = (
         "exact", "No noise", "Without noise the first circle is right, and nothing is left to refine.", Params(noise=0)
     ),
 )
-QUESTIONS = (
+QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         name="radius",
         text="The points cover 60° of a circle of radius 1 m. What radius does the algebraic fit give?",

@@ -1,5 +1,7 @@
 """Runs worth seeing, and questions to answer before looking."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from workbench.lesson import Preset, Question
@@ -31,24 +33,24 @@ PRESETS = (
 )
 
 
-def equal_error(states: tuple[State, ...]) -> float:
+def equal_error(states: Sequence[State]) -> float:
     """Return the error at the end, millimetres."""
     return 1000 * states[-1].error
 
 
-def equal_reason(states: tuple[State, ...]) -> str:
+def equal_reason(states: Sequence[State]) -> str:
     """Say what came out, and what the formula of the page says."""
     rms = 1000 * np.sqrt(3 * 15 * (0.02**2 + 0.2**2)) / 30  # three coordinates, 15 fixes by each sensor
     return f"It is {equal_error(states):.0f} mm; over all noise the formula says {rms:.0f} mm (RMS)."
 
 
-def drop(states: tuple[State, ...]) -> str:
+def drop(states: Sequence[State]) -> str:
     """Say what the strays did to the estimate."""
     before, after = (1000 * states[k].error for k in (-5, -1))
     return f"Before them the error was {before:.0f} mm, at the end it is {after:.0f} mm."
 
 
-QUESTIONS = (
+QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         name="how-far",
         text="15 fixes have σ = 2 cm, 15 have σ = 20 cm in each coordinate. All count the same. How far off is the mean?",
