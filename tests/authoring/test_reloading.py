@@ -8,6 +8,10 @@ from pathlib import Path
 import pytest
 
 from workbench.authoring.reloading import Edited, carried
+from workbench.errors import InputError
+from workbench.exercise.finding import exercises_of
+from workbench.exercise.starter import write_starter
+from workbench.exercise.watching import Watched
 from workbench.loading import load
 from workbench.timeline import Timeline
 
@@ -104,3 +108,26 @@ def test_params_are_carried_over_as_far_as_they_go(edited):
     after = carried(before, edited.lesson)
     assert type(after) is edited.lesson.params
     assert (after.points, after.arc, after.sigma, after.seed) == (100, 60.0, 0.03, 7)
+
+
+def test_a_student_s_file_drives_the_edited_lesson_too(edited, tmp_path):
+    (exercise,) = exercises_of(edited.lesson)
+    mine = write_starter(exercise, tmp_path)
+    text = mine.read_text(encoding="utf-8").replace("raise NotImplementedError", "return np.array([0.4, 0.3, 1.0])")
+    mine.write_text(text, encoding="utf-8")
+    watched = Watched(edited.lesson, mine)
+    try:
+        save(edited, "draw.py", "The algebraic fit", "THE FIT")
+        assert edited.changed()
+        watched.follow(edited.lesson)
+        timeline = Timeline(watched.lesson, watched.lesson.params())
+        timeline.extend()
+        assert "THE FIT of 40 points gives radius 1.000 m" in timeline[0].caption.text
+        save(edited, "lesson.py", "fit_circle: Callable", "fit: Callable")
+        save(edited, "lesson.py", "refine(p, fit_circle(p))", "refine(p, fit(p))")
+        assert edited.changed()
+        with pytest.raises(InputError, match="run of lesson circle has no keyword 'fit_circle'; it has: fit"):
+            watched.follow(edited.lesson)
+        assert watched.lesson.name == "circle"
+    finally:
+        watched.close()
