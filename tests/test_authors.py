@@ -81,6 +81,12 @@ def draw_two(state, params):
         ({"draw": draw_two}, ["test_authors.py, line ", "draw(state, params) takes one state"]),
         ({"presets": (Preset("far", "Far", "", Params(steps=101)),)}, ["preset 'far'", "steps = 101", "from 0 to 100"]),
         ({"presets": (Preset("far", "Far", "", 3),)}, ["preset 'far'", "takes Params, not int"]),
+        ({"presets": (Preset("a", "A", "", Params()),) * 2}, ["preset 1 and preset 2 share the name 'a'"]),
+        ({"questions": (question(), question())}, ["question 1 and question 2 share the name 'how-many'"]),
+        (
+            {"presets": (Preset("how-many", "A", "", Params()),), "questions": (question(),)},
+            ["preset 1 and question 1 share the name 'how-many'"],
+        ),
         ({"questions": (question(params=Params(steps=-1)),)}, ["question 'how-many'", "steps = -1", "from 0 to 100"]),
     ],
 )

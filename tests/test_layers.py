@@ -54,8 +54,8 @@ ALLOWED = {
     },
     "workbench.viewer": LESSON | {
         "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.links",
-        "workbench.picking", "workbench.typeset",
-        "workbench.recording", "workbench.exercise",
+        "workbench.picking", "workbench.typeset", "workbench.recording", "workbench.exercise",
+        "workbench.authoring.reloading",
     },
     "workbench.authoring": LESSON | {"workbench.authoring", "workbench.exercise", "workbench.flags", "workbench.typeset"},
     "workbench.flags": LESSON | {"workbench.flags"},

@@ -149,3 +149,34 @@ def test_what_is_left_out_is_one_line_where_a_person_reads_it(tmp_path):
     assert done.returncode == 0
     assert done.stderr == "workbench: lesson mine (theirs:lesson) is left out: its name 'icp' is taken by lessons.icp\n"
     assert len(done.stdout.splitlines()) == len(OURS)
+
+
+@pytest.mark.parametrize(
+    ("names", "exercise", "command", "said"),
+    [
+        (("same", "same"), "centroid", "list", "lessons.one and lessons.two are both named 'same': rename one"),
+        (("a", "b"), "centroid", "exercise",
+         "exercise centroid is in lesson a (lessons.one.lesson) and in lesson b (lessons.two.lesson): rename one"),
+    ],
+)  # fmt: skip
+def test_a_clash_inside_the_course_is_refused_with_both_places(tmp_path, names, exercise, command, said):
+    for folder, name in zip(("one", "two"), names, strict=True):
+        (tmp_path / "lessons" / folder / "exercises").mkdir(parents=True)
+        (tmp_path / "lessons" / folder / "__init__.py").touch()
+        (tmp_path / "lessons" / folder / "lesson.py").write_text(LESSON.format(name=name))
+        (tmp_path / "lessons" / folder / "exercises" / f"{exercise}.py").write_text(CENTROID)
+    (tmp_path / "lessons" / "__init__.py").touch()
+    begin = (
+        f"import sys; sys.path[:0] = [{str(tmp_path)!r}, {str(ROOT)!r}]; from workbench.cli import main; exit(main())"
+    )
+    done = subprocess.run([sys.executable, "-P", "-c", begin, command], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (2, f"workbench: {said}\n")
+
+
+def test_two_lessons_of_one_name_are_not_published_together(tmp_path, capsys):
+    for name in ("one", "two"):
+        (tmp_path / f"{name}.py").write_text(LESSON.format(name="same"))
+    words = ["publish", str(tmp_path / "site"), "--lesson", str(tmp_path / "one.py"), str(tmp_path / "two.py")]
+    assert main(words) == 2
+    assert "one.py and " in (line := capsys.readouterr().err)
+    assert "two.py are both named 'same'" in line

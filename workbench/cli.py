@@ -55,27 +55,24 @@ def show(
         Path | None, Option("Your own function, loaded again whenever the file is saved.", "FILE.py")
     ] = None,
 ) -> None:
-    """Open one lesson in the browser, at these params."""
+    """Open one lesson in the browser, at these params; one given by its path is loaded again when its files are saved."""
     from workbench.viewer.app import serve as serve_page
 
     _try_first_step(run.lesson, run.params)
     if step is None and run.preset is not None:
         step = run.lesson.preset(run.preset).step
+    watched = edited = None
     if with_ is not None:
         from workbench.exercise.watching import Watched
 
         watched = Watched(run.lesson, with_)
-        serve_page(
-            watched.lesson,
-            run.params,
-            step,
-            host=serving.host,
-            port=serving.port,
-            browser=serving.browser,
-            watched=watched,
-        )
-        return
-    serve_page(run.lesson, run.params, step, host=serving.host, port=serving.port, browser=serving.browser)
+    if run.path is not None:
+        from workbench.authoring.reloading import Edited
+
+        edited = Edited(run.path, run.lesson)
+    lesson = run.lesson if watched is None else watched.lesson
+    where = {"host": serving.host, "port": serving.port, "browser": serving.browser}
+    serve_page(lesson, run.params, step, **where, watched=watched, edited=edited)
 
 
 @command
@@ -252,6 +249,11 @@ def publish(
 
     names = dict.fromkeys(name for word in lesson for name in word.split(",") if name)
     chosen = [lesson_given(name) for name in names or catalog()]
+    given = dict[str, str]()
+    for word, one in zip(names or catalog(), chosen, strict=True):
+        if one.name in given:
+            raise InputError(f"{given[one.name]} and {word} are both named {one.name!r}: a site has one of a name")
+        given[one.name] = word
     with bar(sys.stderr, "Publishing") as progress:
         files = publish_site(out, chosen, base_url=base_url, force=force, remove_others=not names, progress=progress)
     sys.stdout.write(sizes_told(out, files) + "\n")

@@ -54,11 +54,15 @@ class Serving:
 
 @dataclass(frozen=True)
 class Chosen:
-    """A lesson and its params, as asked for, and the preset they started from (flags may have changed them since)."""
+    """A lesson and its params, as asked for, and the preset they started from (flags may have changed them since).
+
+    `path` is the lesson's file or folder, where the person named it by that.
+    """
 
     lesson: Lesson
     params: Any
     preset: str | None = None
+    path: Path | None = None
 
 
 Reader: TypeAlias = Callable[[argparse.Namespace], Any]
@@ -243,7 +247,8 @@ def _lesson_reader(parser: _Parser, left: list[str]) -> Reader:
 
     def read(values: argparse.Namespace) -> Chosen:
         given = {field.name: value for field in fields_ if (value := getattr(values, field.name)) is not None}
-        return Chosen(lesson, knobs.make(lesson.params, given, base=base), preset)
+        path = Path(name) if is_path(name) else None
+        return Chosen(lesson, knobs.make(lesson.params, given, base=base), preset, path)
 
     return read
 

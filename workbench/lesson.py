@@ -199,16 +199,21 @@ class Lesson(Generic[P, S]):
 
 @functools.cache
 def course() -> Mapping[str, Lesson]:
-    """Return the lessons of the `lessons` package by name, in course order."""
-    found: list[Lesson] = []
+    """Return the lessons of the `lessons` package by name, in course order.
+
+    Raises:
+        InputError: If two of them have one name; tells both places.
+    """
+    found, places = list[Lesson](), dict[str, str]()
     lessons = importlib.import_module("lessons")
     for info in pkgutil.iter_modules(lessons.__path__, "lessons."):
         if info.ispkg and importlib.util.find_spec(f"{info.name}.lesson") is not None:
-            found.append(lesson_in(importlib.import_module(f"{info.name}.lesson")))
-    by_name = _in_order(found)
-    if len(by_name) < len(found):
-        raise ValueError("two lessons of the course share a name")
-    return by_name
+            lesson = lesson_in(importlib.import_module(f"{info.name}.lesson"))
+            if lesson.name in places:
+                raise InputError(f"{places[lesson.name]} and {info.name} are both named {lesson.name!r}: rename one")
+            found.append(lesson)
+            places[lesson.name] = info.name
+    return _in_order(found)
 
 
 @functools.cache

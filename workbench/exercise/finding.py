@@ -36,9 +36,20 @@ def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
 
 @functools.cache
 def usable() -> dict[str, tuple[Exercise, ...]]:
-    """Return the exercises of the catalogue's lessons by the lesson's name; the course's come first where names clash."""
-    found = {name: _exercises_in(lesson) for name, lesson in course().items()}
-    places = {exercise.name: _place(course()[exercise.lesson]) for items in found.values() for exercise in items}
+    """Return the exercises of the catalogue's lessons by the lesson's name; the course's come first where names clash.
+
+    Raises:
+        InputError: If two lessons of the course have an exercise of one name; tells both places.
+    """
+    found, places = dict[str, tuple[Exercise, ...]](), dict[str, str]()
+    for name, lesson in course().items():
+        found[name] = _exercises_in(lesson)
+        for exercise in found[name]:
+            if exercise.name in places:
+                raise InputError(
+                    f"exercise {exercise.name} is in {places[exercise.name]} and in {_place(lesson)}: rename one"
+                )
+            places[exercise.name] = _place(lesson)
     for lesson in catalog().values():
         if lesson.name not in found:
             found[lesson.name] = _not_taken(lesson, places)

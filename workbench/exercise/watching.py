@@ -49,6 +49,16 @@ class Watched:
         old.close()
         return True
 
+    def follow(self, lesson: Lesson) -> None:
+        """Drive another version of the lesson from now on.
+
+        Raises:
+            InputError: If the file holds no function of it; nothing has changed then.
+        """
+        self.exercise = exercises_in(self.path, lesson)[0]
+        self.original, self.lesson = lesson, driven(lesson, self.exercise, self._student)
+        self.said = RUNNING
+
     def check(self) -> None:
         """Run the public checks on the file as it is now; `said` is what they found then."""
         stamp = self._stamp

@@ -6,11 +6,13 @@ import io
 import socket
 import threading
 import webbrowser
+from collections.abc import Callable
 from typing import Any
 
 import viser
 
 from workbench import links
+from workbench.authoring.reloading import Edited, carried
 from workbench.errors import InputError
 from workbench.exercise.watching import RUNNING, Watched
 from workbench.lesson import Lesson, catalog
@@ -19,6 +21,7 @@ from workbench.typeset import math_font_css
 from workbench.viewer.page import Page
 from workbench.viewer.progress import KEY
 from workbench.viewer.style import STYLE
+from workbench.viewer.terminal import tell_terminal
 
 _ADDRESS_KEY = "workbench-address"
 
@@ -42,6 +45,7 @@ class App:
         start: Where browsers begin whose address names no lesson; None is the course page.
         host, port: Where it listens; port 0 picks a free one.
         watched: A student's file that drives the lesson of `start`; loaded again whenever it is saved.
+        edited: The lesson of `start` where it was given by its path; loaded again whenever one of its files is saved.
 
     Raises:
         InputError: If the port is taken or may not be used.
@@ -54,6 +58,7 @@ class App:
         host: str = "127.0.0.1",
         port: int = 8080,
         watched: Watched | None = None,
+        edited: Edited | None = None,
     ):
         port = _free_port(host, port)
         self.lessons = dict(catalog())
@@ -68,9 +73,10 @@ class App:
         self.server.request_share_url = lambda *args, **kwargs: None  # type: ignore[method-assign]
         self.host, self.port = host, port
         self.pages: dict[int, Page] = {}
-        self._watched, self._watching = watched, None
-        if watched is not None:
-            self._watching = asyncio.run_coroutine_threadsafe(self._watch(watched), self.server.get_event_loop())
+        self._watched, self._edited = watched, edited
+        follow = [self._watch(watched)] if watched is not None else []
+        follow += [self._reload(edited)] if edited is not None else []
+        self._following = [asyncio.run_coroutine_threadsafe(one, self.server.get_event_loop()) for one in follow]
         self.server.on_client_connect(self._connect)
         self.server.on_client_disconnect(self._disconnect)
 
@@ -82,8 +88,8 @@ class App:
 
     def stop(self) -> None:
         """Stop listening and end all pages."""
-        if self._watching is not None:
-            self._watching.cancel()
+        for one in self._following:
+            one.cancel()
         with contextlib.redirect_stdout(io.StringIO()):
             self.server.stop()
         if self._watched is not None:
@@ -95,6 +101,8 @@ class App:
             query = await self._address_of(client)
             kept = await self._kept(client, KEY)
             await page.open(query, kept)
+            if self._edited is not None and self._edited.trouble is not None and self._start is not None:
+                page.tell(self._start.lesson, self._edited.trouble)
 
     async def _watch(self, watched: Watched) -> None:
         """Give every page the new run whenever the student's file was saved, and the checks' report when it is there."""
@@ -102,13 +110,49 @@ class App:
         while True:
             while not await asyncio.to_thread(self._saved, watched):
                 await asyncio.sleep(0.3)
-            before, after = self.lessons[watched.lesson.name], watched.lesson
-            self.lessons[after.name] = after
-            if self._start is not None:
-                self._start = links.Place(after, self._start.params, self._start.step)
-            for page in list(self.pages.values()):
-                page.replace_lesson(before, after)
+            before, after = self._replace(watched.lesson)
+            self._for_each(lambda page, before=before, after=after: page.replace_lesson(before, after))
             checking = asyncio.create_task(self._check(watched, checking))
+
+    async def _reload(self, edited: Edited) -> None:
+        """Give every page the new lesson whenever one of its files was saved, or what is wrong with it."""
+        while True:
+            while not await asyncio.to_thread(edited.changed):
+                await asyncio.sleep(0.3)
+            trouble, lesson = edited.trouble, edited.lesson
+            try:
+                if trouble is None and self._watched is not None:
+                    self._watched.follow(lesson)
+                    lesson = self._watched.lesson
+            except InputError as error:
+                trouble = error
+            if trouble is not None:
+                tell_terminal(trouble)
+                here = self._start.lesson if self._start is not None else lesson
+                self._for_each(lambda page, here=here, trouble=trouble: page.tell(here, trouble))
+                continue
+            before, after = self._replace(lesson)
+            self._for_each(lambda page, before=before, after=after: page.rebuild(before, after))
+            if self._watched is not None:
+                await self._check(self._watched)
+
+    def _for_each(self, show: Callable[[Page], None]) -> None:
+        """Do something with every page; what goes wrong with one, such as of a browser that just left, is told only."""
+        for page in list(self.pages.values()):
+            try:
+                show(page)
+            except Exception as error:
+                tell_terminal(error)
+
+    def _replace(self, after: Lesson) -> tuple[Lesson, Lesson]:
+        """Serve another version of the lesson of `start`; return the one before and this one."""
+        assert self._start is not None, "a lesson is followed where browsers begin"
+        before = self._start.lesson
+        if after.name != before.name:
+            del self.lessons[before.name]
+        self.lessons[after.name] = after
+        self._start = links.Place(after, carried(self._start.params, after), self._start.step)
+        return before, after
 
     async def _check(self, watched: Watched, earlier: asyncio.Task | None = None) -> None:
         """Check the file once the checks of an earlier state of it are through, which may have to wait for time-outs."""
@@ -116,8 +160,7 @@ class App:
             await earlier
         if watched.said == RUNNING:
             await asyncio.to_thread(watched.check)
-        for page in list(self.pages.values()):
-            page.show_report()
+        self._for_each(lambda page: page.show_report())
 
     @staticmethod
     def _saved(watched: Watched) -> bool:
@@ -163,6 +206,7 @@ def serve(
     port: int = 8080,
     browser: bool = True,
     watched: Watched | None = None,
+    edited: Edited | None = None,
 ) -> None:
     """Serve the course, or one lesson at a place, until interrupted; print the address when ready.
 
@@ -170,7 +214,7 @@ def serve(
         InputError: If the port is taken or may not be used.
     """
     start = None if lesson is None else links.Place(lesson, params if params is not None else lesson.params(), step)
-    app = App(start, host=host, port=port, watched=watched)
+    app = App(start, host=host, port=port, watched=watched, edited=edited)
     print(app.address, flush=True)  # noqa: T201
     if browser:
         webbrowser.open(app.address)

@@ -16,6 +16,7 @@ import numpy as np
 import viser
 
 from workbench import links
+from workbench.authoring.reloading import carried
 from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
 from workbench.exercise.driven import first_difference
@@ -177,6 +178,18 @@ class Page:
         if session is not None and session.lesson is before:
             session.open(after, session.params, session.step)
             self.show_report()
+            self._wake.set()
+
+    def rebuild(self, before: Lesson, after: Lesson) -> None:
+        """Go on in a lesson that was edited, at the same params and step; where another one is open, nothing happens."""
+        session = self.session
+        if session is not None and session.lesson is before and self._sides:
+            self.show_lesson(links.Place(after, carried(session.params, after), session.step))
+
+    def tell(self, lesson: Lesson, trouble: InputError) -> None:
+        """Show what is wrong with a lesson's files in place of the caption, where it is open; its run stays as it was."""
+        if self.session is not None and self.session.lesson is lesson and self._sides:
+            self.session.message = str(trouble)
             self._wake.set()
 
     @staticmethod
