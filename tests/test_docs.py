@@ -61,7 +61,7 @@ def anchors(path: Path) -> set[str]:
 
 @pytest.mark.parametrize("page", PAGES, ids=short)
 def test_links_between_documents_lead_somewhere(page):
-    for target in re.findall(r"\]\(([^)\s]+)\)", without_code(read(page))):
+    for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", without_code(read(page)))):
         if target.startswith(("https://", "http://")):
             continue
         place, _, anchor = target.partition("#")
@@ -105,6 +105,8 @@ def test_a_command_has_a_name_and_flags_that_exist(page, line, capsys):
     about = [word for word in given[:1] if word in catalog()]  # a lesson has flags of its own
     assert cli.main([name, *about, "--help"]) == 0
     known = capsys.readouterr().out
+    if any(word.endswith(".py") or "/" in word for word in given[:1]):
+        return  # a lesson of the reader's own, with flags of its own
     for flag in (word.partition("=")[0] for word in words if word.startswith("-")):
         assert re.search(rf"{re.escape(flag)}\b", known), f"{short(page)}: {name} has no flag {flag}"
 
