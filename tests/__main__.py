@@ -30,14 +30,18 @@ def main() -> int:
         print(f"== {name}: {'failed' if code else 'good'} after {time.monotonic() - began:.0f} s", flush=True)
 
     beside = {name: started_beside(name) for name in BESIDE}
-    for name, command in CHECKS.items():
-        if name not in beside:
-            print(f"== {name}: {' '.join(command)}", flush=True)
-            ended(name, subprocess.run([sys.executable, "-m", *command], cwd=ROOT).returncode)
-    for name, process in beside.items():
-        print(f"== {name}: {' '.join(CHECKS[name])}", flush=True)
-        print(process.communicate()[0], end="")
-        ended(name, process.returncode)
+    try:
+        for name, command in CHECKS.items():
+            if name not in beside:
+                print(f"== {name}: {' '.join(command)}", flush=True)
+                ended(name, subprocess.run([sys.executable, "-m", *command], cwd=ROOT).returncode)
+        for name, process in beside.items():
+            print(f"== {name}: {' '.join(CHECKS[name])}", flush=True)
+            print(process.communicate()[0], end="")
+            ended(name, process.returncode)
+    finally:
+        for process in beside.values():
+            process.kill()  # where the tests were interrupted
     print(f"failed: {', '.join(failed)}" if failed else "everything holds", flush=True)
     return 1 if failed else 0
 
