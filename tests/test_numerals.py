@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.numerals import brief, fixed, fixed_or_power, fixed_row
+from workbench.numerals import angle, brief, counted, fixed, fixed_or_power, fixed_row, length, percent, pixels
 
 NUMERAL = re.compile(r"−?\d{1,3}(,\d{3})*(\.\d+)?")
 
@@ -49,7 +49,56 @@ def test_brief_is_the_number_to_its_digits(value, digits):
         (fixed_or_power(-3284908864.4, 1), "−3.28 × 10⁹"),
         (fixed_or_power(1e21, 1), "1.00 × 10²¹"),
         (fixed_row([1.0, -0.0, -2.5], 1), "1.0, 0.0, −2.5"),
+        (length(0.0), "0 mm"),
+        (length(1e-16), "0 mm"),
+        (length(2.34e-8), "0.023 µm"),
+        (length(9.96e-7), "1 µm"),
+        (length(0.00123456), "1.23 mm"),
+        (length(0.09996), "100 mm"),
+        (length(0.1), "0.1 m"),
+        (length(-2.5), "−2.5 m"),
+        (length(2.345, 2), "2.3 m"),
+        (length(5_403_210.0), "5,403 km"),
+        (length(12_345.6), "12,346 m"),
+        (length(3.28e12), "3.28 × 10⁹ km"),
+        (pixels(1e-12), "0 px"),
+        (pixels(3.4567), "3.46 px"),
+        (pixels(12_345.6), "12,346 px"),
+        (angle(0.0), "0°"),
+        (angle(1e-5), "less than 0.001°"),
+        (angle(35.04), "35°"),
+        (angle(-0.5), "−0.5°"),
+        (percent(0.0), "0 %"),
+        (percent(5e-5), "less than 0.01 %"),
+        (percent(0.0734), "7.3 %"),
+        (percent(0.994), "99 %"),
+        (percent(12.34), "1,234 %"),
+        (percent(0.0734, 0), "7 %"),
+        (percent(-0.0001, 1), "0.0 %"),
+        (counted(1, "vertex", "vertices"), "1 vertex"),
+        (counted(0, "vertex", "vertices"), "0 vertices"),
+        (counted(1234, "sample"), "1,234 samples"),
     ],
 )
 def test_numerals(text, said):
     assert text == said
+
+
+UNITS = {"km": 1e3, "m": 1.0, "mm": 1e-3, "µm": 1e-6}
+
+
+@given(st.floats(1e-8, 9e8) | st.floats(-9e8, -1e-8))
+def test_a_length_is_the_length_to_its_digits(metres):
+    number, unit = length(metres).split(" ")
+    assert read(number) * UNITS[unit] == pytest.approx(metres, rel=0.051 if unit == "µm" else 0.0051)
+    assert 0.001 <= abs(read(number)) <= 1e6
+
+
+@given(st.floats(0.001, 1e3))
+def test_an_angle_is_the_angle_to_its_digits(degrees):
+    assert read(angle(degrees).removesuffix("°")) == pytest.approx(degrees, rel=0.0051)
+
+
+@given(st.floats(1e-4, 100.0))
+def test_a_share_is_the_share_to_its_digits(share):
+    assert read(percent(share).removesuffix(" %")) == pytest.approx(100.0 * share, rel=0.051)

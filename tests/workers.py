@@ -7,8 +7,8 @@ import re
 
 from xdist.scheduler import LoadScopeScheduling
 
-RUN_LESSONS = re.compile(r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers)\.py::\w+\[(\w+)")
-OF_A_LESSON = re.compile(r"tests/lessons/test_(\w+?)(?:_own)?\.py::")
+RUN_LESSONS = re.compile(r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers|page/test_article)\.py::\w+\[(\w+)")
+OF_A_LESSON = re.compile(r"tests/lessons/test_(\w+?)(?:_(?:own|slots|drawn|run))?\.py::")
 IN_A_BROWSER = re.compile(r"(tests/(?:browser/\w+|recording/test_browser)\.py)::")
 
 

@@ -50,7 +50,8 @@ class Knob:
 
     Args:
         hint: One line that says what it does to the run.
-        low, high: The ends of the range, included; of every entry for tuples. Required for numbers.
+        low: The lower end of the range, included; of every entry for tuples. Required for numbers.
+        high: Its upper end, likewise.
         unit: Written behind the value: `m`, `deg`, `px`. Degrees are converted in the first lines of `run`.
         step: The slider's step; None picks a fine one.
         label: The words on the control; None makes them from the field's name.

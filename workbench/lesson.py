@@ -88,7 +88,8 @@ class Question(Generic[P, S]):
         answer: Reads the right answer off the run's states: an index into choices, or a number.
         why: The sentence shown after answering, computed from the same states.
         params: The run that answers it.
-        unit, tolerance: For numbers: the unit asked for, and how far off still counts as right.
+        unit: The unit asked for, for numbers.
+        tolerance: How far off a number still counts as right.
         step: Where the revealed run opens; None is its last step.
     """
 
@@ -109,7 +110,8 @@ class Lesson(Generic[P, S]):
 
     Args:
         name: Its folder's name and its name in links and commands.
-        title, summary: The heading, and one line for the course page.
+        title: The heading.
+        summary: One line for the course page.
         page: Path of page.md; without one the summary is the page.
         params: The Params class; `params()` is the default run.
         run: Yields states; takes params and, by keyword, the functions an exercise may replace.

@@ -1,5 +1,6 @@
-"""Numbers as a sentence or a table writes them: no exponents, no negative zero, and a minus sign that is one.
+"""Numbers and quantities as a sentence or a table writes them: no exponents, no negative zero, a minus sign that is one.
 
+`fixed`, `brief` and their like write numbers; `length`, `pixels`, `angle` and `percent` write quantities with their unit.
 What is not finite has no numeral: say in words what is missing.
 """
 
@@ -36,3 +37,53 @@ def fixed_or_power(value: float, places: int) -> str:
 def fixed_row(values: Iterable[float], places: int) -> str:
     """Write some numbers in a row, each with so many decimals."""
     return ", ".join(fixed(value, places) for value in values)
+
+
+def length(metres: float, digits: int = 3) -> str:
+    """Write a length in the unit that suits it, from µm to km, with so many significant digits; whole metres from 1 km on.
+
+    What only rounding left of a length is "0 mm".
+    """
+    size = abs(metres)
+    if size < ROUND_OFF:
+        return "0 mm"
+    if size >= 1e6:
+        return f"{fixed_or_power(metres / 1e3, 0)} km"
+    if size >= 1e3:
+        return f"{fixed(metres, 0)} m"
+    if size >= 0.1:
+        return f"{brief(metres, digits)} m"
+    return f"{brief(1e3 * metres, digits)} mm" if size >= 1e-6 else f"{brief(1e6 * metres, min(digits, 2))} µm"
+
+
+def pixels(count: float, digits: int = 3) -> str:
+    """Write a distance in an image with so many significant digits, whole pixels from 1,000 on; 0 px below 0.0005 px."""
+    if abs(count) < 5e-4:
+        return "0 px"
+    return f"{fixed_or_power(count, 0) if abs(count) >= 1e3 else brief(count, digits)} px"
+
+
+def angle(degrees: float, digits: int = 3) -> str:
+    """Write an angle with so many significant digits; below a thousandth of a degree only that it is less."""
+    if abs(degrees) < ROUND_OFF:
+        return "0°"
+    return f"{brief(degrees, digits)}°" if abs(degrees) >= 0.001 else "less than 0.001°"
+
+
+def percent(share: float, places: int | None = None) -> str:
+    """Write a share, 1 being all of it, in per cent.
+
+    Without a number of decimals it has two significant digits, and no decimals from 100 % on; below 0.01 % it is only said
+    that it is less.
+    """
+    value = 100.0 * share
+    if places is not None:
+        return f"{fixed(value, places)} %"
+    if abs(value) < 0.01:
+        return "0 %" if abs(value) < 1e-6 else "less than 0.01 %"
+    return f"{brief(value, 2) if abs(value) < 99.5 else fixed_or_power(value, 0)} %"
+
+
+def counted(count: int, one: str, more: str = "") -> str:
+    """Write how many there are of what: "1 sample", "2 samples"; a plural that is no mere s is given."""
+    return f"{count:,} {one if count == 1 else more or f'{one}s'}"

@@ -43,7 +43,8 @@ class Field:
 
     Args:
         values: (n,) or (h, w). NaN means unknown and is drawn in grey.
-        low, high: The ends of the colour bar; values beyond are clipped.
+        low: The lower end of the colour bar; values below are clipped.
+        high: Its upper end.
         map: `viridis` for magnitudes; `diverging` for signed quantities, where low must be -high.
     """
 

@@ -53,9 +53,11 @@ class Timeline:
     scene holds becomes read-only, so a state that is changed after it was yielded raises where it is changed.
 
     Args:
-        lesson, params: What is run. Params that are out of range raise InputError.
+        lesson: What is run.
+        params: With these; out of range they raise InputError.
         slots: Functions that replace keyword arguments of the lesson's run.
-        most_steps, most_bytes: Where the run is cut; `stopped` then says so.
+        most_steps: Where the run is cut; `stopped` then says so.
+        most_bytes: Likewise, by the size of its arrays.
     """
 
     def __init__(

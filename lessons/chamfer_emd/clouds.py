@@ -1,12 +1,10 @@
 """The two clouds of a run, built-in or the person's own, and known changes of the target to compare with."""
 
-from dataclasses import dataclass
-from pathlib import Path
-
 import numpy as np
 
-from lessons.chamfer_emd.params import Params, Start
+from lessons.chamfer_emd.state import Clouds, Params, Start
 from workbench.data.files import read_cloud
+from workbench.data.framing import FAR, Frame, frame
 from workbench.data.point_sets import (
     blob,
     bumped,
@@ -19,8 +17,11 @@ from workbench.data.point_sets import (
     spread,
     with_outlier,
 )
+from workbench.data.thinning import some_points
 from workbench.errors import InputError
+from workbench.numerals import brief, percent
 
+WIDTH = 2.0  # metres of an own cloud's longest edge in the picture
 YARDSTICKS: tuple[tuple[str, Start, float], ...] = (
     ("5 % larger", "larger", 0.05),
     ("80 % bunched", "bunched", 0.8),
@@ -30,43 +31,27 @@ YARDSTICKS: tuple[tuple[str, Start, float], ...] = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class Clouds:
-    """Source and target of a run in one frame, metres of the picture.
-
-    Attributes:
-        p_source: Where both flows start.
-        p_target: Where they should go.
-        name: What the source is, in words.
-        scale: Metres of the picture per unit of an own cloud; 1 for built-in ones.
-    """
-
-    p_source: np.ndarray
-    p_target: np.ndarray
-    name: str
-    scale: float
-
-
 def clouds_of(params: Params) -> Clouds:
     """Return the clouds that the params describe.
 
     Raises:
         InputError: If an own file cannot be used, or a source is given without its target.
     """
+    if params.source is not None and params.target is None:
+        raise InputError("an own source needs an own target to flow to: give --target too")
     rng = np.random.default_rng(params.seed)
     if params.target is None:
-        if params.source is not None:
-            raise InputError("an own source needs an own target to flow to: give --target too")
-        p_target = spread(params.shape, params.points)
-        return Clouds(changed(p_target, params.start, params.amount, params, rng), p_target, _name(params), 1.0)
-    whole = read_cloud(params.target)
-    low, high = np.percentile(whole, [2, 98], axis=0)  # a few far points must not shrink the picture
-    middle, scale = (low + high) / 2, 2.0 / max(float((high - low).max()), 1e-9)
-    p_target = scale * (_thinned(whole, params.points, rng) - middle)
+        framed, p_target = Frame(), spread(params.shape, params.points)
+    else:
+        whole = read_cloud(params.target)
+        framed = frame(whole, WIDTH, far=FAR)
+        p_target = framed.shown(some_points(whole, params.points, rng))
     if params.source is None:
-        return Clouds(changed(p_target, params.start, params.amount, params, rng), p_target, _name(params), scale)
-    p_source = scale * (_thinned(read_cloud(params.source), params.source_points or params.points, rng) - middle)
-    return Clouds(p_source, p_target, Path(params.source).name, scale)
+        p_source, name = changed(p_target, params.start, params.amount, params, rng), _name(params)
+    else:
+        p_source = framed.shown(some_points(read_cloud(params.source), params.source_points or params.points, rng))
+        name = params.source.name
+    return Clouds(p_source=p_source, p_target=p_target, name=name, scale=framed.scale)
 
 
 def changed(p_target: np.ndarray, start: Start, amount: float, params: Params, rng: np.random.Generator) -> np.ndarray:
@@ -103,19 +88,15 @@ def yardsticks(clouds: Clouds, params: Params) -> tuple[tuple[str, np.ndarray], 
     return tuple((name, changed(clouds.p_target, start, amount, alike, rng)) for name, start, amount in YARDSTICKS)
 
 
-def _thinned(p: np.ndarray, count: int, rng: np.random.Generator) -> np.ndarray:
-    return p if len(p) <= count else p[np.sort(rng.choice(len(p), count, replace=False))]
-
-
 def _name(params: Params) -> str:
-    percent, metres = f"{100 * min(params.amount, 1.0):.0f} %", f"{params.amount:g} m"
+    part, metres = percent(min(params.amount, 1.0), 0), f"{brief(params.amount)} m"
     return {
         "blob": f"a blob of radius {metres}",
-        "larger": f"the target {100 * params.amount:.0f} % larger",
-        "bunched": f"the target with {percent} of its points bunched at one place",
+        "larger": f"the target {percent(params.amount, 0)} larger",
+        "bunched": f"the target with {part} of its points bunched at one place",
         "bump": f"the target with an eighth of it pushed out by {metres}",
-        "part missing": f"the target without {percent} of it",
+        "part missing": f"the target without {part} of it",
         "one outlier": f"the target with one point {metres} off",
-        "shuffled rows": f"the target with {percent} of its rows shuffled",
-        "doubled points": f"the target with {percent} of its points doubled",
+        "shuffled rows": f"the target with {part} of its rows shuffled",
+        "doubled points": f"the target with {part} of its points doubled",
     }[params.start]

@@ -3,10 +3,12 @@
 import numpy as np
 import scipy
 
-from lessons.chamfer_emd.states import Side, State
-from lessons.chamfer_emd.words import caption, left_label, numbers_table, right_label, yardstick_table
+from lessons.chamfer_emd.state import Side, State
+from lessons.chamfer_emd.words import caption, left_label, right_label, significant
 from workbench.geometry.motions import motion
-from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments
+from workbench.geometry.shape_distances import DEFINITIONS
+from workbench.numerals import brief, percent
+from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments, Table
 
 T_WORLD_LEFT = motion(np.eye(3), np.array([-1.25, 0.0, 0.0]))
 T_WORLD_RIGHT = motion(np.eye(3), np.array([1.25, 0.0, 0.0]))
@@ -30,8 +32,8 @@ def draw(state: State) -> Scene:
         ),
         **_busiest(left, state),
         **_curves(state),
-        "numbers": numbers_table(state),
-        "yardsticks": yardstick_table(state),
+        "numbers": _numbers_table(state),
+        "yardsticks": _yardstick_table(state),
     }  # fmt: skip
     return scene
 
@@ -121,3 +123,44 @@ def _served(side: Side, name: str, color: Role) -> Curve:
     chart, x_label = "Nearest of how many target points", f"target points, {MOST_SERVED} or more at the end"
     kind = "bars" if name == "left" else "dots"
     return Curve(np.arange(MOST_SERVED + 1.0), counts.astype(float), name, chart, x_label, "points", color, kind)
+
+
+def _numbers_table(state: State) -> Table:
+    """Return every distance of both clouds to the target."""
+    left, right, params = state.left.numbers, state.right.numbers, state.params
+    rows = [
+        ("Chamfer, mean of squares, m²", *_both(left.chamfer, right.chamfer)),
+        ("… only source to target, m²", *_both(left.to_target, right.to_target)),
+        ("… only target to source, m²", *_both(left.to_source, right.to_source)),
+    ]
+    for name in DEFINITIONS:
+        if name != "mean of squares":
+            unit = "m²" if name.endswith("squares") else "m"
+            rows.append((f"Chamfer, {name}, {unit}", *_both(left.definitions[name], right.definitions[name])))
+    rows += [
+        ("Earth mover's, exact, m", *_both(left.earth_movers, right.earth_movers)),
+        (f"Sinkhorn, blur {brief(params.blur)} m, m", *_both(state.left.sinkhorn, state.right.sinkhorn)),
+        ("Hausdorff, m", *_both(left.hausdorff, right.hausdorff)),
+        (f"F-score at {brief(params.near)} m", percent(left.f_score, 0), percent(right.f_score, 0)),
+        ("Pairs by index, mean of squares, m²", *_both(left.index_mse, right.index_mse)),
+        (f"Mass astray by over {brief(params.near)} m", percent(left.astray, 0), percent(right.astray, 0)),
+    ]
+    return Table("Distances to the target", ("", "left", "right"), tuple(rows))
+
+
+def _yardstick_table(state: State) -> Table:
+    """Return what known changes of the target cost, to read the other numbers by."""
+    rows = [
+        (name, _three(n.chamfer), _three(n.earth_movers), _three(n.hausdorff), _three(n.index_mse))
+        for name, n in state.yardsticks.items()
+    ]
+    header = ("", "Chamfer m²", "EMD m", "Hausdorff m", "index m²")
+    return Table("What known changes of the target cost", header, tuple(rows))
+
+
+def _both(left: float, right: float) -> tuple[str, str]:
+    return _three(left), _three(right)
+
+
+def _three(value: float) -> str:
+    return significant(value, 3)

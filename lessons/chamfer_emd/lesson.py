@@ -3,22 +3,18 @@
 What it teaches: nearest neighbours are not one to one, so a small Chamfer distance says little about density; the earth
 mover's distance matches one to one, so it does. "Chamfer" names several numbers, and every number of the table has a
 blind spot.
-
-`params.py` has the inputs, `clouds.py` the clouds, `states.py` what is measured,
-`slopes.py` which way a distance falls, `draw.py` and `words.py` the picture,
-`presets.py` the experiments and questions, `exercises` what students write.
 """
 
 from collections.abc import Iterator
 from itertools import zip_longest
 from pathlib import Path
 
-from lessons.chamfer_emd import slopes
+from lessons.chamfer_emd import distances
 from lessons.chamfer_emd.clouds import clouds_of
+from lessons.chamfer_emd.distances import Measures, measured, numbers_of_yardsticks
 from lessons.chamfer_emd.draw import draw
-from lessons.chamfer_emd.params import Params
-from lessons.chamfer_emd.presets import PRESETS, QUESTIONS
-from lessons.chamfer_emd.states import Measures, State, measured, numbers_of_yardsticks
+from lessons.chamfer_emd.experiments import PRESETS, QUESTIONS
+from lessons.chamfer_emd.state import Params, State
 from workbench.algorithms import transport
 from workbench.algorithms.flow import Distance, Flow, flow
 from workbench.geometry import shape_distances
@@ -36,15 +32,23 @@ def run(
     clouds, measures = clouds_of(params), Measures(chamfer, earth_movers, one_sided)
     p_source, p_target = clouds.p_source, clouds.p_target
     limits = {"longest_step": params.longest_step, "max_steps": params.steps}
-    lefts = flow(p_source, p_target, *slopes.left(params.lowers, measures), **limits)
-    rights = flow(p_source, p_target, *slopes.right(measures), **limits)
+    lefts = flow(p_source, p_target, *distances.left(params.lowers, measures), **limits)
+    rights = flow(p_source, p_target, *distances.right(measures), **limits)
     known = numbers_of_yardsticks(clouds, params, measures)
     left = right = before = None
     for step, (now_left, now_right) in enumerate(side_by_side(lefts, rights)):
         left = measured(now_left, left, p_target, params, measures)
         right = measured(now_right, right, p_target, params, measures)
-        last = now_left.stop is not None and now_right.stop is not None
-        yield State(step, params, clouds, left, right, before, known, last)
+        yield State(
+            step=step,
+            params=params,
+            clouds=clouds,
+            left=left,
+            right=right,
+            before=before,
+            yardsticks=known,
+            last=now_left.stop is not None and now_right.stop is not None,
+        )
         before = left.numbers, right.numbers
 
 

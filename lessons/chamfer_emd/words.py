@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from lessons.chamfer_emd.states import Numbers, Side, State
+from lessons.chamfer_emd.state import Numbers, Side, State
 from workbench.algorithms.flow import Stop
-from workbench.geometry.shape_distances import DEFINITIONS
-from workbench.numerals import brief
-from workbench.scene import Caption, Table
+from workbench.numerals import brief, percent
+from workbench.scene import Caption
 
 LOWERED = {
     "both sides": "Chamfer",
@@ -53,12 +52,12 @@ def _step(state: State, before_left: Numbers, before_right: Numbers) -> Caption:
         text += f"ended at {_lowered_value(state)}"
     else:
         text += f"{LOWERED[state.params.lowers]} {_value_before(state, before_left)} → {_lowered_value(state)}"
-    text += f", {share(left.numbers.astray)} of the mass astray. Right: earth mover's "
+    text += f", {percent(left.numbers.astray, 0)} of the mass astray. Right: earth mover's "
     if right.flow.step < state.step:
         text += f"ended at {metres(right.numbers.earth_movers)}"
     else:
         text += f"{metres(before_right.earth_movers)} → {metres(right.numbers.earth_movers)}"
-    text += f", {share(right.numbers.astray)} astray."
+    text += f", {percent(right.numbers.astray, 0)} astray."
     if not state.last:
         return Caption(text)
     text += f" Left {_why(left)}; right {_why(right)}."
@@ -96,63 +95,18 @@ def right_label(state: State) -> str:
     return f"Earth mover's: {metres(state.right.flow.value)}"
 
 
-def numbers_table(state: State) -> Table:
-    """Return every distance of both clouds to the target."""
-    left, right, params = state.left.numbers, state.right.numbers, state.params
-    rows = [
-        ("Chamfer, mean of squares, m²", *_both(left.chamfer, right.chamfer)),
-        ("… only source to target, m²", *_both(left.to_target, right.to_target)),
-        ("… only target to source, m²", *_both(left.to_source, right.to_source)),
-    ]
-    for name in DEFINITIONS:
-        if name != "mean of squares":
-            unit = "m²" if name.endswith("squares") else "m"
-            rows.append((f"Chamfer, {name}, {unit}", *_both(left.definitions[name], right.definitions[name])))
-    rows += [
-        ("Earth mover's, exact, m", *_both(left.earth_movers, right.earth_movers)),
-        (f"Sinkhorn, blur {params.blur:g} m, m", *_both(state.left.sinkhorn, state.right.sinkhorn)),
-        ("Hausdorff, m", *_both(left.hausdorff, right.hausdorff)),
-        (f"F-score at {params.near:g} m", share(left.f_score), share(right.f_score)),
-        ("Pairs by index, mean of squares, m²", *_both(left.index_mse, right.index_mse)),
-        (f"Mass astray by over {params.near:g} m", share(left.astray), share(right.astray)),
-    ]
-    return Table("Distances to the target", ("", "left", "right"), tuple(rows))
-
-
-def yardstick_table(state: State) -> Table:
-    """Return what known changes of the target cost, to read the other numbers by."""
-    rows = [
-        (name, _three(n.chamfer), _three(n.earth_movers), _three(n.hausdorff), _three(n.index_mse))
-        for name, n in state.yardsticks.items()
-    ]
-    header = ("", "Chamfer m²", "EMD m", "Hausdorff m", "index m²")
-    return Table("What known changes of the target cost", header, tuple(rows))
-
-
-def _both(left: float, right: float) -> tuple[str, str]:
-    return _three(left), _three(right)
-
-
 def squared(value: float) -> str:
     """Return a number of square metres with two digits that count."""
-    return f"{_digits(value, 2)} m²"
+    return f"{significant(value, 2)} m²"
 
 
 def metres(value: float) -> str:
     """Return a number of metres with two digits that count."""
-    return f"{_digits(value, 2)} m"
+    return f"{significant(value, 2)} m"
 
 
-def share(value: float) -> str:
-    """Return a share in percent."""
-    return f"{100 * value:.0f} %"
-
-
-def _three(value: float) -> str:
-    return _digits(value, 3)
-
-
-def _digits(value: float, digits: int) -> str:
+def significant(value: float, digits: int) -> str:
+    """Return a number with so many digits that count; a dash where there is none."""
     if np.isnan(value):
         return "–"
     if abs(value) < 1e-12:

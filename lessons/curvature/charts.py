@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from lessons.curvature.state import State, surface_variation
+from lessons.curvature.state import State
+from workbench.geometry.normals import surface_variation
 from workbench.numerals import brief
 from workbench.scene import Curve, Primitive, Role, Scalar, Table
 
@@ -30,7 +31,7 @@ def beside(state: State) -> dict[str, Primitive]:
 def _errors(state: State) -> dict[str, Primitive]:
     roles: dict[str, Role] = {"K": "source", "H": "other", "K by fit": "highlight", "H by fit": "truth"}
     return {
-        f"error {name}": Scalar(round(error, 6), name, "Error to the truth", "%", roles[name])
+        f"error {name}": Scalar(round(100 * error, 6), name, "Error to the truth", "%", roles[name])
         for name, error in state.errors.items()
     }
 
@@ -120,7 +121,9 @@ def vertex_table(state: State) -> Table:
         K, H = now.quadrics.curvatures()
         add("K by fit", K, "m⁻²", "gaussian")
         add("H by fit", H, "m⁻¹", "mean")
-        rows.append(("surface variation of the rings", f"{surface_variation(state):.4f}", ""))
+        rows.append(
+            ("surface variation of the rings", f"{surface_variation(state.subject.p[state.two_rings]):.4f}", "")
+        )
     return Table(f"At vertex {v:,}", ("", "here", "truth"), tuple(rows))
 
 

@@ -3,22 +3,19 @@
 What it teaches: angles around a vertex that do not add up to a full turn *are* Gaussian curvature, times area; the
 cotangent formula gives the mean-curvature normal; both follow from a few triangles and suffer with them, which a fit to
 a neighbourhood does not; and the defects' sum knows nothing of the mesh but its number of holes.
-
-`params.py` has the inputs, `subject.py` the mesh, `study.py` the errors over resolution, `draw.py`, `ring.py` and
-`words.py` the picture, `presets.py` the experiments and questions.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from lessons.curvature.draw import draw
-from lessons.curvature.params import Params
-from lessons.curvature.presets import PRESETS, QUESTIONS
-from lessons.curvature.state import State
+from lessons.curvature.experiments import PRESETS, QUESTIONS
+from lessons.curvature.mesh import EYE, subject_of
+from lessons.curvature.state import Params, State, Subject
 from lessons.curvature.study import error_of, study_of
-from lessons.curvature.subject import EYE, Subject, subject_of
 from workbench.algorithms.curvature import Defects, Gaussian, MeanNormals, Measured, measure_curvature
 from workbench.geometry import curvature
 from workbench.geometry.laplacian import mixed_areas
@@ -47,25 +44,25 @@ def run(
         mean_curvature_normals=normals,
     ):
         errors = errors | new_errors(subject, now)
-        state = State(params, subject, now, errors)
+        state = State(params=params, subject=subject, now=now, errors=errors)
         yield state
     if state is not None and subject.truth is not None:
-        yield State(params, subject, state.now, errors, study_of(params, gaussian, normals))
+        yield replace(state, study=study_of(params, gaussian, normals))
 
 
 def new_errors(subject: Subject, now: Measured) -> dict[str, float]:
-    """Return the errors that this stage lets one know, in per cent."""
+    """Return the errors that this stage lets one know."""
     surface, inside = subject.truth, subject.inside
     if surface is None:
         return {}
     if now.stage == "gaussian":
-        return {"K": 100 * error_of(surface, inside, "gaussian", now.K)}
+        return {"K": error_of(surface, inside, "gaussian", now.K)}
     if now.stage == "mean":
-        return {"H": 100 * error_of(surface, inside, "mean", now.H)}
+        return {"H": error_of(surface, inside, "mean", now.H)}
     if now.stage == "quadric" and now.quadrics is not None:
         K, H = now.quadrics.curvatures()
         both = error_of(surface, inside, "gaussian", K), error_of(surface, inside, "mean", H)
-        return {"K by fit": 100 * both[0], "H by fit": 100 * both[1]}
+        return {"K by fit": both[0], "H by fit": both[1]}
     return {}
 
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from lessons.curvature.state import State, two_rings
+from lessons.curvature.state import State
 from workbench.algorithms.curvature import Measured
+from workbench.geometry.polylines import segments
 from workbench.numerals import brief
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
 
@@ -38,7 +39,7 @@ def angles(now: Measured) -> dict[str, Primitive]:
         b = v[(i + 1) % len(v)] - (v[(i + 1) % len(v)] @ a) * a
         b /= np.linalg.norm(b) or 1.0
         turn = np.linspace(0.06, 0.94, 9)[:, None] * angle
-        arcs.append(_path(centre + radius * (np.cos(turn) * a + np.sin(turn) * b)))
+        arcs.append(segments(centre + radius * (np.cos(turn) * a + np.sin(turn) * b)))
         middle = np.cos(angle / 2) * a + np.sin(angle / 2) * b
         scene[f"angle {i}"] = Label(f"{np.degrees(angle):.1f}°", centre + 1.75 * radius * middle, "highlight")
     scene["arcs"] = Segments(np.concatenate(arcs), "highlight", 3, name="angles at the vertex")
@@ -73,7 +74,7 @@ def flattened(now: Measured) -> dict[str, Primitive]:
     return {
         "flat ring": Mesh(fan, np.stack([0 * k, k, k + 1], 1), "highlight", opacity=0.5, flat=True, name="laid flat"),
         "flat edges": Segments(spokes, "highlight", 2, name="its edges"),
-        "gap": Segments(_path(at(gap, 0.8 * lengths.min(), 0.02)), "source", 5, name="angle defect"),
+        "gap": Segments(segments(at(gap, 0.8 * lengths.min(), 0.02)), "source", 5, name="angle defect"),
         "gap edge": Segments(np.stack([centre[None], end], 1), "source", 3, name="where it would close"),
         "gap label": Label(f"{word} {abs(np.degrees(defect)):.2f}°", at(np.array([full]), 1.1 * lengths.max())[0]),
         "stalk": Segments(np.array([[now.p[now.vertex], centre]]), "correspondence", 1),
@@ -106,7 +107,7 @@ def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
     if np.isfinite(total).all():
         parts = scale * _pushes(now)
         chain = np.cumsum(np.vstack([np.zeros(3), parts]), axis=0) + start
-        scene["pushes"] = Segments(_path(chain), "other", 3, name="cotangent × edge, neighbour after neighbour")
+        scene["pushes"] = Segments(segments(chain), "other", 3, name="cotangent × edge, neighbour after neighbour")
         scene["mean normal"] = Segments(
             np.array([[start, start + scale * total]]), "highlight", 6, name="their sum: 2 H n"
         )
@@ -144,7 +145,7 @@ def circles(now: Measured) -> dict[str, Primitive]:
         else:
             path = here + 1.25 * (CIRCLE / np.pi - 1)[:, None] * t
         radius = f"radius {brief(1 / abs(k))} m" if abs(k) > 1e-3 else "straight"
-        scene[f"circle {name}"] = Segments(_path(path), role, 4, name=f"bends as {name}")
+        scene[f"circle {name}"] = Segments(segments(path), role, 4, name=f"bends as {name}")
         scene[f"label {name}"] = Label(f"{name} = {brief(k)} m⁻¹, {radius}", path[30 if name == "k₁" else 66], role)
     return scene
 
@@ -153,7 +154,7 @@ def patch(state: State) -> dict[str, Primitive]:
     """Return the quadric at the vertex over its two rings, and the vertices it was fitted to."""
     now, quadrics = state.now, state.now.quadrics
     assert quadrics is not None
-    near = two_rings(state)
+    near = state.two_rings
     scene: dict[str, Primitive] = {
         "fitted": Points(
             now.p[near] + 0.1 * edge_length(now) * now.normals[near],
@@ -190,7 +191,3 @@ def _corner(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
 
 def _lifted(now: Measured, edges: float = LIFT) -> np.ndarray:
     return now.p[now.vertex] + edges * edge_length(now) * now.normals[now.vertex]
-
-
-def _path(p: np.ndarray) -> np.ndarray:
-    return np.stack([p[:-1], p[1:]], axis=1)

@@ -1,13 +1,13 @@
 """How wrong the estimates are, and whether a finer mesh makes them better."""
 
 import functools
-from dataclasses import dataclass
-from typing import Any, Literal
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
-from lessons.curvature.params import Params
-from lessons.curvature.subject import shape_of, surface_of
+from lessons.curvature.mesh import shape_of, surface_of
+from lessons.curvature.state import Params, Study
 from workbench.algorithms.curvature import Gaussian, MeanNormals
 from workbench.data.surfaces import Surface
 from workbench.geometry.curvature import mean_from_normals
@@ -18,40 +18,26 @@ Letter = Literal["gaussian", "mean"]
 COUNTS = (400, 1000, 2500, 6400)
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
-    """Relative errors of four estimates on ever finer meshes of one surface.
-
-    Attributes:
-        counts: How many vertices the meshes have.
-        K, H: Errors of the angle defects and the cotangents.
-        K_fit, H_fit: Errors of the quadric fits.
-    """
-
-    counts: np.ndarray
-    K: np.ndarray
-    H: np.ndarray
-    K_fit: np.ndarray
-    H_fit: np.ndarray
-
-
 def study_of(params: Params, gaussian_curvature: Gaussian, mean_curvature_normals: MeanNormals) -> Study:
     """Measure a built-in surface on four meshes, the last with edges four times shorter than the first."""
-    rows = []
-    for made in _meshes(*shape_of(params)):
-        p, faces, inside = made.surface.p, made.surface.faces, made.inside
+    errors: dict[str, list[float]] = {name: [] for name in ("K", "H", "K_fit", "H_fit")}
+    meshes = _meshes(replace(shape_of(params), vertices=Params.vertices))  # the same whatever is looked at
+    for made in meshes:
+        p, faces = made.surface.p, made.surface.faces
         H = mean_from_normals(mean_curvature_normals(p, faces), made.normals)
-        estimates: tuple[tuple[np.ndarray, Letter], ...] = (
-            (gaussian_curvature(p, faces), "gaussian"),
-            (H, "mean"),
-            (made.K_fit, "gaussian"),
-            (made.H_fit, "mean"),
+        estimates: tuple[tuple[str, Letter, np.ndarray], ...] = (
+            ("K", "gaussian", gaussian_curvature(p, faces)),
+            ("H", "mean", H),
+            ("K_fit", "gaussian", made.K_fit),
+            ("H_fit", "mean", made.H_fit),
         )
-        rows.append((len(p), *(error_of(made.surface, inside, name, estimate) for estimate, name in estimates)))
-    return Study(*np.array(rows, dtype=float).T)
+        for name, letter, estimate in estimates:
+            errors[name].append(error_of(made.surface, made.inside, letter, estimate))
+    counts = np.array([len(made.surface.p) for made in meshes], dtype=float)
+    return Study(counts=counts, **{name: np.array(values) for name, values in errors.items()})
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class _Made:
     """One of the four meshes, and what does not depend on the functions in the slots."""
 
@@ -63,13 +49,19 @@ class _Made:
 
 
 @functools.lru_cache(maxsize=8)
-def _meshes(name: str, *rest: Any) -> tuple[_Made, ...]:
-    surfaces = [surface_of(name, count, *rest) for count in COUNTS]
-    return tuple(
-        _Made(
-            s, ~on_boundary(s.faces, len(s.p)), vertex_normals(s.p, s.faces), *fit_quadrics(s.p, s.faces).curvatures()
-        )
-        for s in surfaces
+def _meshes(shape: Params) -> tuple[_Made, ...]:
+    return tuple(_made(surface_of(replace(shape, vertices=count))) for count in COUNTS)
+
+
+def _made(surface: Surface) -> _Made:
+    p, faces = surface.p, surface.faces
+    K_fit, H_fit = fit_quadrics(p, faces).curvatures()
+    return _Made(
+        surface=surface,
+        inside=~on_boundary(faces, len(p)),
+        normals=vertex_normals(p, faces),
+        K_fit=K_fit,
+        H_fit=H_fit,
     )
 
 

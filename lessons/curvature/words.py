@@ -4,7 +4,7 @@ import numpy as np
 
 from lessons.curvature.scales import H_SCALE, K_SCALE, reach, share_within
 from lessons.curvature.state import State
-from workbench.numerals import brief
+from workbench.numerals import brief, percent
 from workbench.scene import Caption
 
 NOWHERE = "The vertex lies on the border, where {} is not defined: choose one inside."
@@ -126,8 +126,8 @@ def _quadric(state: State) -> Caption:
     if state.errors:
         e = state.errors
         text += (
-            f" Relative errors (RMS over all vertices): K {_percent(e['K by fit'])} (angles {_percent(e['K'])}), H"
-            f" {_percent(e['H by fit'])} (cotangents {_percent(e['H'])})."
+            f" Relative errors (RMS over all vertices): K {percent(e['K by fit'])} (angles {percent(e['K'])}), H"
+            f" {percent(e['H by fit'])} (cotangents {percent(e['H'])})."
         )
     return Caption(text)
 
@@ -151,8 +151,8 @@ def _finer(state: State) -> Caption:
     study = state.study
     assert study is not None
     text = f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from angles (RMS) goes from"
-    text += f" {_percent(100 * study.K[0])} to {_percent(100 * study.K[-1])}, by quadric fit from"
-    text += f" {_percent(100 * study.K_fit[0])} to {_percent(100 * study.K_fit[-1])}."
+    text += f" {percent(study.K[0])} to {percent(study.K[-1])}, by quadric fit from"
+    text += f" {percent(study.K_fit[0])} to {percent(study.K_fit[-1])}."
     missing = {"defect taken for K": "division by the area", "H without the half": "½ in H"}.get(state.params.mistake)
     if missing:
         return Caption(f"{text} No mesh is fine enough to mend a missing {missing}.", "wrong")
@@ -191,7 +191,7 @@ def _error(state: State, name: str) -> str:
     if name not in state.errors:
         return ""
     which = "the vertices inside" if state.subject.border.any() else "all vertices"
-    return f" Relative error (RMS over {which}): {_percent(state.errors[name])}."
+    return f" Relative error (RMS over {which}): {percent(state.errors[name])}."
 
 
 def _colors(state: State, values: np.ndarray, fixed: float, unit: str) -> str:
@@ -200,9 +200,3 @@ def _colors(state: State, values: np.ndarray, fixed: float, unit: str) -> str:
         return ""
     limit = reach(state, values, fixed)
     return f" The colours reach to ±{brief(limit)} {unit}; {share_within(values, limit)} of the vertices lie within."
-
-
-def _percent(percent: float) -> str:
-    if percent < 0.01:
-        return "0 %" if percent < 1e-6 else "under 0.01 %"
-    return f"{percent:.2g} %" if percent < 99.5 else f"{percent:,.0f} %"

@@ -4,15 +4,15 @@ import math
 
 import numpy as np
 
-from lessons.disparity.beside import beside
-from lessons.disparity.marks import framed
-from lessons.disparity.pairs import Setup
-from lessons.disparity.states import State
+from lessons.disparity.charts import beside, framed
+from lessons.disparity.state import Setup, State
 from lessons.disparity.words import caption
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.cameras import back_project
 from workbench.geometry.motions import motion
-from workbench.geometry.stereo import depth_cloud, depth_interval, points_on_ray
+from workbench.geometry.polylines import segments
+from workbench.geometry.stereo import depth_cloud, depth_from_disparity, depth_interval, points_on_ray
+from workbench.numerals import brief, length
 from workbench.scene import Camera, Color, Field, Label, Picture, Points, Primitive, Scene, Segments
 
 # The left camera is at the world's origin and looks along +Y.
@@ -103,7 +103,7 @@ def _cloud_color(state: State, seen: np.ndarray) -> tuple[Color, str]:
             off, 0.0, max(float(np.nanpercentile(off, 95)), 1e-6), "Depth error, of the depth", "%"
         ), CLOUD_BY_ERROR
     if truth is None:
-        off, title = state.uncertainty[seen], f"Depth error of {state.disparity_error:g} px"
+        off, title = state.uncertainty[seen], f"Depth error of {brief(state.disparity_error)} px"
     else:
         true_depth = camera.f * camera.baseline / np.maximum(truth + camera.doffs, 1e-9)
         off, title = np.abs(state.depth - true_depth)[seen], "Depth error"
@@ -122,7 +122,7 @@ def _bars(state: State, seen: np.ndarray) -> Segments:
     near_far = depth_interval(d, camera.f, camera.baseline, error)
     ends = [back_project(uv, np.minimum(depth, 2 * setup.far), np.eye(4), camera.K) for depth in near_far]
     return Segments(
-        np.stack(ends, axis=1), "correspondence", 2.0, T_WORLD_LEFT, 0.9, name=f"± {error:g} px along the ray"
+        np.stack(ends, axis=1), "correspondence", 2.0, T_WORLD_LEFT, 0.9, name=f"± {brief(error)} px along the ray"
     )
 
 
@@ -155,19 +155,17 @@ def _followed(state: State) -> dict[str, Primitive]:
         p = points_on_ray((u, v), np.array([chosen]), camera)
         scene["chosen"] = Points(p, "highlight", 2.2 * size, T_WORLD_LEFT, name="chosen")
         scene["label/chosen"] = Label(
-            f"d = {state.chosen:.3g} px{_metres(setup, chosen, '.3g')}",
+            f"d = {brief(state.chosen)} px{_away(setup, chosen)}",
             p[0] + (0, -4 * size, 0),
             "highlight",
             T_WORLD_LEFT,
         )
         eye = np.array([camera.baseline, 0.0, 0.0])
         scene["partner ray"] = Segments(np.array([[eye, p[0]]]), "source", 1.5, T_WORLD_LEFT, name="ray of its partner")
-    if setup.pair.disparity is not None:
-        d = float(setup.pair.disparity[v, u]) + camera.doffs
-        true = camera.f * camera.baseline / d if d > 0 else math.inf
-        if true <= setup.far:
-            p = points_on_ray((u, v), np.array([true]), camera)
-            scene["truth"] = Points(p, "truth", 1.7 * size, T_WORLD_LEFT, name="true point")
+    true = setup.true_depth[v, u]
+    if true <= setup.far:
+        p = points_on_ray((u, v), np.array([true]), camera)
+        scene["truth"] = Points(p, "truth", 1.7 * size, T_WORLD_LEFT, name="true point")
     return scene
 
 
@@ -184,21 +182,19 @@ def _swept(state: State) -> dict[str, Primitive]:
     corners = np.concatenate(
         [points_on_ray(uv, z, setup.pair.camera) for uv in ((0, 0), (w - 1, 0), (w - 1, h - 1), (0, h - 1))]
     )
-    ends = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     return {
-        "swept": Segments(ends, "other", 2.0, T_WORLD_LEFT, name="everything of this disparity"),
-        "label/swept": Label(
-            f"d = {state.done - 1} px{_metres(setup, depth, '.2f')}", corners[1], "other", T_WORLD_LEFT
+        "swept": Segments(
+            segments(corners, closed=True), "other", 2.0, T_WORLD_LEFT, name="everything of this disparity"
         ),
+        "label/swept": Label(f"d = {state.done - 1} px{_away(setup, depth)}", corners[1], "other", T_WORLD_LEFT),
     }
 
 
-def _metres(setup: Setup, depth: float, digits: str) -> str:
-    return f": {depth:{digits}} m" if setup.metric else ""
+def _away(setup: Setup, depth: float) -> str:
+    return f": {length(depth)}" if setup.metric else ""
 
 
 def _depth(state: State, d: np.ndarray) -> np.ndarray:
     """Return the depths of whole disparities with the focal length in use."""
     camera = state.setup.pair.camera
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(d + camera.doffs >= 0, state.setup.f * camera.baseline / (d + camera.doffs), np.nan)
+    return depth_from_disparity(d + camera.doffs, state.setup.f, camera.baseline)

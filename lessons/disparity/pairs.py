@@ -1,14 +1,12 @@
 """The pair of pictures that a run starts from, with the mistake that was asked for."""
 
 import functools
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from lessons.disparity.params import Params
-from workbench.algorithms.cost_volume import census_cost_volume
-from workbench.algorithms.disparity_map import agree, seen_from_right, winner_takes_all
+from lessons.disparity.state import Params, Setup
 from workbench.data.stereo import StereoPair, grey, motorcycle_pair, read_pair, shrunk, synthetic_pair
 from workbench.errors import InputError
 from workbench.geometry.stereo import StereoCamera
@@ -18,53 +16,6 @@ MOST_CELLS = 5_000_000
 ROWS_OFF = 2
 DARKER = 0.7
 MADE_UP_BASELINE = 0.1
-
-
-@dataclass(frozen=True, eq=False)
-class Setup:
-    """What stays the same for the length of a run.
-
-    Args:
-        params: What was asked for.
-        pair: The pictures as they are matched, and the truth about the left one.
-        left, right: Their brightness, 0 .. 255.
-        f: The focal length with which depths are made: the camera's, but for the mistake of not rescaling it.
-        pixel: The pixel (u, v) that is followed, inside the picture.
-        max_disparity: The largest that is tried: below the width of the pictures.
-        far: Depth up to which things are drawn, metres.
-        metric: Whether the cameras are known. Where they are not, the pair's camera is made up: nothing is in metres.
-    """
-
-    params: Params
-    pair: StereoPair
-    left: np.ndarray
-    right: np.ndarray
-    f: float
-    pixel: tuple[int, int]
-    max_disparity: int
-    far: float
-    metric: bool = True
-
-    @functools.cached_property
-    def agreeing(self) -> tuple[float, float]:
-        """The share of left pixels whose partners choose them back; and the same with the pictures exchanged.
-
-        By census, on one row in four.
-        """
-        left, right = self.left[::4], self.right[::4]
-        return _agreeing(left, right, self.max_disparity), _agreeing(right, left, self.max_disparity)
-
-    @property
-    def seem_exchanged(self) -> bool:
-        """Whether clearly more pixels find each other with left and right exchanged."""
-        as_given, exchanged = self.agreeing
-        return exchanged > as_given + 0.07
-
-
-def _agreeing(left: np.ndarray, right: np.ndarray, max_disparity: int) -> float:
-    cost = census_cost_volume(left, right, max_disparity, 3)
-    winner, back = (winner_takes_all(volume).astype(int) for volume in (cost, seen_from_right(cost)))
-    return float(agree(winner, back).mean())
 
 
 def setup_of(params: Params) -> Setup:

@@ -5,8 +5,10 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from lessons.disparity.states import State
+from lessons.disparity.state import State
+from lessons.disparity.truth import depth_errors, flat_parts, known_depths
 from workbench.algorithms.disparity import Stage
+from workbench.numerals import brief, fixed, length, percent
 from workbench.scene import Caption
 
 Tone: TypeAlias = Literal["info", "good", "wrong"]
@@ -42,9 +44,9 @@ def _compared(state: State) -> str:
     found = (
         "so far each pixel keeps this one"
         if d == 0
-        else f"{fresh:,} pixels ({100 * fresh / n:.1f} %) fit better than at any smaller shift"
+        else f"{fresh:,} pixels ({percent(fresh / n, 1)}) fit better than at any smaller shift"
     )
-    return f"{start}{found[0].upper()}{found[1:]}; the mean lowest cost is {state.lowest:.3g}."
+    return f"{start}{found[0].upper()}{found[1:]}; the mean lowest cost is {brief(state.lowest)}."
 
 
 def _aggregated(state: State) -> str:
@@ -55,17 +57,19 @@ def _aggregated(state: State) -> str:
         )
     return (
         f"{cost} over {window} × {window} pixels: a whole window must fit, not one pixel by chance"
-        f"{_change(state, ': wrong pixels {} → {} %')}."
+        f"{_change(state, ': ')}."
     )
 
 
 def _path(state: State) -> str:
     assert state.direction is not None
-    fell = "" if state.before is None else f"energy {state.before.energy:.4g} → {state.energy:.4g} per pixel"
+    fell = (
+        "" if state.before is None else f"energy {brief(state.before.energy, 4)} → {brief(state.energy, 4)} per pixel"
+    )
     P1, P2 = state.jumps
     return (
-        f"Path {state.done} of 8, {WAYS[state.direction]}: a step of 1 px costs P1 = {P1:.3g}, a jump P2 = {P2:.3g}; "
-        f"{fell}{_change(state, ', wrong pixels {} → {} %')}."
+        f"Path {state.done} of 8, {WAYS[state.direction]}: a step of 1 px costs P1 = {brief(P1)}, a jump P2 = {brief(P2)}; "
+        f"{fell}{_change(state, ', ')}."
     )
 
 
@@ -73,14 +77,14 @@ def _checked(state: State) -> str:
     lost = int(np.isnan(state.disparity).sum())
     text = (
         "The right picture chooses too: where the two differ by over 1 px, the pixel is given up: "
-        f"{lost:,} ({100 * state.unknown:.1f} %)"
+        f"{lost:,} ({percent(state.unknown, 1)})"
     )
     visible = state.setup.pair.visible
     truth = state.setup.pair.disparity
     if visible is not None and truth is not None and (np.isfinite(truth) & ~visible).any():
         hidden = np.isnan(state.disparity[np.isfinite(truth) & ~visible]).mean()
-        text += f", {100 * hidden:.0f} % of what the right camera cannot see"
-    return f"{text}{_change(state, '; wrong pixels {} → {} %')}.{_exchanged(state)}"
+        text += f", {percent(hidden, 0)} of what the right camera cannot see"
+    return f"{text}{_change(state, '; ')}.{_exchanged(state)}"
 
 
 def _exchanged(state: State) -> str:
@@ -89,8 +93,8 @@ def _exchanged(state: State) -> str:
         return ""
     as_given, exchanged = state.setup.agreeing
     return (
-        f" With the pictures exchanged more pixels find each other, {100 * exchanged:.0f} % instead of"
-        f" {100 * as_given:.0f} %: is the left one the right one?"
+        f" With the pictures exchanged more pixels find each other, {percent(exchanged, 0)} instead of"
+        f" {percent(as_given, 0)}: is the left one the right one?"
     )
 
 
@@ -100,7 +104,7 @@ def _refined(state: State) -> str:
     mean = float(moved.mean()) if known.any() else 0.0
     return (
         "The lowest point of the parabola through three costs lies between pixels: "
-        f"{mean:.2f} px from whole ones on average{_error(state)}."
+        f"{fixed(mean, 2)} px from whole ones on average{_error(state)}."
     )
 
 
@@ -114,27 +118,29 @@ def _of_depth(state: State) -> Caption:
     if not setup.metric:
         return _of_unknown_cameras(state)
     depth = float(state.depth[v, u])
-    d = "d" if camera.doffs == 0 else f"(d + {camera.doffs:.3g})"
-    law = f"Z = f B / {d} with f = {setup.f:.4g} px, B = {camera.baseline:.3g} m"
-    true = _true_depth(state)
-    truth = f" (truth {true:.3f} m)" if math.isfinite(true) else " (truth: infinitely far)" if math.isinf(true) else ""
+    d = "d" if camera.doffs == 0 else f"(d + {brief(camera.doffs)})"
+    law = f"Z = f B / {d} with f = {brief(setup.f, 4)} px, B = {brief(camera.baseline)} m"
+    true = float(setup.true_depth[v, u])
+    truth = "" if math.isnan(true) else f" (truth: {distance(true)})"
     if math.isnan(depth):
         here = f"left pixel ({u}, {v}) is unknown and stays so"
     elif math.isinf(depth):
         here = f"left pixel ({u}, {v}) has d = 0, which means infinitely far, not missing{truth}"
     else:
-        here = f"left pixel ({u}, {v}), d = {state.chosen:.2f} px, is {depth:.3f} m away{truth}"
+        here = f"left pixel ({u}, {v}), d = {fixed(state.chosen, 2)} px, is {distance(depth)} away{truth}"
     infinite = int(np.isinf(state.depth).sum())
     more = f" {infinite:,} pixels are infinitely far." if infinite else ""
     extra = (
-        "" if not setup.params.disparity_error else f" {setup.params.disparity_error:+g} px was added to every d first."
+        ""
+        if not setup.params.disparity_error
+        else f" {brief(setup.params.disparity_error)} px was added to every d first."
     )
     return Caption(f"{law}: {here}.{more}{extra}", _tone(state))
 
 
 def _of_unknown_cameras(state: State) -> Caption:
     u, v = state.setup.pixel
-    here = "is unknown" if math.isnan(state.chosen) else f"has d = {state.chosen:.2f} px"
+    here = "is unknown" if math.isnan(state.chosen) else f"has d = {fixed(state.chosen, 2)} px"
     return Caption(
         f"Left pixel ({u}, {v}) {here}. Z = f B / d needs f and the baseline B of these cameras, which are not known: give"
         " own_focal_length and own_baseline for metres. The cloud only shows what is nearer than what; its size is made up."
@@ -148,9 +154,9 @@ def _of_relative_error(state: State) -> Caption:
     if not len(known):
         return Caption("No pixel has a disparity above 0, so there is no error to show.", "wrong")
     at = [float(d) + state.setup.pair.camera.doffs for d in np.percentile(known, [98, 50])]
-    moved = ", ".join(f"at {d:.3g} px by {100 * e / d:.2g} %" for d in at if d > 0)
+    moved = ", ".join(f"at {brief(d)} px by {percent(e / d)}" for d in at if d > 0)
     return Caption(
-        f"To first order {e:g} px of error moves a depth by {e:g} px / d of itself, whatever the cameras: {moved}."
+        f"To first order {brief(e)} px of error moves a depth by {brief(e)} px / d of itself, whatever the cameras: {moved}."
     )
 
 
@@ -167,61 +173,19 @@ def _of_error(state: State) -> Caption:
         if 1 < len(flat) <= 4 and max(flat) > 1.2 * min(flat)
         else [float(z) for z in np.percentile(state.depth[known], [2, 98])]
     )
-    moved = ", ".join(f"{z:.3g} m by {_length(z * z / fB * e)}" for z in at)
-    text = f"To first order {e:g} px of error moves a depth by Z² / (f B) · {e:g} px: {moved}."
+    moved = ", ".join(f"{length(z)} by {length(z * z / fB * e)}" for z in at)
+    text = f"To first order {brief(e)} px of error moves a depth by Z² / (f B) · {brief(e)} px: {moved}."
     if state.setup.params.disparity_error and at == list(flat):
-        text += f" Measured: {', '.join(_length(abs(float(np.median(off)))) for off in flat.values())}."
+        text += f" Measured: {', '.join(length(abs(float(np.median(off)))) for off in flat.values())}."
     off = depth_errors(state)
     if len(off):
-        text += f" Half of all points are within {_length(float(np.median(off)))} of the truth."
+        text += f" Half of all points are within {length(float(np.median(off)))} of the truth."
     return Caption(text, _tone(state))
-
-
-def flat_parts(state: State) -> dict[float, np.ndarray]:
-    """Return, for every depth that hundreds of pixels share exactly, how far theirs is off, metres; empty without truth."""
-    setup = state.setup
-    truth, visible, camera = setup.pair.disparity, setup.pair.visible, setup.pair.camera
-    if truth is None or visible is None:
-        return {}
-    d = np.round(truth + camera.doffs, 6)
-    values, counts = np.unique(d[visible & (d > 0)], return_counts=True)
-    parts = {}
-    for value in values[counts > 300][::-1]:
-        depth = camera.f * camera.baseline / float(value)
-        here = visible & (d == value) & np.isfinite(state.depth)
-        if here.any():
-            parts[depth] = state.depth[here] - depth
-    return parts
-
-
-def depth_errors(state: State) -> np.ndarray:
-    """Return how far the depths that are known are from the true ones, metres; empty without truth."""
-    found, true = _known_depths(state)
-    return np.abs(found - true)
-
-
-def _known_depths(state: State) -> tuple[np.ndarray, np.ndarray]:
-    """Return the depths found and the true ones, metres, of the pixels where both are known and finite."""
-    setup = state.setup
-    truth, camera = setup.pair.disparity, setup.pair.camera
-    if truth is None:
-        return np.zeros(0), np.zeros(0)
-    known = np.isfinite(state.depth) & np.isfinite(truth) & (truth + camera.doffs > 0)
-    return state.depth[known], camera.f * camera.baseline / (truth[known] + camera.doffs)
-
-
-def _true_depth(state: State) -> float:
-    setup = state.setup
-    if setup.pair.disparity is None:
-        return math.nan
-    u, v = setup.pixel
-    d = float(setup.pair.disparity[v, u]) + setup.pair.camera.doffs
-    return math.inf if d == 0 else setup.pair.camera.f * setup.pair.camera.baseline / d if d > 0 else math.nan
 
 
 def _tone(state: State) -> Tone:
     """Judge the depths: good within 3 % in the median and with few wrong pixels, wrong beyond 10 % or with many."""
-    found, true = _known_depths(state)
+    found, true = known_depths(state)
     if not len(found):
         return "info"
     relative = float(np.median(np.abs(found / true - 1.0)))
@@ -230,21 +194,22 @@ def _tone(state: State) -> Tone:
     return "info" if relative > 0.03 or state.wrong > 0.05 else "good"
 
 
+def distance(depth: float) -> str:
+    """Write how far away something is, in metres, to the millimetre."""
+    return "unknown" if math.isnan(depth) else "infinitely far" if math.isinf(depth) else f"{fixed(depth, 3)} m"
+
+
 def _wrong_now(state: State) -> str:
-    return "" if math.isnan(state.wrong) else f"; {100 * state.wrong:.1f} % are wrong"
+    return "" if math.isnan(state.wrong) else f"; {percent(state.wrong, 1)} are wrong"
 
 
-def _change(state: State, text: str) -> str:
+def _change(state: State, lead: str) -> str:
     if state.before is None or math.isnan(state.wrong):
         return ""
-    return text.format(f"{100 * state.before.wrong:.1f}", f"{100 * state.wrong:.1f}")
+    return f"{lead}wrong pixels {fixed(100 * state.before.wrong, 1)} → {percent(state.wrong, 1)}"
 
 
 def _error(state: State) -> str:
     if state.before is None or math.isnan(state.error) or math.isnan(state.before.error):
         return ""
-    return f"; mean error of the right ones {state.before.error:.3f} → {state.error:.3f} px"
-
-
-def _length(metres: float) -> str:
-    return f"{1000 * metres:.1f} mm" if metres < 0.01 else f"{100 * metres:.1f} cm" if metres < 1 else f"{metres:.2f} m"
+    return f"; mean error of the right ones {fixed(state.before.error, 3)} → {fixed(state.error, 3)} px"

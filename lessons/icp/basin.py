@@ -2,13 +2,12 @@
 
 import functools
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from lessons.icp.params import Params
-from lessons.icp.prepared import scans_of
-from lessons.icp.scans import Error, Scans
+from lessons.icp.scans import scans_of
+from lessons.icp.state import Params, Scans, Try
 from workbench.algorithms.icp import Align, Gate, icp
 from workbench.geometry.alignment import align_affine, align_rigid, align_similarity
 from workbench.geometry.motions import inverse
@@ -16,23 +15,6 @@ from workbench.tracing import untraced
 
 ANGLES = tuple(range(0, 181, 15))
 POINTS, MAX_ITERATIONS, TOLERANCE = 300, 100, 1e-4
-
-
-@dataclass(frozen=True, eq=False)
-class Try:
-    """One start and where ICP ended from it.
-
-    Attributes:
-        start_angle: Degrees about the vertical, away from the truth.
-        T_target_truth: The end as a motion of the truly placed source: the identity when it came home.
-        error: How far that is from the truth.
-        rmse: Of the kept matches at the end, metres.
-    """
-
-    start_angle: float
-    T_target_truth: np.ndarray
-    error: Error
-    rmse: float
 
 
 def tries_of(params: Params) -> Iterator[Try]:
@@ -49,7 +31,7 @@ def gate_of(params: Params, scans: Scans) -> Gate:
     return {
         "all": Gate(),
         "trimmed": Gate(keep=params.keep),
-        "max-distance": Gate(max_distance=params.max_distance / scans.scale),
+        "max-distance": Gate(max_distance=params.max_distance / scans.frame.scale),
         "3-medians": Gate(medians=3.0),
     }[params.gate]
 
@@ -76,7 +58,7 @@ def _try(params: Params, angle: float) -> Try:
     with untraced():
         *_, end = states
     T = end.T_target_source
-    return Try(angle, T @ inverse(scans.T_truth), scans.error(T), end.rmse)
+    return Try(start_angle=angle, T_target_truth=T @ inverse(scans.T_truth), error=scans.error(T), rmse=end.rmse)
 
 
 def thinned(scans: Scans) -> np.ndarray:

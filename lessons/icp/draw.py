@@ -3,10 +3,10 @@
 import numpy as np
 
 from lessons.icp.basin import thin_rows
-from lessons.icp.scans import Scans
-from lessons.icp.state import State
-from lessons.icp.words import caption, length
+from lessons.icp.state import Scans, State
+from lessons.icp.words import caption
 from workbench.geometry.motions import apply, inverse
+from workbench.numerals import length
 from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments
 
 MOST_LINES = 750, 200  # of small clouds and of large ones, whose recordings the lines would fill
@@ -18,7 +18,7 @@ ARROW = np.array([[[0.0, 0.0, 0.0], [0.62, 0.0, 0.0]], [[0.62, 0.0, 0.0], [0.54,
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
     scans, now = state.scans, state.icp
-    T_world_source = scans.shown(now.T_target_source)
+    T_world_source = scans.frame.shown_motion(now.T_target_source)
     scene: dict[str, Primitive] = {
         "target": Points(scans.p_target_shown, "target", _radius(len(scans.p_target)), name="target"),
         "source": Points(
@@ -30,7 +30,7 @@ def draw(state: State) -> Scene:
         "caption": caption(state),
         "grid": Segments(scans.grid, "neutral", 1, opacity=0.3, name=f"grid {length(scans.cell)}"),
     }
-    if scans.scale != 1.0:
+    if scans.frame.scale != 1.0:
         size = f"a square of the grid is {length(scans.cell)} of the scans"
         scene["size"] = Label(size, np.array([0.0, 0.0, -0.75]))
     if scans.T_truth is not None:
@@ -38,7 +38,9 @@ def draw(state: State) -> Scene:
             ARROW, "truth", 2.5, _arrow_pose(scans, scans.T_truth), 0.8, name="where it belongs"
         )
     if state.tries:
-        T_world_try = scans.shown(state.tries[-1].T_target_truth @ scans.T_truth)  # T_truth is T_target_source
+        T_world_try = scans.frame.shown_motion(
+            state.tries[-1].T_target_truth @ scans.T_truth
+        )  # T_truth is T_target_source
         scene["try"] = Points(
             scans.p_source_shown[thin_rows(scans)], "highlight", 0.008, T_world_try, name="end from another start"
         )
@@ -72,7 +74,9 @@ def _basin(state: State) -> dict[str, Primitive]:
     x_label, metres = "start angle (deg)", "Basin: final RMSE and final distance"
 
     def curve(values: list[float], name: str, chart: str, unit: str, color: Role) -> Curve:
-        return Curve(angles, np.array(values), name, chart, x_label, unit, color, marks=marks)
+        return Curve(
+            angles, np.array(values), name, chart=chart, x_label=x_label, y_label=unit, color=color, marks=marks
+        )
 
     turns, distances = ([getattr(t.error, name) for t in state.tries] for name in ("rotation", "displacement"))
     return {
@@ -102,7 +106,9 @@ def _source_color(scans: Scans):
 
 def _arrow_pose(scans: Scans, T_target_source: np.ndarray) -> np.ndarray:
     """Return the pose of an arrow fixed to the source, which points along the picture's x axis at the truth."""
-    return scans.shown(T_target_source if scans.T_truth is None else T_target_source @ inverse(scans.T_truth))
+    return scans.frame.shown_motion(
+        T_target_source if scans.T_truth is None else T_target_source @ inverse(scans.T_truth)
+    )
 
 
 def _radius(n: int) -> float:

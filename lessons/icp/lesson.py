@@ -2,26 +2,19 @@
 
 What it teaches: ICP walks downhill from where it starts, home or into another valley, so a small RMSE proves nothing; the
 start, the gate, the error measure and how evenly the scans are sampled decide.
-
-`params.py` has the inputs, `prepared.py` and `scans.py` the clouds, `draw.py` and `words.py` the picture, `presets.py` the
-experiments and questions.
 """
 
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
-from lessons.icp.basin import Try, align_of, gate_of, tries_of
+from lessons.icp.basin import align_of, gate_of, tries_of
 from lessons.icp.draw import draw
-from lessons.icp.params import Params
-from lessons.icp.prepared import scans_of
-from lessons.icp.presets import PRESETS, QUESTIONS
-from lessons.icp.state import State
+from lessons.icp.experiments import PRESETS, QUESTIONS
+from lessons.icp.scans import scans_of
+from lessons.icp.state import Params, State, Try
 from workbench.algorithms.icp import Align, Match, PlaneStep, icp
-from workbench.geometry.alignment import align_rigid, nearest_rotation, point_to_plane_step
-from workbench.geometry.motions import rotation_angle
+from workbench.geometry.alignment import align_rigid, degrees_between, point_to_plane_step
 from workbench.lesson import Lesson, View
 
 MAX_ITERATIONS, TOLERANCE = 150, 1e-5
@@ -48,9 +41,15 @@ def run(
         max_iterations=MAX_ITERATIONS,
         tolerance=TOLERANCE,
     ):
-        turned = turn(now.T_target_source, T_before)
-        right = scans.right_share(now.indices, now.kept)
-        state = State(params, scans, now, rmse_before, turned, scans.error(now.T_target_source), right)
+        state = State(
+            params=params,
+            scans=scans,
+            icp=now,
+            rmse_before=rmse_before,
+            turned=degrees_between(now.T_target_source, T_before),
+            error=scans.error(now.T_target_source),
+            right=scans.right_share(now.indices, now.kept),
+        )
         yield state
         T_before, rmse_before = now.T_target_source, now.rmse
     ours = align is None and match is None and step is None
@@ -60,11 +59,6 @@ def run(
     for attempt in tries_of(params):
         tries = (*tries, attempt)
         yield replace(state, tries=tries)
-
-
-def turn(T_new: np.ndarray, T_old: np.ndarray) -> float:
-    """Return the angle between two motions, in degrees."""
-    return float(np.degrees(rotation_angle(nearest_rotation(T_new[:3, :3]) @ nearest_rotation(T_old[:3, :3]).T)))
 
 
 lesson = Lesson(

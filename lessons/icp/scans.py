@@ -1,101 +1,164 @@
-"""The two scans of a run in one value: points, truth and start, and how they stand in the picture."""
+"""Where the scans of a run come from: built-in shapes, a lidar on a street, or the person's own files."""
 
+import functools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
+import scipy
 
-from workbench.geometry.alignment import nearest_rotation
-from workbench.geometry.motions import apply, exp_so3, motion, rotation_angle
+from lessons.icp.state import Params, Planes, Scans, Thinning
+from workbench.data.clouds import pair
+from workbench.data.files import read_cloud, read_pose, stamp
+from workbench.data.framing import FAR, METRES, Frame, Unit, Up, extent, frame, ground_grid, round_below
+from workbench.data.lidar import lidar_pair
+from workbench.data.thinning import some_points, voxel_means
+from workbench.errors import InputError
+from workbench.geometry.motions import apply, exp_so3, inverse, motion
+from workbench.geometry.normals import on_a_line, point_normals
 
-HOME_DEGREES, HOME_SPACINGS = 5.0, 2.0
+RINGS, COLUMNS = 32, 900
 WIDTH = 1.2  # metres of the picture that large or small scans are shown wide
 
 
-@dataclass(frozen=True)
-class Error:
-    """How far a motion is from the truth; NaN where that is not known.
+@dataclass(frozen=True, kw_only=True)
+class _Thin:
+    """How large scans are thinned."""
 
-    Attributes:
-        rotation: Degrees.
-        translation: At the middle of the source, metres.
-        displacement: Root mean square distance of the source points from where they belong, metres: it holds all of the
-            error, also a wrong scale.
+    how: Thinning
+    voxel: float
+    most: int
+    seed: int
+
+
+def scans_of(params: Params) -> Scans:
+    """Return the scans that the params describe.
+
+    Raises:
+        InputError: If an own file cannot be used, or only one of the two scans is given.
     """
+    own = (params.target, params.source, params.truth) != (None, None, None)
+    scans = _own(params) if own else _lidar(params) if params.shape == "lidar" else _built_in(params)
+    v_world, w_world = np.array(params.guess[:3]), np.array(params.guess[3:])
+    T_start = scans.about_centre(w_world)  # the handle turns about the middle of the picture
+    T_start[:3, 3] += scans.frame.R_world_file.T @ v_world / scans.frame.scale
+    return replace(scans, T_start=T_start)
 
-    rotation: float
-    translation: float
-    displacement: float
+
+def _thin_of(params: Params) -> _Thin:
+    return _Thin(how=params.thinning, voxel=params.voxel, most=params.own_points, seed=params.seed)
 
 
-@dataclass(frozen=True, eq=False)
-class Scans:
-    """Target and source in their own frames (metres), and what does not change while ICP runs.
+def _true_motion(params: Params) -> np.ndarray:
+    turn = exp_so3(np.array([0.0, 0.0, np.radians(params.start_angle)]))
+    return motion(turn, np.array([params.start_shift, 0.0, 0.0]))
 
-    Attributes:
-        p_target: Target points, target frame.
-        p_source: Source points, source frame.
-        is_outlier: Which source points belong to nothing.
-        T_truth: The true T_target_source, or None where nobody knows it.
-        T_start: The initial guess of T_target_source.
-        centre: The middle of the target, target frame; the picture is about it.
-        scale: The picture's metres per metre of the scans: own scans are shown about 1.2 m wide.
-        R_world_target: How the target is set upright in the picture.
-        spacing: Typical distance between neighbouring target points, metres.
-        grid: Segments of a ground grid in the picture.
-        cell: The edge of its squares, metres of the scans.
-        p_target_shown: The target as the picture has it.
-        p_source_shown: The source as the picture has it, in its own frame.
-        n_target: Gives the normals of the target, computed when first asked for: unit vectors, or zero for a point that
-            shall not pull because its neighbours lie along a line.
-    """
 
-    p_target: np.ndarray
-    p_source: np.ndarray
-    is_outlier: np.ndarray
-    T_truth: np.ndarray | None
-    T_start: np.ndarray
-    centre: np.ndarray
-    scale: float
-    R_world_target: np.ndarray
-    spacing: float
-    grid: np.ndarray
-    cell: float
-    p_target_shown: np.ndarray
-    p_source_shown: np.ndarray
-    n_target: Callable[[], np.ndarray]
+def _built_in(params: Params) -> Scans:
+    T_truth = _true_motion(params)
+    home = _sampled(params.shape, params.points, params.overlap, params.noise, params.outliers, params.seed)
+    p_source = apply(inverse(T_truth), home.p_source)
+    return replace(home, p_source=p_source, p_source_shown=p_source, T_truth=T_truth)
 
-    def shown(self, T_target_source: np.ndarray) -> np.ndarray:
-        """Return the pose of `p_source_shown` in the picture: the same motion about the centre, scaled and upright."""
-        A, Q = T_target_source[:3, :3], self.R_world_target
-        return motion(Q @ A @ Q.T, self.scale * Q @ (apply(T_target_source, self.centre) - self.centre))
 
-    def about_centre(self, w_world: np.ndarray) -> np.ndarray:
-        """Return the turn by a rotation vector of the picture about its middle, as a motion of the target frame."""
-        R = exp_so3(self.R_world_target.T @ w_world)
-        return motion(R, self.centre - R @ self.centre)
+@functools.lru_cache(maxsize=16)
+def _sampled(shape: str, points: int, overlap: float, noise: float, outliers: float, seed: int) -> Scans:
+    """Return the scans before the source is turned away: the same arrays whatever the start."""
+    rng = np.random.default_rng(seed)
+    scans = pair(shape, points, np.eye(4), rng, overlap=overlap, noise=noise, outliers=outliers)
+    p, q = scans.p_target, scans.p_source
+    return Scans(
+        p_target=p,
+        p_source=q,
+        is_outlier=scans.is_outlier,
+        T_truth=np.eye(4),
+        T_start=np.eye(4),
+        frame=Frame(),
+        spacing=_spacing(p),
+        grid=ground_grid(0.5, -0.35),
+        cell=0.5,
+        p_target_shown=p,
+        p_source_shown=q,
+        n_target=_normals_when_asked(p, "all"),
+    )
 
-    def error(self, T_target_source: np.ndarray) -> Error:
-        """Return how far a motion is from the truth."""
-        if self.T_truth is None:
-            return Error(np.nan, np.nan, np.nan)
-        R = nearest_rotation(T_target_source[:3, :3]) @ self.T_truth[:3, :3].T
-        p = self.p_source[~self.is_outlier]
-        off = apply(T_target_source, p) - apply(self.T_truth, p)
-        displacement = np.sqrt(np.einsum("ij,ij->", off, off) / len(off))
-        return Error(float(np.degrees(rotation_angle(R))), float(np.linalg.norm(off.mean(axis=0))), float(displacement))
 
-    def at_home(self, error: Error) -> bool:
-        """Tell whether a motion with this error is the true one, but for sampling.
+def _lidar(params: Params) -> Scans:
+    return _driven(params.start_angle, params.start_shift, params.noise, _thin_of(params), params.planes)
 
-        It turns by less than HOME_DEGREES, and its points are, by root mean square, less than HOME_SPACINGS times the
-        spacing of the target's points away from where they belong. Not so where the truth is not known.
-        """
-        return error.rotation < HOME_DEGREES and error.displacement < HOME_SPACINGS * self.spacing
 
-    def right_share(self, indices: np.ndarray, kept: np.ndarray) -> float:
-        """Return the share of kept matches whose partner lies within two spacings of where the source point belongs."""
-        if self.T_truth is None or not kept.any():
-            return float("nan")
-        off = self.p_target[indices[kept]] - apply(self.T_truth, self.p_source[kept])
-        return float(np.mean(np.einsum("ij,ij->i", off, off) <= (HOME_SPACINGS * self.spacing) ** 2))
+@functools.lru_cache(maxsize=8)
+def _driven(start_angle: float, start_shift: float, noise: float, thin: _Thin, planes: Planes) -> Scans:
+    """Return the scans before and after the scanner has moved: other rings on the same street."""
+    T_truth = _true_motion(Params(start_angle=start_angle, start_shift=start_shift))
+    rng = np.random.default_rng(thin.seed)
+    p_target, p_source = lidar_pair(T_truth, rng, rings=RINGS, columns=COLUMNS, noise=noise)
+    return replace(_framed(*_thinned(p_target, p_source, thin), "z", planes), T_truth=T_truth)
+
+
+def _own(params: Params) -> Scans:
+    if params.target is None or params.source is None:
+        raise InputError("own scans come in pairs: give both a target and a source")
+    for scan in (params.target, params.source):
+        read_cloud(scan)  # so that a bad file is refused before anything else
+    T_truth = None if params.truth is None else read_pose(params.truth, params.target, params.source).copy()
+    if T_truth is not None:
+        T_truth[:3, 3] *= METRES[params.unit]
+    read = functools.partial(_read, unit=params.unit, up=params.up, planes=params.planes, thin=_thin_of(params))
+    return replace(read(params.target, params.source, stamp(params.target), stamp(params.source)), T_truth=T_truth)
+
+
+@functools.lru_cache(maxsize=8)
+def _read(
+    target: Path, source: Path, *_stamps: tuple[int, int], unit: Unit, up: Up, planes: Planes, thin: _Thin
+) -> Scans:
+    """Thin own scans and bring them into the picture; anew when a file has changed."""
+    p_target, p_source = (METRES[unit] * read_cloud(scan) for scan in (target, source))
+    if not extent(p_target, FAR) > 0:
+        raise InputError(f"{target.name}: all its points lie at one place")
+    return _framed(*_thinned(p_target, p_source, thin), up, planes)
+
+
+def _thinned(p_target: np.ndarray, p_source: np.ndarray, thin: _Thin) -> tuple[np.ndarray, np.ndarray]:
+    """Thin both scans by the same voxels, and draw at most so many points of the source by chance."""
+    if thin.how == "voxel":
+        size = thin.voxel / 100.0 * extent(p_target, FAR)
+        p_target, p_source = voxel_means(p_target, size), voxel_means(p_source, size)
+    return p_target, some_points(p_source, thin.most, np.random.default_rng(thin.seed))
+
+
+def _framed(p_target: np.ndarray, p_source: np.ndarray, up: Up, planes: Planes) -> Scans:
+    """Bring scans of any size and place into the picture, WIDTH wide and upright about the target's middle."""
+    how = frame(p_target, WIDTH, up=up, far=FAR)
+    target_shown, cell = how.shown(p_target), round_below(0.5 / how.scale)
+    return Scans(
+        p_target=p_target,
+        p_source=p_source,
+        is_outlier=np.zeros(len(p_source), bool),
+        T_truth=None,
+        T_start=np.eye(4),
+        frame=how,
+        spacing=_spacing(p_target),
+        grid=ground_grid(how.scale * cell, float(np.percentile(target_shown[:, 2], 1))),
+        cell=cell,
+        p_target_shown=target_shown,
+        p_source_shown=how.shown(p_source),
+        n_target=_normals_when_asked(p_target, planes),
+    )
+
+
+def _normals_when_asked(p: np.ndarray, planes: Planes) -> Callable[[], np.ndarray]:
+    def normals() -> np.ndarray:
+        pull = ~on_a_line(p) if planes == "spread" else np.ones(len(p), bool)
+        return point_normals(p) * (pull if pull.any() else ~pull)[:, None]
+
+    return functools.cache(normals)
+
+
+def _spacing(p: np.ndarray) -> float:
+    """Return the median distance to the nearest other place with a point, from a few hundred points."""
+    places = np.unique(p, axis=0)
+    some = places[:: max(1, len(places) // 400)]
+    distances = np.asarray(scipy.spatial.KDTree(places).query(some, k=min(2, len(places)))[0])
+    return float(np.median(distances.reshape(len(some), -1)[:, -1])) or 1e-9

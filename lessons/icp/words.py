@@ -5,6 +5,7 @@ import numpy as np
 from lessons.icp.scans import WIDTH
 from lessons.icp.state import State
 from workbench.algorithms.icp import Stop
+from workbench.numerals import angle, length, percent
 from workbench.scene import Caption
 
 FITS = {
@@ -43,7 +44,7 @@ def _of_match(state: State) -> str:
 
 
 def _of_fit(state: State) -> str:
-    text = f"Fit {state.icp.iteration}: {FITS[state.params.fit]} turns the source by {_angle(state.turned)};"
+    text = f"Fit {state.icp.iteration}: {FITS[state.params.fit]} turns the source by {angle(state.turned)};"
     text += f" RMSE {length(state.rmse_before)} → {length(state.icp.rmse)}"
     if not state.known:
         return f"{text}."
@@ -56,7 +57,7 @@ def _of_try(state: State) -> str:
     home = state.scans.at_home(last.error)
     text = (
         f"Another start: from {last.start_angle:.0f}° away, ICP {'comes home' if home else 'ends'}"
-        f" {_angle(last.error.rotation)} and {length(last.error.translation)} from the truth, at RMSE {length(last.rmse)}."
+        f" {angle(last.error.rotation)} and {length(last.error.translation)} from the truth, at RMSE {length(last.rmse)}."
     )
     if last.start_angle < 180:
         return text
@@ -70,7 +71,7 @@ def _at_start(state: State) -> str:
     text, idle = "", [name.replace("_", " ") for name in state.params.idle]
     if idle:
         text += f" Your own scans are open: {', '.join(idle)} {'has' if len(idle) == 1 else 'have'} no effect on them."
-    gap, width = float(state.icp.distances.min()), WIDTH / state.scans.scale
+    gap, width = float(state.icp.distances.min()), WIDTH / state.scans.frame.scale
     if gap > width:
         text += (
             f" The scans start {length(gap)} apart, and the target is {length(width)} wide: bring the source near it."
@@ -80,25 +81,10 @@ def _at_start(state: State) -> str:
 
 def off(state: State) -> str:
     """Return how far a step is from the truth: turn and shift."""
-    return f"{_angle(state.error.rotation)} and {length(state.error.translation)}"
+    return f"{angle(state.error.rotation)} and {length(state.error.translation)}"
 
 
 def _share(right: float) -> str:
     if right < 0.005:
         return "Hardly any of its matches was"
-    return f"{'Only ' if right < 0.5 else ''}{100 * right:.0f} % of its matches were"
-
-
-def _angle(degrees: float) -> str:
-    return f"{degrees:.3g}°" if degrees >= 0.001 else "less than 0.001°"
-
-
-def length(metres: float) -> str:
-    """Return a length in the unit that suits it, without an exponent."""
-    if metres >= 1e6:
-        return f"{metres / 1000:,.0f} km"
-    if metres >= 1000:
-        return f"{metres:,.0f} m"
-    if metres >= 0.1:
-        return f"{metres:.3g} m"
-    return f"{1000 * metres:.3g} mm" if metres >= 1e-6 else f"{1e6 * metres:.2g} µm" if metres >= 1e-9 else "0 mm"
+    return f"{'Only ' if right < 0.5 else ''}{percent(right, 0)} of its matches were"

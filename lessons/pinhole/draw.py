@@ -1,18 +1,20 @@
 """What one stage looks like: the street, the camera with its picture, the points, and the followed one's numbers."""
 
 import functools
+import math
 
 import numpy as np
 
 from lessons.pinhole.shot import FACTORS
 from lessons.pinhole.state import State, name_of
-from lessons.pinhole.words import caption, tables
+from lessons.pinhole.words import caption, depth, pair, triple
 from workbench.algorithms import pinhole
 from workbench.data.street import street
-from workbench.geometry.cameras import depths
+from workbench.geometry.cameras import camera_center, depths
 from workbench.geometry.distortion import Distortion, distort, invertible_radius
 from workbench.geometry.motions import apply, inverse
-from workbench.numerals import fixed
+from workbench.geometry.polylines import segments
+from workbench.numerals import fixed, pixels
 from workbench.scene import (
     Axes,
     Camera,
@@ -27,6 +29,7 @@ from workbench.scene import (
     Scalar,
     Scene,
     Segments,
+    Table,
 )
 
 FAR = 30.0  # metres that a ray is drawn
@@ -49,7 +52,7 @@ def draw(state: State) -> Scene:
         "picture": Picture(state.picture, "Picture: photograph grey, calculated orange, followed point purple"),
         "error": Scalar(state.error, "median pixel error", "Error to the true picture", "px", "truth"),
         "caption": caption(state),
-        **tables(state),
+        **_tables(state),
         **_lens_curves(shot.lens, float(np.linalg.norm(shot.xy[k])), state.now.stage),
     }
     if state.params.dolly != 1:
@@ -90,10 +93,11 @@ def _camera(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     k = state.params.point
     x, y, z = apply(state.shot.T_camera_world, state.now.p_world[k])
     corners = np.array([[0.0, 0, 0], [0, 0, z], [x, 0, z], [x, y, z]])
-    ends = np.stack([corners[:-1], corners[1:]], axis=1)
     names = (f"depth Z = {fixed(z, 2)} m", f"X = {fixed(x, 2)} m", f"Y = {fixed(y, 2)} m")
     return {
-        "ways": Segments(ends, Classes(np.arange(3), ("z", "x", "y"), names), 4, T_world_camera, name="X, Y, Z"),
+        "ways": Segments(
+            segments(corners), Classes(np.arange(3), ("z", "x", "y"), names), 4, T_world_camera, name="X, Y, Z"
+        ),
     }
 
 
@@ -193,3 +197,48 @@ def _lens_curves(lens: Distortion, r_chosen: float, stage: pinhole.Stage) -> dic
         "no lens": Curve(r, r, "no lens", chart, x_label, y_label, "correspondence"),
         "lens": Curve(r, bent, "this lens", chart, x_label, y_label, "truth", marks=marks),
     }
+
+
+def _tables(state: State) -> dict[str, Primitive]:
+    """Return the followed point's journey so far, and what can be measured of the camera and in its picture."""
+    shot, now, k = state.shot, state.now, state.params.point
+    rows = [("in the world", f"{triple(now.p_world[k])} m")]
+    if now.reached("camera"):
+        p = now.p_camera[k]
+        rows += [
+            ("in the camera frame", f"{triple(p)} m"),
+            ("depth Z · ray length", f"{depth(p[2])} · {depth(float(np.linalg.norm(p)))}"),
+        ]
+    if now.reached("divide"):
+        rows.append(("x, y = X/Z, Y/Z", pair(now.xy[k], 4)))
+    if now.reached("distort"):
+        rows.append(("after the lens", pair(now.xy_bent[k], 4)))
+    if now.reached("pixels"):
+        rows += [("pixel (u, v)", pair(now.uv[k], 1)), ("true pixel", pair(shot.uv[k], 1))]
+    if now.reached("back"):
+        rows.append(("back in the world", triple(now.p_back[k]) + " m" * bool(np.isfinite(now.p_back[k]).all())))
+    h, w = shot.picture.shape[:2]
+    ball = "the ball's outline" + ", without the lens" * any(shot.lens)
+    measured = (
+        ("camera centre C = −Rᵀt", f"{triple(camera_center(shot.T_camera_world))} m"),
+        ("t of T_camera_world", f"{triple(shot.T_camera_world[:3, 3])} m"),
+        ("focal length f", f"{fixed(shot.K[0, 0], 1)} px"),
+        ("principal point", pair(shot.K[:2, 2], 1)),
+        ("middle of the picture", pair(np.array([w - 1, h - 1]) / 2, 1)),
+        ("the rails run towards", pair(shot.vanishing, 1)),
+        ("crate, 1 m high", _height(shot.crate)),
+        ("tower, 5 m high", _height(shot.tower)),
+        (ball, _ratio(shot.ball_ratio)),
+    )
+    return {
+        "point numbers": Table("The followed point", ("stage", name_of(k)), tuple(rows)),
+        "camera numbers": Table("The true camera", ("what", "value"), measured),
+    }
+
+
+def _height(height: float) -> str:
+    return pixels(height) if math.isfinite(height) else "has no pixel"
+
+
+def _ratio(ratio: float) -> str:
+    return f"{fixed(ratio, 3)} × as long as wide" if math.isfinite(ratio) else "not in the picture"

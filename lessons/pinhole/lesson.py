@@ -2,9 +2,6 @@
 
 What it teaches: five small steps, each with its own classic mistake. The photograph is always true; the calculation is
 laid over it in orange, so a mistake is seen where it is made.
-
-`params.py` has the inputs, `shot.py` the true camera and its photograph, `models.py` the calculation and its mistakes,
-`draw.py` and `words.py` the picture, `presets.py` the experiments and questions.
 """
 
 from collections.abc import Iterator
@@ -13,18 +10,15 @@ from pathlib import Path
 import numpy as np
 
 from lessons.pinhole.draw import draw
-from lessons.pinhole.models import Model, model_of
-from lessons.pinhole.params import Params
-from lessons.pinhole.presets import PRESETS, QUESTIONS
-from lessons.pinhole.shot import Shot, shot_of, wires
-from lessons.pinhole.state import State
+from lessons.pinhole.experiments import PRESETS, QUESTIONS
+from lessons.pinhole.models import model_of, overlaid
+from lessons.pinhole.shot import shot_of
+from lessons.pinhole.state import Params, Shot, State
 from workbench.algorithms import pinhole
 from workbench.algorithms.pinhole import Center, Distort, Project
 from workbench.data.street import street
 from workbench.geometry import cameras, distortion
-from workbench.geometry.raster import PointItem, SegmentItem, render
 from workbench.lesson import Lesson, View
-from workbench.scene import PALETTE, Role
 
 
 def run(
@@ -39,7 +33,17 @@ def run(
     model = model_of(params, shot, project, distort, camera_center)
     picture = overlaid(shot, model, params.point)
     for now in model.follow(street().points):
-        yield State(params, shot, now, picture, *compare(shot, now))
+        error, found, missed, false = compare(shot, now)
+        yield State(
+            params=params,
+            shot=shot,
+            now=now,
+            picture=picture,
+            error=error,
+            found=found,
+            missed=missed,
+            false=false,
+        )
 
 
 def compare(shot: Shot, now: pinhole.State) -> tuple[float, int, int, int]:
@@ -58,32 +62,6 @@ def compare(shot: Shot, now: pinhole.State) -> tuple[float, int, int, int]:
     both = seen & found
     error = float(np.median(np.linalg.norm(got[both] - true[both], axis=1))) if both.any() else float("nan")
     return error, int(found.sum()), int((seen & ~found).sum()), int((found & ~seen).sum())
-
-
-def overlaid(shot: Shot, model: Model, point: int) -> np.ndarray:
-    """Return the photograph with the calculated outlines and points laid over it, whatever hides them."""
-    h, w = shot.picture.shape[:2]
-    lines = wires(shot.T_camera_world)
-    drawn = render(
-        [SegmentItem(lines, _colors("source", len(lines)))],
-        shot.T_camera_world, shot.K, w, h, shot.lens, to_pixels=model.pixels,
-    )  # fmt: skip
-    uv = model.pixels(street().points)
-    spots = [_flat(uv, "source", 3), _flat(shot.uv[point : point + 1], "truth", 9), _flat(uv[[point]], "highlight", 7)]
-    picture = shot.picture.copy()
-    for layer in (drawn, *(render([spot], np.eye(4), np.eye(3), w, h) for spot in spots)):
-        shown = np.isfinite(layer.depth)
-        picture[shown] = layer.colors[shown]
-    return picture
-
-
-def _flat(uv: np.ndarray, role: Role, width: int) -> PointItem:
-    """Return points that a camera with K = I at the origin sees at these very pixels."""
-    return PointItem(np.column_stack([uv, np.ones(len(uv))]), _colors(role, len(uv)), width)
-
-
-def _colors(role: Role, n: int) -> np.ndarray:
-    return np.tile(np.array([PALETTE[role]], np.uint8), (n, 1))
 
 
 lesson = Lesson(

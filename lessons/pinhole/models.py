@@ -4,17 +4,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lessons.pinhole.params import Params
-from lessons.pinhole.shot import Shot
+from lessons.pinhole.shot import wires
+from lessons.pinhole.state import Params, Shot
 from workbench.algorithms.pinhole import Center, Distort, Project, follow
+from workbench.data.street import street
 from workbench.geometry.cameras import OPENGL_FROM_OPENCV
 from workbench.geometry.distortion import Distortion
 from workbench.geometry.motions import apply, inverse
+from workbench.geometry.raster import PointItem, SegmentItem, render
+from workbench.scene import PALETTE, Role
 
 SWAP = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Model:
     """What `follow` is given: motion, intrinsics, lens, the three functions, and what counts as depth."""
 
@@ -48,7 +51,14 @@ class Model:
 def model_of(params: Params, shot: Shot, project: Project, distort: Distort, camera_center: Center) -> Model:
     """Return the calculation with the given functions, changed by the mistake that is asked for."""
     K = shot.K if params.k_follows else shot.K_first
-    model = Model(shot.T_camera_world, K, shot.lens, project, distort, camera_center)
+    model = Model(
+        T_camera_world=shot.T_camera_world,
+        K=K,
+        lens=shot.lens,
+        project=project,
+        distort=distort,
+        camera_center=camera_center,
+    )
     f = K[0, 0]
     match params.mistake:
         case "pose inverted":
@@ -73,3 +83,29 @@ def divide_anyway(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
     x, y, z = (K @ apply(T_camera_world, p_world).T)[:3]
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(z[:, None] == 0, np.nan, np.stack([x, y], axis=1) / z[:, None])
+
+
+def overlaid(shot: Shot, model: Model, point: int) -> np.ndarray:
+    """Return the photograph with the calculated outlines and points laid over it, whatever hides them."""
+    h, w = shot.picture.shape[:2]
+    lines = wires(shot.T_camera_world)
+    drawn = render(
+        [SegmentItem(lines, _colors("source", len(lines)))],
+        shot.T_camera_world, shot.K, w, h, shot.lens, to_pixels=model.pixels,
+    )  # fmt: skip
+    uv = model.pixels(street().points)
+    spots = [_flat(uv, "source", 3), _flat(shot.uv[point : point + 1], "truth", 9), _flat(uv[[point]], "highlight", 7)]
+    picture = shot.picture.copy()
+    for layer in (drawn, *(render([spot], np.eye(4), np.eye(3), w, h) for spot in spots)):
+        shown = np.isfinite(layer.depth)
+        picture[shown] = layer.colors[shown]
+    return picture
+
+
+def _flat(uv: np.ndarray, role: Role, width: int) -> PointItem:
+    """Return points that a camera with K = I at the origin sees at these very pixels."""
+    return PointItem(np.column_stack([uv, np.ones(len(uv))]), _colors(role, len(uv)), width)
+
+
+def _colors(role: Role, n: int) -> np.ndarray:
+    return np.tile(np.array([PALETTE[role]], np.uint8), (n, 1))

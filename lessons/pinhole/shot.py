@@ -1,11 +1,10 @@
 """The true camera and its photograph: everything that holds whatever the functions under test do."""
 
 import functools
-from dataclasses import dataclass
 
 import numpy as np
 
-from lessons.pinhole.params import Edit, Params
+from lessons.pinhole.state import Edit, Params, Shot
 from workbench.data.street import BALL_CENTER, BALL_RADIUS, street
 from workbench.errors import InputError
 from workbench.geometry.cameras import (
@@ -23,6 +22,7 @@ from workbench.geometry.cameras import (
     vanishing_points,
 )
 from workbench.geometry.distortion import Distortion
+from workbench.geometry.polylines import segments
 from workbench.geometry.raster import MeshItem, SegmentItem, render
 from workbench.scene import PALETTE
 
@@ -33,50 +33,17 @@ CRATE_EDGE = np.array([[-1.4, 5.5, 0.0], [-1.4, 5.5, 1.0]])
 TOWER_EDGE = np.array([[-3.7, 13.2, 0.0], [-3.7, 13.2, 5.0]])
 
 
-@dataclass(frozen=True, eq=False)
-class Shot:
-    """What the true camera sees.
-
-    Attributes:
-        T_camera_world: Where it is, the dolly included.
-        K: Its intrinsics, for the picture after the edit.
-        K_first: Its intrinsics before the edit.
-        lens: Its lens.
-        picture: The photograph after the edit, (h, w, 3).
-        uv: Pixels of the followed points, NaN where it does not see them.
-        xy: Ideal normalised coordinates of the points, NaN likewise.
-        subject_depth: Depth of the target, metres: the plane whose size the dolly keeps.
-        crate, tower: Heights of an edge in this picture, pixels; NaN where an end of it has no pixel.
-        crate_before, tower_before: The same at a dolly of 1.
-        ball_ratio: Length over width of the ball's outline, without the lens; NaN where it is not in the picture.
-        vanishing: Pixel in which the rails meet, NaN where they do not.
-        gaps: For each of FACTORS, how far the corners that are in front are from their orthographic pixels, at most,
-            before the edit and without the lens.
-        gap: The same at the dolly of this shot.
-    """
-
-    T_camera_world: np.ndarray
-    K: np.ndarray
-    K_first: np.ndarray
-    lens: Distortion
-    picture: np.ndarray
-    uv: np.ndarray
-    xy: np.ndarray
-    subject_depth: float
-    crate: float
-    tower: float
-    crate_before: float
-    tower_before: float
-    ball_ratio: float
-    vanishing: np.ndarray
-    gaps: np.ndarray
-    gap: float
-
-
 def shot_of(params: Params) -> Shot:
     """Return the shot of these params; knobs that do not touch the camera find it taken already."""
     lens = Distortion(params.k1, params.k2, params.p1, params.p2)
-    return _shot(params.camera, params.target, params.f, params.dolly, lens, params.edit)
+    return _shot(
+        camera=params.camera,
+        target=params.target,
+        f=params.f,
+        factor=params.dolly,
+        lens=lens,
+        edit=params.edit,
+    )
 
 
 @functools.lru_cache(maxsize=64)
@@ -91,29 +58,26 @@ def _shot(
     K_near = intrinsics(f, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
     T_camera_world, K_first = dolly(T_near, K_near, distance, factor)
     photo = render(_scenery(), T_camera_world, K_first, WIDTH, HEIGHT, lens, background=(238, 243, 248))
-    picture, K, K_before = (
-        _edited(photo.colors, edit),
-        _edited_intrinsics(K_first, edit),
-        _edited_intrinsics(K_near, edit),
-    )
+    picture = _edited(photo.colors, edit)
+    K, K_before = _edited_intrinsics(K_first, edit), _edited_intrinsics(K_near, edit)
     points = street().points
     return Shot(
-        T_camera_world,
-        K,
-        K_first,
-        lens,
-        picture,
-        project(points, T_camera_world, K, lens),
-        normalize(project(points, T_camera_world, K), K),
-        distance * factor,
-        _height(CRATE_EDGE, T_camera_world, K, lens),
-        _height(TOWER_EDGE, T_camera_world, K, lens),
-        _height(CRATE_EDGE, T_near, K_before, lens),
-        _height(TOWER_EDGE, T_near, K_before, lens),
-        _ball_ratio(T_camera_world, K_first),
-        vanishing_points(np.array([[0.0, 1.0, 0.0]]), T_camera_world, K, lens)[0],
-        np.array([_gap(*dolly(T_near, K_near, distance, by), distance * by) for by in FACTORS]),
-        _gap(T_camera_world, K_first, distance * factor),
+        T_camera_world=T_camera_world,
+        K=K,
+        K_first=K_first,
+        lens=lens,
+        picture=picture,
+        uv=project(points, T_camera_world, K, lens),
+        xy=normalize(project(points, T_camera_world, K), K),
+        subject_depth=distance * factor,
+        crate=_height(CRATE_EDGE, T_camera_world, K, lens),
+        tower=_height(TOWER_EDGE, T_camera_world, K, lens),
+        crate_before=_height(CRATE_EDGE, T_near, K_before, lens),
+        tower_before=_height(TOWER_EDGE, T_near, K_before, lens),
+        ball_ratio=_ball_ratio(T_camera_world, K_first),
+        vanishing=vanishing_points(np.array([[0.0, 1.0, 0.0]]), T_camera_world, K, lens)[0],
+        gaps=np.array([_gap(*dolly(T_near, K_near, distance, by), distance * by) for by in FACTORS]),
+        gap=_gap(T_camera_world, K_first, distance * factor),
     )
 
 
@@ -122,8 +86,7 @@ def wires(T_camera_world: np.ndarray) -> np.ndarray:
     scene = street()
     ball = np.zeros((0, 2, 3))
     if np.linalg.norm(camera_center(T_camera_world) - BALL_CENTER) > 1.01 * BALL_RADIUS:
-        outline = sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 48)
-        ball = np.stack([outline, np.roll(outline, -1, axis=0)], axis=1)
+        ball = segments(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 48), closed=True)
     return np.concatenate([scene.edges, scene.rails, ball])
 
 

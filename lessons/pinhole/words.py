@@ -4,13 +4,11 @@ import math
 
 import numpy as np
 
-from lessons.pinhole.shot import Shot
-from lessons.pinhole.state import State, name_of
-from workbench.geometry.cameras import camera_center
+from lessons.pinhole.state import Shot, State, name_of
 from workbench.geometry.distortion import invertible_radius
 from workbench.geometry.motions import apply
-from workbench.numerals import brief, fixed, fixed_or_power
-from workbench.scene import Caption, Primitive, Table
+from workbench.numerals import fixed, fixed_or_power, length, pixels
+from workbench.scene import Caption
 
 VISIBLE = 0.5  # px: a smaller median error is not blamed on anybody
 MISPLACED = 1e-3  # m, likewise on the way back
@@ -22,43 +20,6 @@ def caption(state: State) -> Caption:
     wrong = blame(state)
     text = _STAGES[state.now.stage](state) + (wrong or _remark(state))
     return Caption(text, "wrong" if wrong else "info")
-
-
-def tables(state: State) -> dict[str, Primitive]:
-    """Return the followed point's journey so far, and what can be measured of the camera and in its picture."""
-    shot, now, k = state.shot, state.now, state.params.point
-    rows = [("in the world", f"{_triple(now.p_world[k])} m")]
-    if now.reached("camera"):
-        p = now.p_camera[k]
-        rows += [
-            ("in the camera frame", f"{_triple(p)} m"),
-            ("depth Z · ray length", f"{_metres(p[2])} · {_metres(_norm(p))} m"),
-        ]
-    if now.reached("divide"):
-        rows.append(("x, y = X/Z, Y/Z", _pair(now.xy[k], 4)))
-    if now.reached("distort"):
-        rows.append(("after the lens", _pair(now.xy_bent[k], 4)))
-    if now.reached("pixels"):
-        rows += [("pixel (u, v)", _pair(now.uv[k], 1)), ("true pixel", _pair(shot.uv[k], 1))]
-    if now.reached("back"):
-        rows.append(("back in the world", _triple(now.p_back[k]) + " m" * bool(np.isfinite(now.p_back[k]).all())))
-    h, w = shot.picture.shape[:2]
-    ball = "the ball's outline" + ", without the lens" * any(shot.lens)
-    measured = (
-        ("camera centre C = −Rᵀt", f"{_triple(camera_center(shot.T_camera_world))} m"),
-        ("t of T_camera_world", f"{_triple(shot.T_camera_world[:3, 3])} m"),
-        ("focal length f", f"{fixed(shot.K[0, 0], 1)} px"),
-        ("principal point", _pair(shot.K[:2, 2], 1)),
-        ("middle of the picture", _pair(np.array([w - 1, h - 1]) / 2, 1)),
-        ("the rails run towards", _pair(shot.vanishing, 1)),
-        ("crate, 1 m high", _height(shot.crate)),
-        ("tower, 5 m high", _height(shot.tower)),
-        (ball, _ratio(shot.ball_ratio)),
-    )
-    return {
-        "point numbers": Table("The followed point", ("stage", name_of(k)), tuple(rows)),
-        "camera numbers": Table("The true camera", ("what", "value"), measured),
-    }
 
 
 def blame(state: State) -> str:
@@ -76,7 +37,7 @@ def blame(state: State) -> str:
         why = "The calculation differs from the true camera."
     parts = []
     if state.error > VISIBLE:
-        parts.append(f"the median distance from the true pixels is {_count(state.error)} px")
+        parts.append(f"the median distance from the true pixels is {pixels(state.error)}")
     if state.missed:
         parts.append(f"{state.missed} of {len(now.p_world)} points lose their pixel")
     if state.false:
@@ -84,7 +45,7 @@ def blame(state: State) -> str:
             f"{_many(state.false)} a pixel that the true camera does not give {'it' if state.false == 1 else 'them'}"
         )
     if not parts and back > MISPLACED:
-        parts.append(f"the median distance of points that come back from where they are is {_length(back)}")
+        parts.append(f"the median distance of points that come back from where they are is {length(back)}")
     size = "; ".join(parts)
     return f" {why}" + (f" {size[0].upper()}{size[1:]}." if size else "")
 
@@ -111,16 +72,14 @@ MISTAKES = {
 
 def _world(state: State) -> str:
     p, name = state.now.p_world[state.params.point], name_of(state.params.point)
-    return (
-        f"{len(state.now.p_world)} points of the street in world coordinates, z up. We follow {name}: {_triple(p)} m."
-    )
+    return f"{len(state.now.p_world)} points of the street in world coordinates, z up. We follow {name}: {triple(p)} m."
 
 
 def _camera(state: State) -> str:
     p = state.now.p_camera[state.params.point]
     return (
-        f"R p + t is the point in the camera's frame (x right, y down, z forward): {_triple(p)} m. Its depth is"
-        f" Z = {_metres(p[2])} m; along its ray it is {_metres(_norm(p))} m away."
+        f"R p + t is the point in the camera's frame (x right, y down, z forward): {triple(p)} m. Its depth is"
+        f" Z = {depth(p[2])}; along its ray it is {depth(_norm(p))} away."
     )
 
 
@@ -128,9 +87,9 @@ def _divide(state: State) -> str:
     k, z = state.params.point, state.now.p_camera[state.params.point, 2]
     if not np.isfinite(state.now.xy[k]).all():
         where = "is not in front of" if z <= 0 else "is in front of"
-        return f"The point {where} the camera, Z = {_metres(z)} m, and gets no place on the plane one metre in front."
+        return f"The point {where} the camera, Z = {depth(z)}, and gets no place on the plane one metre in front."
     return (
-        f"Divided by Z = {_metres(z)} m the point is at (x, y) = {_pair(state.now.xy[k], 3)} on the plane one metre in front"
+        f"Divided by Z = {depth(z)} the point is at (x, y) = {pair(state.now.xy[k], 3)} on the plane one metre in front"
         f" of the camera. {state.found} of {len(state.now.xy)} points have a place there."
     )
 
@@ -140,13 +99,13 @@ def _distort(state: State) -> str:
     moved = f * np.linalg.norm(state.now.xy_bent - state.now.xy, axis=1)
     if not any(state.shot.lens) and not (moved > VISIBLE).any():
         return "A lens without distortion: k₁ = k₂ = p₁ = p₂ = 0, and (x′, y′) = (x, y)."
-    most = f"the farthest-moved point goes {_count(np.nanmax(moved))} px" if np.isfinite(moved).any() else "nothing is"
+    most = f"the farthest-moved point goes {pixels(np.nanmax(moved))}" if np.isfinite(moved).any() else "nothing is"
     if not np.isfinite(moved[k]):
         return f"The followed point has no place on the lens; {most}."
     nearer = _norm(state.now.xy_bent[k]) < _norm(state.now.xy[k])
     where = "" if moved[k] < 0.05 else f", {'nearer to' if nearer else 'further from'} the principal point"
     return (
-        f"The lens moves the point {_count(moved[k])} px{where}: (x′, y′) = {_pair(state.now.xy_bent[k], 3)};"
+        f"The lens moves the point {pixels(moved[k])}{where}: (x′, y′) = {pair(state.now.xy_bent[k], 3)};"
         f" {most}. It acts here, before f."
     )
 
@@ -165,13 +124,13 @@ def _back(state: State) -> str:
     k, now = state.params.point, state.now
     if not np.isfinite(now.p_back[k]).all():
         return "From pixels back to rays: the followed point has no pixel, so nothing leads back to it."
-    depth = f"With its depth Z = {_metres(now.p_camera[k, 2])} m"
+    given = f"With its depth Z = {depth(now.p_camera[k, 2])}"
     if state.params.mistake == "ray length for depth":
-        depth = f"With {_metres(_norm(now.p_camera[k]))} m for its depth"
+        given = f"With {depth(_norm(now.p_camera[k]))} for its depth"
     miss = _norm(now.p_back[k] - now.p_world[k])
-    off = "where we began" if miss < SAME else f"{_length(miss)} from where we began"
+    off = "where we began" if miss < SAME else f"{length(miss)} from where we began"
     return (
-        f"Back from the pixel: it gives a ray from {_triple(now.p_center)} m, but not how far to go along it. {depth} we"
+        f"Back from the pixel: it gives a ray from {triple(now.p_center)} m, but not how far to go along it. {given} we"
         f" come out {off}."
     )
 
@@ -189,11 +148,11 @@ def _remark(state: State) -> str:
         return f" Beyond radius {fixed(fold, 3)} this model folds back; what lies there has no pixel."
     if stage == "pixels" and params.dolly >= 10 and math.isfinite(shot.gap):
         start = f"{bare} no" if bare else " No"
-        return f"{start} corner in front of it is more than {_count(shot.gap)} px from its orthographic pixel."
+        return f"{start} corner in front of it is more than {pixels(shot.gap)} from its orthographic pixel."
     if stage == "pixels" and params.dolly != 1:
         return _heights(shot)
     if stage == "pixels" and params.point in (3, 4) and np.isfinite(shot.vanishing).all():
-        return f" The rails stay 1.5 m apart; their pictures run towards {_pair(shot.vanishing, 1)}."
+        return f" The rails stay 1.5 m apart; their pictures run towards {pair(shot.vanishing, 1)}."
     if stage == "pixels" and shot.ball_ratio > 1.2:
         return f"{bare or ' Here'} the ball's outline is {fixed(shot.ball_ratio, 2)} times as long as wide."
     return ""
@@ -203,7 +162,7 @@ def _heights(shot: Shot) -> str:
     """Say what moving the camera did to the crate and the tower, as far as both pictures show them."""
     heights = {"crate": (shot.crate_before, shot.crate), "tower": (shot.tower_before, shot.tower)}
     said = [
-        f"the {name} was {_count(before)} px high and is {_count(now)} px now"
+        f"the {name} was {pixels(before)} high and is {pixels(now)} now"
         for name, (before, now) in heights.items()
         if math.isfinite(before) and math.isfinite(now)
     ]
@@ -214,34 +173,20 @@ def _many(n: int) -> str:
     return "1 point has" if n == 1 else f"{n} points have"
 
 
-def _triple(p: np.ndarray) -> str:
+def triple(p: np.ndarray) -> str:
+    """Write a point with two decimals; "none" where it has a part that is not finite."""
     return f"({', '.join(fixed_or_power(value, 2) for value in p)})" if np.isfinite(p).all() else "none"
 
 
-def _pair(p: np.ndarray, digits: int) -> str:
+def pair(p: np.ndarray, digits: int) -> str:
+    """Write a pixel or a place on the plane Z = 1; "none" where there is none."""
     return f"({', '.join(fixed_or_power(value, digits) for value in p)})" if np.isfinite(p).all() else "none"
 
 
-def _height(pixels: float) -> str:
-    return f"{_count(pixels)} px" if math.isfinite(pixels) else "has no pixel"
-
-
-def _ratio(ratio: float) -> str:
-    return f"{fixed(ratio, 3)} × as long as wide" if math.isfinite(ratio) else "not in the picture"
+def depth(metres: float) -> str:
+    """Write a depth with as many decimals as the points beside it, unless that would say nothing."""
+    return f"{fixed_or_power(metres, 2)} m" if abs(metres) >= 0.01 else length(metres)
 
 
 def _norm(v: np.ndarray) -> float:
     return float(np.linalg.norm(v))
-
-
-def _metres(metres: float) -> str:
-    """Write a number of metres, with more digits where two decimals would say nothing."""
-    return fixed_or_power(metres, 2) if abs(metres) >= 0.01 else brief(metres, 2)
-
-
-def _length(metres: float) -> str:
-    return f"{brief(1000 * metres)} mm" if metres < 0.1 else f"{fixed_or_power(metres, 2)} m"
-
-
-def _count(pixels: float) -> str:
-    return fixed_or_power(pixels, 1 if pixels < 100 else 0)

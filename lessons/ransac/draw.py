@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from lessons.ransac.shapes import fan, frames, outline, plane_polygon
-from lessons.ransac.state import State
-from lessons.ransac.subject import Subject
-from lessons.ransac.words import caption_of
+from lessons.ransac.shapes import frames, outline
+from lessons.ransac.state import State, Subject
+from lessons.ransac.words import caption
 from workbench.algorithms.ransac import Fit
+from workbench.geometry.clipping import plane_in_box
+from workbench.geometry.polylines import fan
 from workbench.scene import Classes, Curve, Label, Mesh, Picture, Points, Primitive, Role, Scalar, Scene, Segments
 
 MOST_LINES = 150
@@ -17,7 +18,7 @@ RIVAL_COLORS: dict[str, Role] = {"least squares": "other", "Huber": "neutral"}
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    scene: dict[str, Primitive] = {"caption": caption_of(state)}
+    scene: dict[str, Primitive] = {"caption": caption(state)}
     scene |= _background(state.subject) | _rows(state) | _sample(state) | _models(state) | _curves(state)
     return scene
 
@@ -62,29 +63,34 @@ def _models(state: State) -> dict[str, Primitive]:
     subject, now = state.subject, state.now
     scene: dict[str, Primitive] = {}
     if subject.truth is not None:
-        scene |= _model(subject, "truth", subject.truth, "truth", 3.0, 0.0, "truth")
+        scene |= _model(subject, "truth", subject.truth, color="truth", width=3.0, name="truth")
     for rival in state.rivals:
         color = RIVAL_COLORS[rival.name]
-        scene |= _model(subject, f"rival {rival.name}", rival.estimate, color, 2.0, 0.0, rival.name)
+        scene |= _model(subject, f"rival {rival.name}", rival.estimate, color=color, width=2.0, name=rival.name)
     if now.best is not None:
-        last = now.phase in ("best", "refit", "stop")
-        scene |= _model(subject, "best", now.best.estimate, "source", 3.0, 0.45 if last else 0.2, "best so far")
+        opacity = 0.45 if now.phase in ("best", "refit", "stop") else 0.2
+        scene |= _model(
+            subject, "best", now.best.estimate, color="source", width=3.0, opacity=opacity, name="best so far"
+        )
     if now.estimate is not None and now.phase in ("model", "inliers"):
-        scene |= _model(subject, "trial", now.estimate, "highlight", 2.5, 0.4, f"{subject.model.name} of the sample")
+        name = f"{subject.model.name} of the sample"
+        scene |= _model(subject, "trial", now.estimate, color="highlight", width=2.5, opacity=0.4, name=name)
     return scene
 
 
 def _model(
-    subject: Subject, path: str, estimate: np.ndarray, color: Role, width: float, opacity: float, name: str
+    subject: Subject, path: str, estimate: np.ndarray, *, color: Role, width: float, opacity: float = 0.0, name: str
 ) -> dict[str, Primitive]:
+    """Draw the outline of a model, and of a plane its surface too where it has an opacity."""
     rows = np.arange(0, len(subject.p), max(1, len(subject.p) // EPIPOLAR_ROWS))[:EPIPOLAR_ROWS]
     if subject.is_inlier is not None:
         rows = np.flatnonzero(subject.is_inlier)[:EPIPOLAR_ROWS]
     scene: dict[str, Primitive] = {path: Segments(outline(subject, estimate, rows), color, width, name=name)}
     if subject.model.name == "plane" and opacity > 0.0:
-        corners = plane_polygon(subject, estimate)
+        corners = plane_in_box(estimate, subject.low, subject.high)
         if len(corners):
-            scene[f"{path}/surface"] = Mesh(subject.places[0](corners), fan(corners), color, opacity=opacity, flat=True)
+            surface = Mesh(subject.places[0](corners), fan(len(corners)), color, opacity=opacity, flat=True)
+            scene[f"{path}/surface"] = surface
     return scene
 
 
@@ -144,6 +150,13 @@ def _histogram(fit: Fit, state: State) -> Curve:
     counts = np.histogram(fit.distances, edges)[0]
     x = (edges[1:] + edges[:-1]) / 2.0
     return Curve(
-        x, counts.astype(float), state.subject.noun, "Distances to the model", f"distance ({unit})", "how many",
-        "target", "bars", (limit,),
-    )  # fmt: skip
+        x,
+        counts.astype(float),
+        name=state.subject.noun,
+        chart="Distances to the model",
+        x_label=f"distance ({unit})",
+        y_label="how many",
+        color="target",
+        kind="bars",
+        marks=(limit,),
+    )

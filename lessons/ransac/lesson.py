@@ -3,9 +3,6 @@
 What it teaches: a fit to all points is dragged off by those that do not belong; a guess from few points is right
 whenever the few are, and a formula says how often one must guess. What wins is the model with the most points near it:
 mind the distance that counts as near, the noise in the sample, and models one did not mean.
-
-`params.py` has the inputs, `subject.py` the points, `shapes.py`, `draw.py` and `words.py` the picture, `presets.py` the
-experiments and questions.
 """
 
 from collections.abc import Callable, Iterator
@@ -17,10 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from lessons.ransac.draw import draw
-from lessons.ransac.params import Params
-from lessons.ransac.presets import PRESETS, QUESTIONS
-from lessons.ransac.state import Rival, State, error_of
-from lessons.ransac.subject import Subject, subject_of
+from lessons.ransac.experiments import PRESETS, QUESTIONS
+from lessons.ransac.rows import subject_of
+from lessons.ransac.state import Params, Rival, State, Subject
 from workbench.algorithms.models import PLANE, from_points
 from workbench.algorithms.ransac import Fit, Judge, iterations_needed, ransac
 from workbench.algorithms.robust import huber_fit
@@ -47,7 +43,8 @@ def run(
     subject = subject_of(params)
     rng = np.random.default_rng(params.seed)
     distance = params.inlier_pixels if subject.model.unit == "px" else params.inlier_distance
-    model, judge = subject.model, Judge(subject.p, subject.model, distance, score_of(params, subject))
+    model = subject.model
+    judge = Judge(p=subject.p, model=model, inlier_distance=distance, score=score_of(params, subject))
     if model is PLANE:
         model = replace(PLANE, solve=from_points(checked(plane_from_points)))
         judge = counting(judge, count_inliers, decides=params.score == "count")
@@ -65,10 +62,18 @@ def run(
     ):
         degenerate += now.phase == "degenerate"
         if shown(params, now.phase, now.iteration):
-            own = bool(chosen) and now.iteration == 1
-            best = now.best.estimate if now.best else None
-            errors = error_of(subject, now.estimate), error_of(subject, best)
-            yield State(params, subject, now, distance, *errors, own, rivals, before, degenerate)
+            yield State(
+                params=params,
+                subject=subject,
+                now=now,
+                inlier_distance=distance,
+                trial_error=subject.error(now.estimate),
+                best_error=subject.error(now.best.estimate if now.best else None),
+                chosen=bool(chosen) and now.iteration == 1,
+                rivals=rivals,
+                before=before,
+                degenerate=degenerate,
+            )
         before = now.best
 
 
@@ -116,7 +121,8 @@ def counting(
 
     def counted(plane: np.ndarray) -> Fit:
         fit, votes = judge(plane), int(count_inliers(plane, judge.p, judge.inlier_distance))
-        return Counted(plane, fit.distances, fit.inliers, float(votes) if decides else fit.score, votes)
+        score = float(votes) if decides else fit.score
+        return Counted(estimate=plane, distances=fit.distances, inliers=fit.inliers, score=score, votes=votes)
 
     return counted
 
@@ -150,7 +156,7 @@ def rivals_of(subject: Subject, corner: float) -> tuple[Rival, ...]:
         first, *_, last = huber_fit(subject.p, subject.model, corner=corner, max_iterations=30)
     found = (("least squares", first.estimate), ("Huber", last.estimate))
     return tuple(
-        Rival(name, estimate, error_of(subject, estimate)) for name, estimate in found if np.isfinite(estimate).all()
+        Rival(name, estimate, subject.error(estimate)) for name, estimate in found if np.isfinite(estimate).all()
     )
 
 

@@ -4,9 +4,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from lessons.ransac.subject import Subject
+from lessons.ransac.state import Subject
+from workbench.geometry.clipping import clip_lines, plane_in_box
 from workbench.geometry.epipolar import epipolar_lines
 from workbench.geometry.homography import transform_pixels
+from workbench.geometry.polylines import segments
 
 ARC = np.linspace(0.0, 2.0 * np.pi, 65)
 NOTHING = np.zeros((0, 2, 3))
@@ -24,13 +26,13 @@ def outline(subject: Subject, estimate: np.ndarray, rows: np.ndarray) -> np.ndar
 def _outline(subject: Subject, numbers: bytes, shape: tuple[int, ...], rows: tuple[int, ...]) -> np.ndarray:
     name, estimate = subject.model.name, np.frombuffer(numbers).reshape(shape)
     if name == "line":
-        return _placed(subject, _clipped_lines(estimate[None], subject.low, subject.high))
+        return _placed(subject, clip_lines(estimate[None], subject.low, subject.high))
     if name == "plane":
-        corners = plane_polygon(subject, estimate)
-        return _closed(subject.places[0](corners)) if len(corners) else NOTHING
+        corners = plane_in_box(estimate, subject.low, subject.high)
+        return segments(subject.places[0](corners), closed=True) if len(corners) else NOTHING
     if name == "circle":
         points = estimate[:2] + estimate[2] * np.column_stack([np.cos(ARC), np.sin(ARC)])
-        return _placed(subject, _inside(_chain(points), subject.low, subject.high))
+        return _placed(subject, _inside(segments(points), subject.low, subject.high))
     if name == "sphere":
         return _placed(subject, _inside(_rings(estimate), subject.low, subject.high))
     if name == "homography":
@@ -38,42 +40,18 @@ def _outline(subject: Subject, numbers: bytes, shape: tuple[int, ...], rows: tup
     return _epipolar(subject, estimate, np.array(rows))
 
 
-def plane_polygon(subject: Subject, plane: np.ndarray) -> np.ndarray:
-    """Return the corners (n, 3), in order, of the part of a plane inside the window; none where it passes by.
-
-    A plane turned over, or rounded differently, has the same corners in the same order.
-    """
-    low, high = subject.low, subject.high
-    corners = np.array([[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)])
-    edges = np.array([(i, j) for i in range(8) for j in range(i + 1, 8) if bin(i ^ j).count("1") == 1])
-    sides = corners @ plane[:3] + plane[3]
-    start, end = sides[edges[:, 0]], sides[edges[:, 1]]
-    cut = (start > 0) != (end > 0)
-    if not cut.any():
-        return np.zeros((0, 3))
-    share = (start[cut] / (start[cut] - end[cut]))[:, None]
-    points = (1.0 - share) * corners[edges[cut, 0]] + share * corners[edges[cut, 1]]
-    normal = plane[:3] * np.sign(plane[np.argmax(np.abs(plane[:3]))])
-    u = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
-    v = points - points.mean(axis=0)
-    return points[np.argsort(np.arctan2(v @ np.cross(normal, u), v @ u))]
-
-
-def fan(corners: np.ndarray) -> np.ndarray:
-    """Return the triangles of a convex polygon."""
-    k = np.arange(1, len(corners) - 1)
-    return np.column_stack([np.zeros_like(k), k, k + 1])
-
-
 @lru_cache(maxsize=64)
 def frames(subject: Subject) -> np.ndarray:
     """Return the borders of the two images, of the 2D window, or nothing."""
     if subject.sizes:
         borders = [np.array([[0, 0], [w, 0], [w, h], [0, h]], float) - 0.5 for w, h in subject.sizes]
-        return np.concatenate([_closed(place(border)) for place, border in zip(subject.places, borders, strict=True)])
+        return np.concatenate(
+            [segments(place(border), closed=True) for place, border in zip(subject.places, borders, strict=True)]
+        )
     if len(subject.low) == 2:
         (x0, y0), (x1, y1) = subject.low, subject.high
-        return _closed(subject.places[0](np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])))
+        border = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
+        return segments(subject.places[0](border), closed=True)
     return NOTHING
 
 
@@ -82,7 +60,7 @@ def _epipolar(subject: Subject, F: np.ndarray, rows: np.ndarray) -> np.ndarray:
     matches, ends = subject.p[rows], []
     for k, lines in enumerate((epipolar_lines(F.T, matches[:, 2:]), epipolar_lines(F, matches[:, :2]))):
         known = lines[np.isfinite(lines).all(axis=1)]
-        ends.append(_placed(subject, _clipped_lines(known, np.zeros(2), subject.sizes[k]), k))
+        ends.append(_placed(subject, clip_lines(known, np.zeros(2), subject.sizes[k]), k))
     return np.concatenate(ends)
 
 
@@ -92,7 +70,7 @@ def _warped_grid(subject: Subject, H: np.ndarray, cells: int = 4, pieces: int = 
     t, ticks = np.linspace(0.0, 1.0, cells * pieces + 1), np.linspace(0.0, 1.0, cells + 1)
     lines = [np.column_stack([np.full_like(t, x), t]) for x in ticks]
     lines += [line[:, ::-1] for line in lines]
-    ends = np.concatenate([_chain(line * [w, h]) for line in lines])
+    ends = np.concatenate([segments(line * [w, h]) for line in lines])
     with np.errstate(all="ignore"):
         moved = transform_pixels(H, ends.reshape(-1, 2)).reshape(-1, 2, 2)
     return _placed(subject, _inside(moved, -0.15 * subject.sizes[1], 1.15 * subject.sizes[1]), 1)
@@ -104,37 +82,12 @@ def _rings(sphere: np.ndarray) -> np.ndarray:
     c, s, zero = np.cos(ARC), np.sin(ARC), np.zeros_like(ARC)
     rings = [np.column_stack([c, s, zero]), np.column_stack([c, zero, s]), np.column_stack([zero, c, s])]
     rings += [np.column_stack([0.8 * c, 0.8 * s, zero + z]) for z in (-0.6, 0.6)]
-    return np.concatenate([_chain(centre + radius * ring) for ring in rings])
-
-
-def _clipped_lines(lines: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-    """Return the parts (n, 2, 2) of lines (a, b, c) inside a window, by clipping each to the four sides."""
-    normals, offsets = lines[:, :2], lines[:, 2:]
-    foot = -normals * offsets
-    direction = np.column_stack([-normals[:, 1], normals[:, 0]])
-    with np.errstate(all="ignore"):
-        to_low, to_high = (low - foot) / direction, (high - foot) / direction
-    nearer, farther = np.fmin(to_low, to_high), np.fmax(to_low, to_high)
-    parallel = direction == 0.0
-    outside = (parallel & ((foot < low) | (foot > high))).any(axis=1)
-    enter = np.where(parallel, -np.inf, nearer).max(axis=1, initial=-np.inf)
-    leave = np.where(parallel, np.inf, farther).min(axis=1, initial=np.inf)
-    seen = (enter < leave) & ~outside
-    t = np.stack([enter[seen], leave[seen]], axis=1)
-    return foot[seen, None] + t[:, :, None] * direction[seen, None]
+    return np.concatenate([segments(centre + radius * ring) for ring in rings])
 
 
 def _inside(ends: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
     """Return the segments whose ends are both finite and inside the window."""
     return ends[(np.isfinite(ends) & (ends >= low) & (ends <= high)).all(axis=(1, 2))]
-
-
-def _chain(points: np.ndarray) -> np.ndarray:
-    return np.stack([points[:-1], points[1:]], axis=1)
-
-
-def _closed(points: np.ndarray) -> np.ndarray:
-    return np.stack([points, np.roll(points, -1, axis=0)], axis=1)
 
 
 def _placed(subject: Subject, ends: np.ndarray, k: int = 0) -> np.ndarray:

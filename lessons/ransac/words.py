@@ -4,12 +4,13 @@ import numpy as np
 
 from lessons.ransac.state import State
 from workbench.algorithms.ransac import Stop
+from workbench.numerals import counted, length, percent, pixels
 from workbench.scene import Caption
 
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven")
 
 
-def caption_of(state: State) -> Caption:
+def caption(state: State) -> Caption:
     """Return what just happened, with its numbers."""
     return {
         "sample": _sample,
@@ -20,15 +21,6 @@ def caption_of(state: State) -> Caption:
         "refit": _refit,
         "stop": _stop,
     }[state.now.phase](state)
-
-
-def length(value: float, unit: str) -> str:
-    """Return a distance in the unit that suits it; what only rounding left of it is 0."""
-    if unit == "m" and value < 0.1:
-        value, unit = 1000.0 * value, "mm"
-    if value < 5e-4:
-        return f"0 {unit}"
-    return f"{value:,.0f} {unit}" if value >= 1000.0 else f"{value:.3g} {unit}"
 
 
 def _sample(state: State) -> Caption:
@@ -78,14 +70,15 @@ def _best(state: State) -> Caption:
     now, best = state.now, state.now.best
     assert best is not None
     share = best.count / len(best.inliers)
-    text = f"New best after {_samples(now.iteration)}: {_points(state, best)}, {100.0 * share:.0f} % of all."
+    text = f"New best after {counted(now.iteration, 'sample')}: {_points(state, best)}, {percent(share, 0)} of all."
     asked = f"{100.0 * state.params.confidence:g} % confidence that one of them is free of outliers"
     if now.needed >= state.params.most_samples:
-        text += f" If that is the share of inliers, the {_samples(state.params.most_samples)} allowed give no {asked}."
+        allowed = counted(state.params.most_samples, "sample")
+        text += f" If that is the share of inliers, the {allowed} allowed give no {asked}."
     else:
-        text += f" If that is the share of inliers, {_samples(round(now.needed))} give {asked}."
+        text += f" If that is the share of inliers, {counted(round(now.needed), 'sample')} give {asked}."
     if np.isfinite(state.best_error):
-        text += f" RMS error to the truth {length(state.best_error, state.subject.model.unit)}."
+        text += f" RMS error to the truth {_distance(state, state.best_error)}."
     return Caption(text)
 
 
@@ -97,24 +90,22 @@ def _refit(state: State) -> Caption:
         text += f"least squares on the {before.count:,} inliers, then counted anew: {before.count:,} → {best.count:,}"
         if len(state.subject.p_true):
             old = np.sqrt(np.square(model.distances(before.estimate, state.subject.p_true)).mean())
-            text += (
-                f"; RMS error to the truth {length(float(old), model.unit)} → {length(state.best_error, model.unit)}"
-            )
+            text += f"; RMS error to the truth {_distance(state, float(old))} → {_distance(state, state.best_error)}"
     return Caption(text + ".")
 
 
 def _stop(state: State) -> Caption:
-    now, unit = state.now, state.subject.model.unit
+    now = state.now
     assert now.stop is not None
-    text = f"Stop after {_samples(now.iteration)}: {now.stop.message}. "
+    text = f"Stop after {counted(now.iteration, 'sample')}: {now.stop.message}. "
     if now.best is None:
         return Caption(text + _why_none(state), "wrong")
     text += f"{now.best.count:,} of {len(now.best.inliers):,} {state.subject.noun} are within {_limit(state)}"
-    text += f" of the {state.subject.model.name}, RMS distance {length(now.best.rms, unit)}."
+    text += f" of the {state.subject.model.name}, RMS distance {_distance(state, now.best.rms)}."
     if not np.isfinite(state.best_error):
         return Caption(text + _proportion(state))
-    text += f" RMS error to the truth: RANSAC {length(state.best_error, unit)}"
-    text += "".join(f", {rival.name} {length(rival.error, unit)}" for rival in state.rivals) + "."
+    text += f" RMS error to the truth: RANSAC {_distance(state, state.best_error)}"
+    text += "".join(f", {rival.name} {_distance(state, rival.error)}" for rival in state.rivals) + "."
     if is_right(state):
         return Caption(text, "good")
     return Caption(
@@ -138,20 +129,25 @@ def _proportion(state: State) -> str:
     few = "few" if limit < size / 10.0 else "nearly all"
     unsure = "Are the matches in pixels?" if unit == "px" else f"Is the cloud in {params.cloud_unit} (cloud_unit)?"
     return (
-        f" Mind: the {state.subject.noun} extend over {length(size, unit)}, so {few} of them can be expected within"
+        f" Mind: the {state.subject.noun} extend over {_distance(state, size)}, so {few} of them can be expected within"
         f" {_limit(state)} of any {state.subject.model.name}. {unsure}"
     )
 
 
 def is_right(state: State) -> bool:
     """Tell whether the best is the true model, but for noise: nearer than the noise allows single rows to be."""
-    pixels = state.subject.model.unit == "px"
-    sigma = state.params.noise_pixels if pixels else state.params.noise
-    return bool(state.best_error < max(sigma, 0.5 if pixels else 0.005))
+    in_pixels = state.subject.model.unit == "px"
+    sigma = state.params.noise_pixels if in_pixels else state.params.noise
+    return bool(state.best_error < max(sigma, 0.5 if in_pixels else 0.005))
+
+
+def _distance(state: State, value: float) -> str:
+    """Write a distance to a model in the unit of its rows."""
+    return pixels(value) if state.subject.model.unit == "px" else length(value)
 
 
 def _limit(state: State) -> str:
-    return length(state.inlier_distance, state.subject.model.unit)
+    return _distance(state, state.inlier_distance)
 
 
 def _points(state: State, fit) -> str:
@@ -160,7 +156,3 @@ def _points(state: State, fit) -> str:
 
 def _score(state: State, score: float) -> str:
     return "" if state.params.score == "count" else f" ({state.params.score} score {score:,.0f})"
-
-
-def _samples(count: int) -> str:
-    return f"{count:,} sample" if count == 1 else f"{count:,} samples"

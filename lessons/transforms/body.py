@@ -4,44 +4,23 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lessons.transforms.params import First, Params
+from lessons.transforms.state import Body, First, Params
 from workbench.algorithms.composition import Factor
 from workbench.algorithms.interpolation import FromEuler, Rodrigues
 from workbench.data.files import read_mesh
-from workbench.data.solids import Solid, outlined, solid
+from workbench.data.framing import frame
+from workbench.data.solids import outlined, solid
 from workbench.errors import InputError
 from workbench.geometry.affine import perspective, reflection, scaling, shear, translation
-from workbench.geometry.invariants import Measures, measure
+from workbench.geometry.invariants import measure
 from workbench.geometry.motions import exp_so3, motion
 from workbench.geometry.rotations import EulerOrder, euler_to_matrix
 from workbench.numerals import brief
 
 MOST_FACES = 50_000
-FRONT = np.array([0.0, -1.0, 0.0])
 
 
-@dataclass(frozen=True, eq=False)
-class Body:
-    """What moves: its mesh and lines in its own frame, its measures, and the vertex that is followed."""
-
-    name: str
-    solid: Solid
-    measures: Measures
-    point: int
-
-    @property
-    def p_point(self) -> np.ndarray:
-        """The followed vertex."""
-        return self.solid.p[self.point]
-
-    @property
-    def p_door(self) -> np.ndarray:
-        """Where the arrow to the front starts."""
-        low, high = self.solid.p.min(axis=0), self.solid.p.max(axis=0)
-        return np.array([(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 4])
-
-
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Numbers:
     """A map as numbers, in radians and metres: what is misread when a convention is."""
 
@@ -79,16 +58,19 @@ def body_of(params: Params) -> Body:
         p, faces = read_mesh(params.mesh)
         if len(faces) > MOST_FACES:
             raise InputError(f"{params.mesh.name}: {len(faces):,} faces; this lesson takes up to {MOST_FACES:,}")
-        low, high = p.min(axis=0), p.max(axis=0)
-        foot = np.array([*(low + high)[:2] / 2, low[2]])
-        made, name = outlined((p - foot) / (high - low).max(), faces, angle=0.6), "mesh"
-    return Body(name, made, measure(made.p, made.faces), min(params.point, len(made.p) - 1))
+        made, name = outlined(frame(p, 1.0).standing(p).shown(p), faces, angle=0.6), "mesh"
+    return Body(name=name, solid=made, measures=measure(made.p, made.faces), point=min(params.point, len(made.p) - 1))
 
 
 def numbers_of(params: Params) -> Numbers:
     """Return the rigid part of the params in radians."""
-    turn, offset = np.array(params.pose[3:], float), np.array(params.pose[:3], float)
-    return Numbers(np.radians(params.angles), params.order, turn, offset, params.first)
+    return Numbers(
+        angles=np.radians(params.angles),
+        order=params.order,
+        turn=np.array(params.pose[3:], float),
+        offset=np.array(params.pose[:3], float),
+        first=params.first,
+    )
 
 
 def shape_factors(params: Params) -> list[Factor]:

@@ -1,12 +1,12 @@
 """Second readings of the same numbers: each the picture of one mistake, or of two names for one thing."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
-from lessons.transforms.body import Body, Numbers
-from lessons.transforms.params import Compare, Params
+from lessons.transforms.body import Numbers
+from lessons.transforms.state import Body, Compare, Ghost, Params
 from workbench.geometry.affine import transform
 from workbench.geometry.alignment import align_rigid
 from workbench.geometry.motions import exp_so3, inverse, motion
@@ -22,38 +22,9 @@ from workbench.geometry.rotations import (
     quaternion_from_matrix,
 )
 from workbench.numerals import brief
-from workbench.scene import Role
 
-SAME = 1e-9  # metres: what rounding leaves of two names for one motion
 BEHIND, ALONG = np.array([-1.6, 1.4, 0.0]), np.array([0.95, 0.58, 0.0])  # a row across the first view, metres
 CONVENTIONS: tuple[EulerOrder, ...] = ("xyz", "XYZ", "ZYX", "ZXZ")
-
-
-@dataclass(frozen=True, eq=False)
-class Ghost:
-    """The body under another reading.
-
-    Attributes:
-        name: The reading.
-        T: Its 4x4.
-        distance: How far its farthest vertex is from ours, metres.
-        apart: By how much it is drawn aside, where several would stand in each other's way, metres.
-    """
-
-    name: str
-    T: np.ndarray
-    distance: float
-    apart: np.ndarray = field(default_factory=lambda: np.zeros(3))
-
-    @property
-    def same(self) -> bool:
-        """Whether both are one motion of this body, up to rounding."""
-        return self.distance < SAME
-
-    @property
-    def color(self) -> Role:
-        """Green where both are the same motion, vermillion where they differ."""
-        return "truth" if self.same else "wrong"
 
 
 def ghosts_of(params: Params, body: Body, numbers: Numbers, A: np.ndarray) -> tuple[Ghost, ...]:
@@ -89,7 +60,8 @@ def undo_ghosts_of(params: Params, body: Body, T_world_body: np.ndarray, A: np.n
 
 
 def _ghost(name: str, T: np.ndarray, body: Body, p_ours: np.ndarray) -> Ghost:
-    return Ghost(name, T, float(np.linalg.norm(transform(T, body.solid.p) - p_ours, axis=1).max()))
+    distance = float(np.linalg.norm(transform(T, body.solid.p) - p_ours, axis=1).max())
+    return Ghost(name=name, T=T, distance=distance)
 
 
 def in_degrees(angles: np.ndarray) -> str:

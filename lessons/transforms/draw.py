@@ -4,14 +4,21 @@ import functools
 
 import numpy as np
 
-from lessons.transforms.body import FRONT, Body
-from lessons.transforms.compare import Ghost
-from lessons.transforms.states import Built, Moved, State
-from lessons.transforms.tables import in_other_numbers, invariants, matrix, one_point
-from lessons.transforms.words import caption_of_build, caption_of_move, length
-from workbench.geometry.affine import transform, transform_directions, translation
-from workbench.geometry.rotations import EulerOrder, euler_axes, gimbal_margin
-from workbench.scene import Axes, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments
+from lessons.transforms.state import FRONT, Body, Built, Ghost, Moved, State
+from lessons.transforms.words import caption_of_build, caption_of_move
+from workbench.geometry.affine import decompose, kind_of, transform, transform_directions, translation
+from workbench.geometry.invariants import Change
+from workbench.geometry.polylines import segments
+from workbench.geometry.rotations import (
+    EulerOrder,
+    axis_angle_from_rotation,
+    euler_axes,
+    gimbal_margin,
+    matrix_to_euler,
+    quaternion_from_matrix,
+)
+from workbench.numerals import ROUND_OFF, angle, fixed, fixed_row, length, percent
+from workbench.scene import Axes, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments, Table
 
 MIDDLE = np.arange(-180.0, 181.0, 5.0)  # degrees
 AXIS_ROLES: tuple[Role, ...] = ("x", "y", "z")
@@ -36,16 +43,17 @@ def _draw_build(state: Built) -> Scene:
             "Distance",
             "m",
         ),
-        "matrix": matrix(T, "T, all factors so far"),
-        "measured": invariants(state),
-        "numbers": in_other_numbers(T, T_body, state.params.order),
-        "one point": one_point(state),
+        "matrix": _matrix(T, "T, all factors so far"),
+        "measured": _invariants(state),
+        "numbers": _in_other_numbers(T, T_body, state.params.order),
+        "one point": _one_point(state),
         "gimbal": _gimbal_curve(state),
         "caption": caption_of_build(state),
     }
     if len(state.trail) > 1:
-        ends = np.stack([state.trail[:-1], state.trail[1:]], axis=1)
-        scene["trail"] = Segments(ends, "highlight", 2.5, name=f"vertex {body.point}, factor by factor")
+        scene["trail"] = Segments(
+            segments(state.trail), "highlight", 2.5, name=f"vertex {body.point}, factor by factor"
+        )
     if _affine(T):
         scene["front"] = _arrow(transform(T, body.p_door[None])[0], T, "highlight", "front: a direction, w = 0")
     if state.params.compare == "direction with w = 1":
@@ -71,19 +79,19 @@ def _draw_move(state: Moved) -> Scene:
         **_shown("end", body, state.T_world_end, "target", 0.15, "end"),
         **_shown("body", body, state.T_world_body, "source", 0.85, f"by {state.params.method}"),
         "shortest": _lines(body, state.T_world_shortest, "truth", "shortest turn"),
-        "shortest path": Segments(_steps(state.shortest.path), "truth", 2, name="its path"),
+        "shortest path": Segments(segments(state.shortest.path), "truth", 2, name="its path"),
         "vertex": Label(f"vertex {body.point}", way.path[-1], "highlight"),
         "off": Scalar(state.off, "from the shortest turn", "Error to truth", "deg", "truth"),
         "volume": Scalar(100 * state.volume, "volume", "Volume", "%"),
-        "matrix": matrix(state.T_world_body, f"T at t = {state.t:.2f}"),
-        "measured": invariants(state),
-        "numbers": in_other_numbers(state.T_world_body, state.T_world_body, state.params.order),
+        "matrix": _matrix(state.T_world_body, f"T at t = {state.t:.2f}"),
+        "measured": _invariants(state),
+        "numbers": _in_other_numbers(state.T_world_body, state.T_world_body, state.params.order),
         "turned": Curve(way.times, way.turned, state.params.method, "Turned so far", "t", "deg", marks=(state.t,)),
         "turned at best": Curve(x, state.shortest.turned, "shortest turn", "Turned so far", "t", "deg", "truth"),
         "caption": caption_of_move(state),
     }
     if len(way.path) > 1:
-        scene["path"] = Segments(_steps(way.path), "source", 3, name=f"path of vertex {body.point}")
+        scene["path"] = Segments(segments(way.path), "source", 3, name=f"path of vertex {body.point}")
         speed = np.diff(way.turned) / np.diff(way.times)
         scene["speed"] = Curve(way.times[1:], speed, state.params.method, "Turning speed", "t", "deg per unit of t")
     return scene
@@ -166,8 +174,72 @@ def _gimbal_curve(state: Built) -> Curve:
     )
 
 
-def _steps(path: np.ndarray) -> np.ndarray:
-    return np.stack([path[:-1], path[1:]], axis=1)
+def _matrix(T: np.ndarray, title: str) -> Table:
+    """Show a 4×4; its columns are where the axes and the origin go."""
+    header = ("x axis", "y axis", "z axis", "origin")
+    return Table(title, header, tuple(tuple(fixed(value, 2) for value in line) for line in T))
+
+
+def _amount(change: Change) -> str:
+    """Say in a few words what became of a measure."""
+    if change.kept:
+        return "kept"
+    if change.name == "orientation":
+        return "flipped"
+    if change.unit == "rad":
+        return f"up to {angle(np.degrees(change.amount))}"
+    most = "up to " if change.name == "edge lengths" else ""  # area and volume are one number each
+    return f"{most}{percent(change.amount)}"
+
+
+def _invariants(state: State) -> Table:
+    """Show which measures of the body survived, this factor and all of them."""
+    if isinstance(state, Built):
+        header = ("measured", "this factor", "all so far")
+        lines = [(a.name, _amount(a), _amount(b)) for a, b in zip(state.by_factor, state.by_all, strict=True)]
+        kinds = ("kind of map", kind_of(state.factor.matrix).value, kind_of(state.T).value)
+        return Table("What survives", header, (kinds, *lines))
+    lines = [(change.name, _amount(change)) for change in state.by_all]
+    return Table(
+        "What survives", ("measured", "since the start"), (("kind of map", kind_of(state.T_world_body).value), *lines)
+    )
+
+
+def _one_point(state: Built) -> Table:
+    """Show the followed vertex (w = 1) and the direction to the front (w = 0) before and after the map."""
+    columns = [np.append(state.body.p_point, 1.0), np.append(FRONT, 0.0)]
+    p, v = columns
+    after_p, after_v = state.T @ p, state.T @ v
+    lines = zip("xyzw", p, after_p, v, after_v, strict=True)
+    return Table(
+        "A point and a direction",
+        ("", f"vertex {state.body.point}", "T · vertex", "front", "T · front"),
+        tuple((name, *(fixed(value, 2) for value in values)) for name, *values in lines),
+    )
+
+
+def _in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder) -> Table:
+    """Show the rotation in a 4×4 under its other names; what stretches or mirrors is split off first.
+
+    A projective map has no such parts: then the rotation is that of its rigid factors alone.
+    """
+    affine = np.array_equal(T[3], (0, 0, 0, 1))
+    parts = decompose(T if affine else T_world_body)
+    R = parts.rotation
+    axis, radians = axis_angle_from_rotation(R)
+    rows = [
+        (f"Euler {order}", ", ".join(f"{fixed(a, 1)}°" for a in np.degrees(matrix_to_euler(R, order)))),
+        ("axis", fixed_row(axis, 2) if radians > ROUND_OFF else "any"),
+        ("angle", f"{fixed(np.degrees(radians), 1)}°"),
+        ("quaternion w, x, y, z", fixed_row(quaternion_from_matrix(R), 2)),
+    ]
+    if affine:
+        stretches = fixed_row(np.linalg.eigvalsh(parts.stretch)[::-1], 2)
+        rows += [
+            ("stretch" + ", mirrored at the origin" * (parts.mirror < 0), stretches),
+            ("det T", fixed(float(np.linalg.det(T[:3, :3])), 2)),
+        ]
+    return Table("The rotation, in other numbers", ("name", "numbers"), tuple(rows))
 
 
 def _affine(T: np.ndarray) -> bool:

@@ -2,9 +2,6 @@
 
 What it teaches: a 4x4 is a product in which the order counts; lengths, angles, volumes and orientation tell the kinds of
 maps apart; Euler angles, matrices and quaternions are names of one rotation, and only some of them can be blended.
-
-`params.py` has the inputs, `body.py` the body and its factors, `compare.py` the misreadings, `states.py` what is
-yielded, `draw.py` the picture, `presets.py` the experiments and questions.
 """
 
 from collections.abc import Iterator
@@ -15,17 +12,16 @@ import numpy as np
 from lessons.transforms.body import body_of, motion_factors, numbers_of, shape_factors
 from lessons.transforms.compare import ghosts_of, undo_ghosts_of
 from lessons.transforms.draw import draw
-from lessons.transforms.params import Params
-from lessons.transforms.presets import PRESETS, QUESTIONS
-from lessons.transforms.states import Built, Moved, State, Way
+from lessons.transforms.experiments import PRESETS, QUESTIONS
+from lessons.transforms.state import Built, Moved, Params, State, Way
 from workbench.algorithms import interpolation as between
 from workbench.algorithms.composition import Invert, compose
 from workbench.algorithms.interpolation import FromEuler, Rodrigues
 from workbench.geometry import rotations
 from workbench.geometry.affine import transform
-from workbench.geometry.alignment import nearest_rotation
+from workbench.geometry.alignment import degrees_between, nearest_rotation
 from workbench.geometry.invariants import changes, measure
-from workbench.geometry.motions import apply, exp_so3, inverse, motion, rotation_angle
+from workbench.geometry.motions import apply, exp_so3, inverse, motion
 from workbench.lesson import Lesson, View
 
 
@@ -60,19 +56,19 @@ def _build(
         turns += now.factor.kind == "turn"
         undone, complete = now.factor.kind == "undo", len(trail) == len(shape) + len(motions) + 1
         yield Built(
-            params,
-            body,
-            now.factor,
-            now.T,
-            now.T_world_body,
-            turns,
-            np.where(np.arange(3) < turns, numbers.angles, 0.0),
-            changes(before, after),
-            changes(body.measures, after),
-            trail,
-            complete,
-            undo_ghosts_of(params, body, now.T_world_body, A) if undone else ghosts if complete else (),
-            float(np.linalg.norm(p_now - p_shaped, axis=1).max()) if undone else float("nan"),
+            params=params,
+            body=body,
+            factor=now.factor,
+            T=now.T,
+            T_world_body=now.T_world_body,
+            turns=turns,
+            angles=np.where(np.arange(3) < turns, numbers.angles, 0.0),
+            by_factor=changes(before, after),
+            by_all=changes(body.measures, after),
+            trail=trail,
+            complete=complete,
+            ghosts=undo_ghosts_of(params, body, now.T_world_body, A) if undone else ghosts if complete else (),
+            left=float(np.linalg.norm(p_now - p_shaped, axis=1).max()) if undone else float("nan"),
         )
         before = after
 
@@ -89,7 +85,7 @@ def _move(
     T_start = motion(euler_to_matrix(numbers.angles, params.order), np.zeros(3))
     T_end = motion(R_end, numbers.offset)
     shortest = list(between.slerp_and_lerp(T_start, T_end, times, rotations.rotation_from_axis_angle))
-    shortest_way = way = Way(times[:0], np.empty((0, 3)), times[:0], times[:0])
+    shortest_way = way = Way(times=times[:0], path=np.empty((0, 3)), turned=times[:0], volume=times[:0])
     for k, now in enumerate(shortest):
         shortest_way = _gone(shortest_way, now, shortest[max(k - 1, 0)], body.p_point)
     if params.method == "slerp + lerp":
@@ -110,29 +106,29 @@ def _move(
         T, before = now.T_world_body, now
         after = measure(apply(T, body.solid.p), body.solid.faces)
         yield Moved(
-            params,
-            body,
-            T_start,
-            T_end,
-            T,
-            best.T_world_body,
-            way,
-            shortest_way,
-            _degrees_between(best.T_world_body, T),
-            changes(body.measures, after),
+            params=params,
+            body=body,
+            T_world_start=T_start,
+            T_world_end=T_end,
+            T_world_body=T,
+            T_world_shortest=best.T_world_body,
+            way=way,
+            shortest=shortest_way,
+            off=degrees_between(best.T_world_body, T),
+            by_all=changes(body.measures, after),
         )
 
 
 def _gone(way: Way, now: between.State, before: between.State, p_point: np.ndarray) -> Way:
-    turned = (way.turned[-1] if len(way.turned) else 0.0) + _degrees_between(before.T_world_body, now.T_world_body)
+    turned = (way.turned[-1] if len(way.turned) else 0.0) + degrees_between(before.T_world_body, now.T_world_body)
     path = np.vstack([way.path, apply(now.T_world_body, p_point)])
     volume = np.linalg.det(now.T_world_body[:3, :3])
-    return Way(np.append(way.times, now.t), path, np.append(way.turned, turned), np.append(way.volume, volume))
-
-
-def _degrees_between(T: np.ndarray, other: np.ndarray) -> float:
-    """Return the angle between two rotations, or between the rotations nearest to what are none."""
-    return float(np.degrees(rotation_angle(nearest_rotation(T[:3, :3]).T @ nearest_rotation(other[:3, :3]))))
+    return Way(
+        times=np.append(way.times, now.t),
+        path=path,
+        turned=np.append(way.turned, turned),
+        volume=np.append(way.volume, volume),
+    )
 
 
 lesson = Lesson(

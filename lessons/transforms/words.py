@@ -2,13 +2,12 @@
 
 import numpy as np
 
-from lessons.transforms.body import FRONT, numbers_of
-from lessons.transforms.compare import SAME, Ghost, in_degrees, other_triples
-from lessons.transforms.params import Method
-from lessons.transforms.states import Built, Moved
+from lessons.transforms.body import numbers_of
+from lessons.transforms.compare import in_degrees, other_triples
+from lessons.transforms.state import FRONT, SAME, Built, Ghost, Method, Moved
 from workbench.geometry.affine import Kind, kind_of, transform
 from workbench.geometry.rotations import gimbal_margin
-from workbench.numerals import brief, fixed
+from workbench.numerals import angle, brief, fixed, length, percent
 from workbench.scene import Caption
 
 LOCKED = 1e-12  # sine between the outer axes; below it they are one
@@ -45,24 +44,17 @@ def _front_with_w_1(state: Built) -> tuple[str, bool]:
     right, taken = (state.T @ np.append(FRONT, w) for w in (0.0, 1.0))
     if np.linalg.norm(taken[:3]) < SAME:
         return "The front taken with w = 1 has length 0: it points nowhere.", True
-    angle = np.degrees(angle_between(right[:3], taken[:3]))
+    apart = np.degrees(angle_between(right[:3], taken[:3]))
     if np.linalg.norm(right[:3] - taken[:3]) < SAME:
         return "The front taken with w = 1 is the same here: nothing was translated.", False
-    if angle < 1e-6:
+    if apart < 1e-6:
         return "The front taken with w = 1 points the same way here, but its length is another.", True
-    return f"The front taken with w = 1 points {brief(float(angle), 2)}° away from it.", True
+    return f"The front taken with w = 1 points {angle(apart, 2)} away from it.", True
 
 
 def angle_between(v: np.ndarray, w: np.ndarray) -> float:
     """Return the angle between two directions, radians."""
     return float(np.arctan2(np.linalg.norm(np.cross(v, w)), v @ w))
-
-
-def length(metres: float) -> str:
-    """Write a length; what only rounding left of zero is 0."""
-    if metres < SAME:
-        return "0 m"
-    return f"{fixed(metres, 2)} m" if metres >= 0.01 else f"{brief(1000 * metres, 2)} mm"
 
 
 def _spread(ghosts: tuple[Ghost, ...]) -> str:
@@ -93,15 +85,13 @@ def _factor_caption(state: Built) -> Caption:
         size += "" if np.isnan(volume) else f", volume {brief(volume)} m³"
         return Caption(f"The {state.body.name} before anything is done: {size}; T is the identity.")
     if kind == "scale":
-        text = f"Scaled, {words}: edges change by up to {brief(100 * change['edge lengths'])} %, volumes × {det}."
+        text = f"Scaled, {words}: edges change by up to {percent(change['edge lengths'])}, volumes × {det}."
     elif kind == "shear":
-        text = (
-            f"Sheared, {words}: angles change by up to {fixed(np.degrees(change['angles']), 1)}°, yet det is {det}: the"
-        )
+        text = f"Sheared, {words}: angles change by up to {angle(np.degrees(change['angles']))}, yet det is {det}: the"
         text += " volume stays."
     elif kind == "perspective":
         text = f"Divided by {words}: straight edges stay straight, but edges that were parallel are now up to"
-        text += f" {fixed(np.degrees(change['parallel edges']), 1)}° apart. The last row of T is no longer 0 0 0 1."
+        text += f" {angle(np.degrees(change['parallel edges']))} apart. The last row of T is no longer 0 0 0 1."
     elif kind == "mirror":
         text = f"Mirrored, {words}: det is {det}. Every length and angle is kept, but a left hand would now be a right"
         text += " one; no rotation does that."
@@ -139,8 +129,8 @@ def _lock_words(state: Built) -> str:
     if margin < LOCKED:
         triple = in_degrees(other_triples(numbers_of(state.params))[0])
         return f" Gimbal lock: angles 1 and 3 turn about one axis; {triple} is the same rotation."
-    apart = brief(np.degrees(np.arcsin(min(margin, 1.0))), 2)
-    return f" Nearly gimbal lock: angles 1 and 3 turn about axes {apart}° apart."
+    apart = np.degrees(np.arcsin(min(margin, 1.0)))
+    return f" Nearly gimbal lock: angles 1 and 3 turn about axes {angle(apart, 2)} apart."
 
 
 def caption_of_move(state: Moved) -> Caption:
@@ -155,12 +145,12 @@ def caption_of_move(state: Moved) -> Caption:
     )
     text += f" {fixed(step, 1)}° of it in this step"
     if abs(state.volume - 1.0) > SAME:
-        share = f"the volume is {brief(100 * abs(state.volume))} % of the start's"
+        share = f"the volume is {percent(abs(state.volume))} of the start's"
         return Caption(f"{text}; {share}{', mirrored' * (state.volume < 0)}, so this is no rotation.", "wrong")
     if state.t < 1.0:
         aside = float(np.linalg.norm(state.T_world_body[:3, 3] - state.T_world_shortest[:3, 3]))
         place = f", its origin {length(aside)} from where lerp has it" if aside > SAME else ""
-        turn = f"{brief(state.off, 2)}° from the shortest turn" if state.off > 1e-6 else "on the shortest turn"
+        turn = f"{angle(state.off, 2)} from the shortest turn" if state.off > 1e-6 else "on the shortest turn"
         return Caption(f"{text}; {turn}{place}.")
     return _arrival(state, text, float(shortest))
 
@@ -172,6 +162,6 @@ def _arrival(state: Moved, text: str, shortest: float) -> Caption:
     if missed > SAME:
         return Caption(f"{text}. The end is missed: the farthest vertex is {length(float(missed))} off.", "wrong")
     if abs(lowest - 1.0) > SAME:
-        return Caption(f"{text}. The end is met, but on the way the volume fell to {brief(100 * lowest)} %.")
+        return Caption(f"{text}. The end is met, but on the way the volume fell to {percent(lowest)}.")
     text += f". The end is met; the shortest turn is {fixed(shortest, 1)}°."
     return Caption(text, "info" if state.way.turned[-1] > shortest + 0.05 else "good")

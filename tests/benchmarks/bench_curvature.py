@@ -2,7 +2,7 @@
 
 All contenders of a task see the same mesh in one run and on one thread, taking turns; figures are medians of CPU
 milliseconds. K and H are followed by their relative L2 error in per cent on a regular torus, where formulas converge,
-and on a jittered one, where only fits do. SPEED.md's floors are ratios to the best peer.
+and on a jittered one, where only fits do. Floors are ratios to the best peer that a prototype reached.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)

@@ -213,7 +213,7 @@ def profiled_run(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarra
 
 def main() -> None:
     profile(20_000)
-    print(f"{'task (ms)':<44} {'ours':>8}   {'peers':<44} {'ratio':>6}   floor (SPEED.md)")
+    print(f"{'task (ms)':<44} {'ours':>8}   {'peers':<44} {'ratio':>6}   floor")
     bench_alignment()
     bench_normals()
     bench_icp(20_000, "18-19, ratio 1.3-1.9", "148-164, ratio 1.1-1.2, 0.012 degrees")

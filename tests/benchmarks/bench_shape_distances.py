@@ -1,7 +1,7 @@
 """Chamfer, earth mover's and Sinkhorn beside what is installed of small_gicp, pykdtree, open3d, POT and scipy.
 
 Run `python -m tests.benchmarks.bench_shape_distances [--large] [--only emd]`. A ratio below 1 means ours is faster;
-"floor" is the ratio to the best peer that ../shared/SPEED.md calls reached. Chamfer and Sinkhorn: the least wall time of a
+"floor" is the ratio to the best peer that a prototype reached. Chamfer and Sinkhorn: the least wall time of a
 few runs, and processor time over all threads, from which the ratio is made, since it bears other work on the machine
 better. Run with OPENBLAS_NUM_THREADS=1 on a busy machine: matrix products that wait for a second core count the waiting.
 

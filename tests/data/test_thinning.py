@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.thinning import voxel_means
+from workbench.data.thinning import some_points, voxel_means
 
 
 @settings(max_examples=25, deadline=None)
@@ -33,3 +33,16 @@ def test_a_stray_point_does_not_overflow():
 def test_a_voxel_has_a_size(size):
     with pytest.raises(ValueError, match="positive size"):
         voxel_means(np.zeros((2, 3)), size)
+
+
+@given(seed=st.integers(0, 99), n=st.integers(0, 40), most=st.integers(0, 40))
+def test_some_points_are_different_ones_in_their_order(seed, n, most):
+    rows = some_points(np.arange(float(n))[:, None], most, np.random.default_rng(seed))[:, 0]
+    assert len(rows) == min(n, most)
+    assert (np.diff(rows) > 0).all()
+    assert set(rows) <= set(range(n))
+
+
+def test_every_point_has_its_chance():
+    drawn = [some_points(np.arange(5.0)[:, None], 2, np.random.default_rng(seed))[:, 0] for seed in range(200)]
+    np.testing.assert_allclose(np.bincount(np.concatenate(drawn).astype(int), minlength=5) / 400, 0.2, atol=0.06)

@@ -11,6 +11,7 @@ from workbench.geometry.alignment import (
     align_affine,
     align_rigid,
     align_similarity,
+    degrees_between,
     nearest_rotation,
     point_to_plane_step,
     rmse,
@@ -245,3 +246,19 @@ def test_the_nearest_rotation_is_the_polar_one(seed):
     if np.linalg.det(A) > 0:
         np.testing.assert_allclose(nearest_rotation(A), scipy.linalg.polar(A)[0], atol=1e-8)
     assert is_rotation(nearest_rotation(A))
+
+
+@settings(max_examples=40, deadline=None)
+@given(motions(), motions(), motions())
+def test_the_angle_between_motions_is_a_distance_that_no_common_motion_changes(A, B, C):
+    theirs = scipy.spatial.transform.Rotation.from_matrix(A[:3, :3].T @ B[:3, :3]).magnitude()
+    assert degrees_between(A, B) == pytest.approx(np.degrees(theirs), abs=1e-6)
+    assert degrees_between(A[:3, :3], B[:3, :3]) == pytest.approx(degrees_between(B, A), abs=1e-9)
+    assert degrees_between(C @ A, C @ B) == pytest.approx(degrees_between(A, B), abs=1e-6)
+    assert degrees_between(A, A) < 1e-6
+
+
+@pytest.mark.parametrize("degrees", [0.0, 1e-7, 90.0, 180.0 - 1e-7, 180.0])
+def test_scale_and_shear_do_not_count_as_turning(degrees):
+    turned = exp_so3(np.radians([0.0, degrees, 0.0]))
+    assert degrees_between(turned @ np.diag([2.0, 3.0, 0.5]), np.eye(3)) == pytest.approx(degrees, rel=1e-6, abs=1e-12)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import scipy
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -196,3 +197,14 @@ def test_scanned_meshes_are_accepted(shared_data, name, chi):
     meshes.check_mesh(p, faces)
     assert meshes.euler_characteristic(faces) == chi
     assert not meshes.on_boundary(faces, len(p)).any()
+
+
+@settings(max_examples=20, deadline=None)
+@given(seeds, st.integers(0, 4))
+def test_vertices_within_some_edges_are_those_of_scipys_shortest_paths(seed, steps):
+    _, faces = random_closed(np.random.default_rng(seed), 40)
+    count = int(faces.max()) + 1
+    far = scipy.sparse.csgraph.shortest_path(meshes.adjacency(faces, count), unweighted=True)
+    vertex = seed % count
+    near = meshes.vertices_within(meshes.edges(faces), vertex, steps)
+    np.testing.assert_array_equal(near, np.flatnonzero(far[vertex] <= steps))

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.normals import _least_directions, on_a_line, point_normals
+from workbench.geometry.normals import _least_directions, on_a_line, point_normals, surface_variation
 
 
 def angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -106,3 +106,20 @@ def test_points_on_rings_lie_on_lines_and_points_on_a_surface_do_not():
     assert on_a_line(plane).mean() < 0.03
     assert on_a_line(lump).mean() < 0.1
     assert on_a_line(np.ones((20, 3))).all()
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10_000), st.floats(0.01, 100.0))
+def test_surface_variation_does_not_depend_on_place_turn_or_size(seed, size):
+    rng = np.random.default_rng(seed)
+    p = rng.normal(size=(30, 3)) * [1.0, 0.7, 0.3]
+    moved = size * (p @ exp_so3(rng.uniform(-3, 3, 3)).T + rng.uniform(-5, 5, 3))
+    assert surface_variation(moved) == pytest.approx(surface_variation(p), rel=1e-6)
+    assert 0.0 < surface_variation(p) <= 1.0 / 3.0
+
+
+def test_surface_variation_of_the_flat_the_even_and_one_place():
+    corners = np.array(list(np.ndindex(2, 2, 2)), dtype=float)
+    assert surface_variation(corners) == pytest.approx(1.0 / 3.0)
+    assert surface_variation(corners[corners[:, 2] == 0]) == pytest.approx(0.0, abs=1e-12)
+    assert surface_variation(np.ones((4, 3))) == 0.0

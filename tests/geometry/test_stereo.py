@@ -45,6 +45,7 @@ def test_two_cameras_that_project_a_point_tell_its_depth(camera, seed):
     assert (d + camera.doffs > 0).all()
     depth = depth_from_disparity(d + camera.doffs, camera.f, camera.baseline)
     assert np.allclose(depth, p_camera[:, 2], rtol=1e-7)
+    assert np.array_equal(camera.depth(d), depth)
     assert np.allclose(disparity_from_depth(depth, camera.f, camera.baseline), d + camera.doffs, rtol=1e-7)
 
 

@@ -7,11 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from lessons.icp.basin import Try
+from lessons.icp.experiments import HOME
 from lessons.icp.lesson import lesson, run
-from lessons.icp.params import Params
-from lessons.icp.presets import HOME
-from lessons.icp.state import State
+from lessons.icp.state import Params, State, Try
 from tests.runs import finished
 from workbench.scene import Caption
 from workbench.timeline import Timeline

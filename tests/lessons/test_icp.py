@@ -8,10 +8,9 @@ import pytest
 
 from lessons.icp.basin import ANGLES
 from lessons.icp.draw import draw
+from lessons.icp.experiments import HOME, end, rmse_falls
 from lessons.icp.lesson import lesson, run
-from lessons.icp.params import Params
-from lessons.icp.presets import HOME, end, rmse_falls
-from lessons.icp.state import State
+from lessons.icp.state import Params, State
 from tests.lessons.icp_runs import caption, preset, scene, states, timeline, tries, true, two_scans, until_stop
 from workbench.algorithms.icp import Stop, nearest
 from workbench.geometry.alignment import align_rigid

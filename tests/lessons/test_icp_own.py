@@ -9,9 +9,9 @@ import pytest
 
 from lessons.icp.basin import ANGLES
 from lessons.icp.draw import draw
+from lessons.icp.experiments import HOME, end
 from lessons.icp.lesson import lesson, run
-from lessons.icp.params import Params
-from lessons.icp.presets import HOME, end
+from lessons.icp.state import Params
 from tests.lessons.icp_runs import preset, scene, states, true, two_scans, until_stop
 from workbench.algorithms.icp import Stop
 from workbench.data.lidar import Street, lidar_scan, street
@@ -32,9 +32,9 @@ class TestOwnScans:
         assert np.abs((p.max(axis=0) + p.min(axis=0)) / 2).max() < 0.1
         state, source = states(two_files)[-1], scene(two_files, -1)["source"]
         gap = np.linalg.norm(apply(source.T_world_object, source.p) - p[state.icp.indices], axis=1)
-        np.testing.assert_allclose(gap, state.scans.scale * state.icp.distances, atol=1e-9)
+        np.testing.assert_allclose(gap, state.scans.frame.scale * state.icp.distances, atol=1e-9)
 
-    @pytest.mark.parametrize(("up", "axis"), [("z", [0, 0, 1]), ("y", [0, 1, 0]), ("-y", [0, -1, 0])])
+    @pytest.mark.parametrize(("up", "axis"), [("z", [0, 0, 1]), ("y", [0, 1, 0]), ("-y", [0, -1, 0]), ("x", [1, 0, 0])])
     def test_they_stand_upright(self, two_files, up, axis):
         params = replace(two_files, up=up)
         scans, shown = states(params)[0].scans, scene(params, 0)
@@ -42,11 +42,11 @@ class TestOwnScans:
         above = int(np.argmax(scans.p_target @ axis))
         height = (scans.p_target[above] - middle) @ axis
         p = shown["target"].p
-        assert p[above, 2] - p[:, 2].mean() == pytest.approx(scans.scale * height)
+        assert p[above, 2] - p[:, 2].mean() == pytest.approx(scans.frame.scale * height)
         for k in (0, -1):
             state, source = states(params)[k], scene(params, k)["source"]
             gap = np.linalg.norm(apply(source.T_world_object, source.p) - p[state.icp.indices], axis=1)
-            np.testing.assert_allclose(gap, scans.scale * state.icp.distances, atol=1e-9)
+            np.testing.assert_allclose(gap, scans.frame.scale * state.icp.distances, atol=1e-9)
         assert "of the scans" in shown["size"].text
 
     def test_the_handle_turns_about_the_middle_of_the_picture(self, two_files):
@@ -65,7 +65,7 @@ class TestOwnScans:
         assert end(found).home
         first = found[-1].tries[0]  # started at the truth, so its end as seen from the truth is no motion at all
         np.testing.assert_allclose(first.T_target_truth[:3, :3], np.eye(3), atol=0.02)
-        off = apply(first.T_target_truth, found[0].scans.centre) - found[0].scans.centre
+        off = apply(first.T_target_truth, found[0].scans.frame.centre) - found[0].scans.frame.centre
         assert np.linalg.norm(off) < 10  # of about 1000
 
     def test_the_initial_guess_is_set_by_hand(self):
@@ -172,7 +172,7 @@ class TestAwkwardScans:
         p_target, p_source = self.rabbits()
         shown = draw(next(run(self.files(tmp_path, 100 * p_target, 100 * p_source))))
         grid: Any = shown["grid"]
-        scale = states(self.files(tmp_path, 100 * p_target, 100 * p_source))[0].scans.scale
+        scale = states(self.files(tmp_path, 100 * p_target, 100 * p_source))[0].scans.frame.scale
         at = np.unique(grid.ends[:, 0, 0].round(9))
         np.testing.assert_allclose(np.diff(at), 20 * scale)  # 20 m
         assert grid.name == "grid 20 m"

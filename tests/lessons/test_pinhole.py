@@ -5,41 +5,21 @@ import dataclasses
 import numpy as np
 import pytest
 
-from lessons.pinhole import presets
-from lessons.pinhole.lesson import lesson, run
-from lessons.pinhole.params import Mistake, Params
-from lessons.pinhole.presets import BACK, DISTORT, DIVIDE, PIXELS
+from lessons.pinhole import experiments
+from lessons.pinhole.experiments import BACK, DISTORT, DIVIDE, PIXELS
+from lessons.pinhole.lesson import lesson
 from lessons.pinhole.shot import FACTORS, shot_of
-from lessons.pinhole.state import State
+from lessons.pinhole.state import Params
 from lessons.pinhole.words import back_error
-from tests.runs import finished
+from tests.lessons.pinhole_runs import orange, preset, states, tone
 from workbench.data.street import BALL_CENTER, street
 from workbench.errors import InputError
 from workbench.geometry.cameras import camera_center, depths, intrinsics, project, vanishing_points
 from workbench.geometry.distortion import distort, invertible_radius
 from workbench.geometry.motions import inverse
 from workbench.knobs import fields_of
-from workbench.scene import PALETTE, Points, Segments
+from workbench.scene import Points
 from workbench.timeline import Timeline
-
-ORANGE = np.array(PALETTE["source"])
-
-
-def states(params: Params, **slots) -> list[State]:
-    return list(run(params, **slots))
-
-
-def preset(name: str) -> list[State]:
-    return states(lesson.preset(name).params)
-
-
-def orange(picture: np.ndarray) -> np.ndarray:
-    return (picture == ORANGE).all(axis=2)
-
-
-def tone(params: Params, step: int) -> str:
-    return finished(lesson.name, params)[step].caption.tone
-
 
 # The default run
 
@@ -113,19 +93,19 @@ def test_the_camera_may_not_stand_on_its_target():
 
 
 def test_dolly_keeps_the_crate_and_nearly_doubles_the_tower():
-    before, after = shot_of(dataclasses.replace(presets.DOLLY, dolly=1.0)), preset("dolly")[-1].shot
+    before, after = shot_of(dataclasses.replace(experiments.DOLLY, dolly=1.0)), preset("dolly")[-1].shot
     assert after.crate == pytest.approx(before.crate, rel=0.01)
     assert round(after.crate) == 56
     assert (round(after.tower_before), round(after.tower)) == (97, 172)
     assert after.tower_before == pytest.approx(before.tower)
     assert after.crate_before == pytest.approx(before.crate)
-    said = Timeline(lesson, presets.DOLLY).complete()[PIXELS].caption.text
+    said = Timeline(lesson, experiments.DOLLY).complete()[PIXELS].caption.text
     assert "the tower was 97.4 px high and is 172 px now" in said
     assert f"The crate was {before.crate:.1f} px high and is {after.crate:.1f} px now" in said
 
 
 def test_doubling_f_doubles_every_distance_from_the_principal_point():
-    near, far = states(dataclasses.replace(presets.ZOOM, f=presets.ZOOM.f / 2))[-1], preset("zoom")[-1]
+    near, far = states(dataclasses.replace(experiments.ZOOM, f=experiments.ZOOM.f / 2))[-1], preset("zoom")[-1]
     c = far.shot.K[:2, 2]
     np.testing.assert_allclose(far.now.uv - c, 2 * (near.now.uv - c), atol=1e-9)
     np.testing.assert_allclose(far.now.xy, near.now.xy, atol=1e-12)
@@ -147,7 +127,7 @@ def test_rails_meet_where_the_formula_says_wherever_the_camera_stands():
     shot = run_[-1].shot
     far = np.array([[x, 1e7, 0.06] for x in (-0.75, 0.75)])
     np.testing.assert_allclose(project(far, shot.T_camera_world, shot.K), [shot.vanishing] * 2, atol=1e-3)
-    assert abs(presets.shift_of_vanishing(run_)) < 1e-9
+    assert abs(experiments.shift_of_vanishing(run_)) < 1e-9
     moved = shot.T_camera_world.copy()
     moved[:3, 3] = (7.0, -3.0, 2.0)
     np.testing.assert_allclose(vanishing_points(np.array([[0.0, 1, 0]]), moved, shot.K)[0], shot.vanishing)
@@ -158,7 +138,7 @@ def test_rails_meet_where_the_formula_says_wherever_the_camera_stands():
 def test_the_ball_is_an_ellipse_off_the_axis_and_round_on_it():
     shot = preset("ball")[-1].shot
     assert shot.ball_ratio > 1.35
-    on_axis = dataclasses.replace(presets.BALL, target=tuple(float(x) for x in BALL_CENTER))
+    on_axis = dataclasses.replace(experiments.BALL, target=tuple(float(x) for x in BALL_CENTER))
     assert shot_of(on_axis).ball_ratio == pytest.approx(1.0, abs=1e-9)
 
 
@@ -184,7 +164,7 @@ def test_radial_lenses_move_along_the_radius_and_more_further_out(name, sign):
 def test_barrel_bows_edges_outwards_and_pincushion_inwards():
     """The middle of a straight edge above the centre, against the line through its bent ends."""
     edge = np.column_stack([[-0.5, 0.0, 0.5], [-0.4, -0.4, -0.4]])
-    for params, sign in ((presets.BARREL, 1), (presets.PINCUSHION, -1)):
+    for params, sign in ((experiments.BARREL, 1), (experiments.PINCUSHION, -1)):
         ends = distort(edge, params.k1, params.k2)
         bow = ends[[0, 2], 1].mean() - ends[1, 1]  # y points down: positive is outwards here
         assert sign * bow > 0.005
@@ -222,7 +202,7 @@ def test_a_lamp_behind_gets_a_pixel_well_inside_only_if_divided_anyway():
     assert state.false == 1
     assert round(state.now.p_camera[5, 2]) == -2
     assert np.isnan(states(Params(point=5))[PIXELS].now.uv[5]).all()
-    assert tone(presets.BEHIND, PIXELS) == "wrong"
+    assert tone(experiments.BEHIND, PIXELS) == "wrong"
 
 
 def test_the_inverted_pose_loses_nearly_every_point():
@@ -232,7 +212,7 @@ def test_the_inverted_pose_loses_nearly_every_point():
     np.testing.assert_allclose(
         state.now.p_camera[2], (inverse(state.shot.T_camera_world) @ [*street().points[2], 1])[:3]
     )
-    assert tone(presets.INVERTED, 1) == "wrong"
+    assert tone(experiments.INVERTED, 1) == "wrong"
 
 
 def test_opengl_axes_make_depths_negative_and_mirror_the_picture():
@@ -256,7 +236,7 @@ def test_a_lens_fed_with_pixels_is_off_by_millions():
     assert run_[DIVIDE].error < 1e-9
     assert run_[DISTORT].error > 1e6
     assert (
-        Timeline(lesson, presets.LENS_ON_PIXELS)
+        Timeline(lesson, experiments.LENS_ON_PIXELS)
         .complete()[PIXELS]
         .caption.text.startswith("K (x′, y′, 1) is the pixel")
     )
@@ -279,7 +259,7 @@ def test_a_forgotten_k_is_shifted_and_twice_too_large():
 
 def test_the_edited_photograph_is_the_one_its_k_describes():
     """Corners of the outline, drawn by the edited K, lie where the halved photograph has its own edges."""
-    full, half = shot_of(Params()), shot_of(presets.CROP_RIGHT)
+    full, half = shot_of(Params()), shot_of(experiments.CROP_RIGHT)
     np.testing.assert_allclose((half.uv + 0.5) * 2 - 0.5 + [60, 40], full.uv)
     blocks = full.picture[40:, 60:].reshape(100, 2, 130, 2, 3).mean(axis=(1, 3))
     assert np.abs(half.picture - blocks).max() <= 0.5
@@ -344,120 +324,3 @@ def test_the_text_of_the_centre_question_states_the_t_of_its_camera():
     np.testing.assert_allclose(camera_center(T), question.params.camera)
     assert "C = −Rᵀt = (2.00, −4.00, 2.50) m" in question.why(states(question.params))
     assert f"{np.linalg.norm(T[:3, 3]):.2f} m long" in question.why(states(question.params))
-
-
-# Awkward places
-
-
-def captions(params: Params, **slots) -> list[str]:
-    timeline = Timeline(lesson, params, slots).complete()
-    assert timeline.stopped is None, timeline.failure
-    return [step.caption.text for step in timeline.known()]
-
-
-def test_an_inverse_that_is_the_same_motion_is_not_blamed():
-    """From straight above the diagonal, T_camera_world is its own inverse."""
-    params = Params(camera=(1.0, 1.0, 5.0), target=(1.0, 1.0, 0.0), mistake="pose inverted")
-    T = shot_of(params).T_camera_world
-    np.testing.assert_allclose(T @ T, np.eye(4), atol=1e-12)
-    assert not any("inverted" in text for text in captions(params))
-    assert tone(params, 1) == "info"
-
-
-def test_heights_that_no_picture_shows_are_not_said():
-    params = Params(camera=(0.5, 30.0, 1.7), target=(0.3, 50.0, 1.0), dolly=2.0)
-    assert not np.isfinite(shot_of(params).crate)
-    assert "crate" not in captions(params)[PIXELS]
-
-
-def test_a_dolly_about_another_target_does_not_say_that_the_crate_keeps_its_size():
-    params = Params(dolly=3.0, k1=0.0, k2=0.0)
-    shot = shot_of(params)
-    assert shot.crate < 0.9 * shot.crate_before
-    said = captions(params)[PIXELS]
-    assert f"was {shot.crate_before:.1f} px high and is {shot.crate:.1f} px now" in said
-
-
-def test_a_point_in_front_that_a_function_loses_is_not_said_to_be_behind():
-    def nothing(p_world, T_camera_world, K):
-        return np.full((len(p_world), 2), np.nan)
-
-    assert "is in front of the camera, Z = 16.03 m" in captions(Params(), project=nothing)[DIVIDE]
-    assert "is not in front of the camera, Z = −2.25 m" in captions(Params(point=5))[DIVIDE]
-
-
-def test_a_lens_that_bends_where_there_is_none_is_not_said_to_do_nothing():
-    said = captions(Params(k1=0.0, k2=0.0), distort=lambda xy, k1, k2, p1, p2: 1.1 * xy)
-    assert "(x′, y′) = (x, y)" not in said[DISTORT]
-
-
-def test_round_trips_end_where_they_began_and_not_at_a_rounding():
-    assert captions(Params())[BACK].endswith("we come out where we began.")
-    assert "1.09 m from where we began" in captions(presets.RAY_LENGTH)[BACK]
-
-
-# The functions of the exercises
-
-
-def test_a_wrong_project_shows_in_every_later_stage_and_in_the_picture():
-    def upside_down(p_world, T_camera_world, K):
-        return project(p_world, T_camera_world, K) * [1, -1] + [0, 2 * K[1, 2]]
-
-    run_, right = states(Params(), project=upside_down), states(Params())
-    assert all(state.error > 20 for state in run_[DIVIDE:])
-    assert run_[1].now.p_camera is not None
-    flipped = orange(run_[-1].picture)[::-1]
-    assert (flipped & orange(right[-1].picture)).sum() > 0.5 * flipped.sum()
-
-
-def test_a_wrong_distort_shows_from_the_lens_on():
-    run_ = states(Params(), distort=lambda xy, k1, k2, p1, p2: xy)
-    assert run_[DIVIDE].error < 1e-9
-    assert run_[DISTORT].error > 0.5
-    assert (run_[-1].picture != states(Params())[-1].picture).any()
-    assert back_error(run_[BACK]) > 0.01
-
-
-def test_a_wrong_camera_center_shows_on_the_way_back():
-    run_ = states(Params(), camera_center=lambda T: camera_center(T) + np.array([0, 0, 1.0]))
-    assert run_[PIXELS].error < 1e-9
-    assert back_error(run_[BACK]) == pytest.approx(1.0)
-
-
-def test_a_function_that_answers_nothing_is_shown_not_raised():
-    slots = {"project": lambda p, T, K: np.full((len(p), 2), np.nan)}
-    timeline = Timeline(lesson, Params(), slots).complete()
-    assert timeline.stopped is None, timeline.failure
-    assert timeline[PIXELS].caption.tone == "wrong"
-    assert timeline[PIXELS].state.found == 0
-
-
-def test_the_given_functions_are_asked_few_times():
-    """Each call goes to another process when a student's function runs."""
-    calls = {"project": 0, "distort": 0, "camera_center": 0}
-
-    def counted(name, function):
-        def wrapper(*args):
-            calls[name] += 1
-            return function(*args)
-
-        return wrapper
-
-    slots = {"project": project, "distort": distort, "camera_center": camera_center}
-    states(Params(), **{name: counted(name, function) for name, function in slots.items()})
-    assert calls["project"] == calls["distort"] == 3
-    assert calls["camera_center"] == 1
-
-
-def test_every_mistake_has_its_sentence():
-    from lessons.pinhole.words import MISTAKES
-
-    assert {*Mistake.__args__} == {"none", *MISTAKES}
-
-
-def test_rays_of_the_division_start_in_the_camera():
-    timeline = Timeline(lesson, Params()).complete()
-    rays = timeline[DIVIDE].scene["rays"]
-    assert isinstance(rays, Segments)
-    np.testing.assert_allclose(rays.ends[:, 0], np.tile(Params().camera, (len(rays.ends), 1)), atol=1e-9)
-    assert len(rays.ends) == 83

@@ -8,8 +8,8 @@ from tests import fake
 from tests.publish.conftest import TINY
 from workbench.errors import InputError
 from workbench.lesson import catalog
+from workbench.page.steps import Steps
 from workbench.publish import runs, site
-from workbench.publish.replay import beside
 from workbench.scene import Caption
 from workbench.timeline import Timeline
 
@@ -52,7 +52,7 @@ def test_the_numbers_are_those_of_the_run(published):
 
 
 def test_what_repeats_is_kept_once():
-    data = beside(Timeline(SMALL, SMALL.params()).complete())
+    data = Steps(Timeline(SMALL, SMALL.params()).complete()).whole()
     photos = [thing for thing in data["things"] if isinstance(thing, dict) and thing.get("title") == "Photo"]
     assert len(photos) == 1
 

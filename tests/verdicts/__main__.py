@@ -1,11 +1,15 @@
 """Holds what lessons say to the truth: `python -m tests.verdicts [--whole] [LESSON ...]`; prints what does not hold.
 
+A sentence that changes must not lose its judge unseen, so that a claim about a preset's line or an explanation which
+finds its words no more is printed too.
+
 The whole audit takes every step of every preset and question at 20 seeds. The quick one takes two, and of other seeds
 than a preset's own only the steps up to the algorithm's end.
 """
 
 import dataclasses
 import importlib
+import re
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
@@ -32,12 +36,16 @@ def main() -> int:
 def audit(lesson: Lesson, *, whole: bool) -> Iterator[str]:
     """Return what captions, preset lines and explanations of a lesson say that is not true."""
     judge = importlib.import_module(f"tests.verdicts.{lesson.name}")
+    yield from nameless(lesson, judge)
     short: Callable[[Any], Iterator[Any]] = getattr(judge, "until_the_end", lesson.run)
     for params, texts in experiments(lesson, judge):
         for one in seeded(params, WHOLE if whole else QUICK):
             states = lesson.run(one) if whole or one == params else short(one)
             where = f"{lesson.name}, {texts[0][0] if texts else 'default'}, seed {getattr(one, 'seed', '-')}"
-            wrong = list(judged(lesson, judge, Run(one, tuple(states)), texts))
+            run = Run(one, tuple(states))
+            wrong = list(judged(lesson, judge, run, texts))
+            if one == params:
+                wrong += wordless(run, texts)
             yield from (f"{where}, {line}" for line in wrong[:MOST])
             if len(wrong) > MOST:
                 yield f"{where}: {len(wrong) - MOST} more"
@@ -76,6 +84,23 @@ def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Itera
             yield f"step {k}: the tone is {said.tone}, the truth {right}: {said.text}"
     for name, text, claims in texts:
         yield from (f"{name}: {what}" for what in untrue(text(run), claims, run, len(run.states) - 1))
+
+
+def wordless(run: Run, texts: Sequence[Text]) -> list[str]:
+    """Return the claims about a line or an explanation whose words it does not have at its own params."""
+    return [
+        f"{name}: a claim is left without its words: {claim.words!r}"
+        for name, text, claims in texts
+        for claim in claims
+        if not re.search(claim.words, text(run))
+    ]
+
+
+def nameless(lesson: Lesson, judge: Any) -> Iterator[str]:
+    """Return the claims about presets and questions that the lesson does not have."""
+    for claims, named in ((judge.LINES, lesson.presets), (judge.WHYS, lesson.questions)):
+        for name in sorted(set(claims) - {one.name for one in named}):
+            yield f"{lesson.name}: claims about {name!r}, which it does not have"
 
 
 if __name__ == "__main__":

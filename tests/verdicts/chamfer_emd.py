@@ -7,26 +7,17 @@ import numpy as np
 import scipy
 
 from lessons.chamfer_emd.words import caption as caption
+from tests.readings import NUMBER, number, says
 from tests.verdicts import Claim, Run
 from workbench.algorithms.flow import Stop
 
-NUMBER = r"(<?[\d,.]*\d)"
-SHARE = r"(\d+) %"
-
-
-def number(text: str) -> float:
-    return float(text.lstrip("<").replace(",", ""))
+FIGURE = rf"(<?{NUMBER})"
+SHARE = rf"({NUMBER}) %"
 
 
 def near(said: str, value: float) -> bool:
     """Whether a number is said with its two digits that count."""
-    if said.startswith("<"):
-        return 0 < value < 1e-4
-    return abs(number(said) - value) <= 0.051 * abs(value) + 1e-12
-
-
-def percent(said: str, share: float) -> bool:
-    return abs(float(said) - 100 * share) <= 0.5 + 1e-9
+    return 0 < value < number(said[1:]) if said.startswith("<") else says(said, value, 2)
 
 
 @functools.lru_cache(maxsize=512)
@@ -140,11 +131,11 @@ def _larger(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _left(run: Run, k: int, m: re.Match[str]) -> bool:
-    return near(m[1], lowered(run, k - 1)) and near(m[2], lowered(run, k)) and percent(m[3], astray(run, k, "left"))
+    return near(m[1], lowered(run, k - 1)) and near(m[2], lowered(run, k)) and says(m[3], 100 * astray(run, k, "left"))
 
 
 def _right(run: Run, k: int, m: re.Match[str]) -> bool:
-    return near(m[1], emd(run, k - 1)) and near(m[2], emd(run, k)) and percent(m[3], astray(run, k, "right"))
+    return near(m[1], emd(run, k - 1)) and near(m[2], emd(run, k)) and says(m[3], 100 * astray(run, k, "right"))
 
 
 def _why(side: str):
@@ -164,34 +155,34 @@ WHY = r"(arrived|settled where no step lowers it|used up its steps)"
 
 # fmt: off
 CAPTIONS = [
-    Claim(rf"Chamfer {NUMBER} m², earth mover's {NUMBER} m\.", _started),
-    Claim(rf"The ranking flips: to Chamfer this is closer than the target 5 % larger \({NUMBER} m², {NUMBER} m\)",
+    Claim(rf"Chamfer {FIGURE} m², earth mover's {FIGURE} m\.", _started),
+    Claim(rf"The ranking flips: to Chamfer this is closer than the target 5 % larger \({FIGURE} m², {FIGURE} m\)",
           lambda run, k, m: _larger(run, k, m) and chamfer(moving(run, 0, "left"), run) < chamfer(larger(run), run)),
     Claim(r"to earth mover's it is farther", lambda run, k, m: emd(run, 0) > measured(larger(run), run)[2]),
-    Claim(rf"Compare the target 5 % larger \({NUMBER} m², {NUMBER} m\)", _larger),
+    Claim(rf"Compare the target 5 % larger \({FIGURE} m², {FIGURE} m\)", _larger),
     Claim(r"To Chamfer the two are equal: each point lies on one of the other cloud",
           lambda run, k, m: chamfer(moving(run, 0, "left"), run) == 0 < emd(run, 0)),
-    Claim(rf"Only pairs by index see a change: {NUMBER} m²",
+    Claim(rf"Only pairs by index see a change: {FIGURE} m²",
           lambda run, k, m: near(m[1], index_mse(run)) and emd(run, 0) == 0 == chamfer(moving(run, 0, "left"), run)),
     Claim(
         rf"Every source point lies on the target, so that side of Chamfer is 0"
-        rf" and the left flow has nothing to do; the other side is {NUMBER} m²",
+        rf" and the left flow has nothing to do; the other side is {FIGURE} m²",
         lambda run, k, m: (
             measured(moving(run, 0, "left"), run)[0] == 0 and near(m[1], measured(moving(run, 0, "left"), run)[1])
         ),
     ),
-    Claim(rf"Left: [\w ,-]*? {NUMBER} m² → {NUMBER} m², {SHARE} of the mass astray", _left),
+    Claim(rf"Left: [\w ,-]*? {FIGURE} m² → {FIGURE} m², {SHARE} of the mass astray", _left),
     Claim(
-        rf"Left: ended at {NUMBER} m², {SHARE} of the mass astray",
+        rf"Left: ended at {FIGURE} m², {SHARE} of the mass astray",
         lambda run, k, m: (
-            near(m[1], lowered(run, k)) and percent(m[2], astray(run, k, "left")) and ended(run, k, "left") is not None
+            near(m[1], lowered(run, k)) and says(m[2], 100 * astray(run, k, "left")) and ended(run, k, "left") is not None
         ),
     ),
-    Claim(rf"Right: earth mover's {NUMBER} m → {NUMBER} m, {SHARE} astray", _right),
+    Claim(rf"Right: earth mover's {FIGURE} m → {FIGURE} m, {SHARE} astray", _right),
     Claim(
-        rf"Right: earth mover's ended at {NUMBER} m, {SHARE} astray",
+        rf"Right: earth mover's ended at {FIGURE} m, {SHARE} astray",
         lambda run, k, m: (
-            near(m[1], emd(run, k)) and percent(m[2], astray(run, k, "right")) and ended(run, k, "right") is not None
+            near(m[1], emd(run, k)) and says(m[2], 100 * astray(run, k, "right")) and ended(run, k, "right") is not None
         ),
     ),
     Claim(rf"Left {WHY}", _why("left")),
@@ -337,7 +328,13 @@ def _spread(run: Run, k: int, m: re.Match[str]) -> bool:
     few = np.unique(
         scipy.spatial.distance.cdist(moving(run, -1, "left"), run.states[0].clouds.p_target).argmin(axis=0)[far(run)]
     )
-    return percent(m[1], left) and percent(m[2], other) and 0.6 < left < 0.99 and 0.4 < other < 0.6 and len(few) <= 10
+    return (
+        says(m[1], 100 * left)
+        and says(m[2], 100 * other)
+        and 0.6 < left < 0.99
+        and 0.4 < other < 0.6
+        and len(few) <= 10
+    )
 
 
 def far(run: Run) -> np.ndarray:
@@ -347,7 +344,7 @@ def far(run: Run) -> np.ndarray:
 
 def _missing(run: Run, k: int, m: re.Match[str]) -> bool:
     to_target, to_source, _, _ = measured(start(run), run)
-    return percent(m[1], to_source / (to_target + to_source)) and near(m[2], to_target + to_source)
+    return says(m[1], 100 * to_source / (to_target + to_source)) and near(m[2], to_target + to_source)
 
 
 # fmt: off
@@ -361,7 +358,7 @@ WHYS = {
     ],
     "predict-flip": [
         Claim(
-            rf"Bunched: Chamfer {NUMBER} m², EMD {NUMBER} m; 5 % larger: {NUMBER} m² and {NUMBER} m",
+            rf"Bunched: Chamfer {FIGURE} m², EMD {FIGURE} m; 5 % larger: {FIGURE} m² and {FIGURE} m",
             lambda run, k, m: (
                 near(m[1], chamfer(start(run), run))
                 and near(m[2], emd(run, 0))
@@ -378,14 +375,14 @@ WHYS = {
         ),
     ],
     "predict-missing": [
-        Claim(rf"{SHARE} of {NUMBER} m²", _missing),
-        Claim(rf"Every source point lies on a target point, so that the other side is {NUMBER} m²",
+        Claim(rf"{SHARE} of {FIGURE} m²", _missing),
+        Claim(rf"Every source point lies on a target point, so that the other side is {FIGURE} m²",
               lambda run, k, m: number(m[1]) == measured(start(run), run)[0] == 0),
         Claim(r"stays where it is", lambda run, k, m: bool(np.array_equal(moving(run, -1, "left"), start(run)))),
     ],
     "predict-outlier": [
         Claim(
-            rf"Hausdorff: {NUMBER} m, (\d+) times that of the ring 5 % larger; Chamfer ([\d.]+) times; EMD ([\d.]+) times",
+            rf"Hausdorff: {FIGURE} m, (\d+) times that of the ring 5 % larger; Chamfer ([\d.]+) times; EMD ([\d.]+) times",
             lambda run, k, m: (
                 number(m[1]) == 1.0
                 and int(m[2]) == 20

@@ -1,50 +1,33 @@
 """What the disparity lesson says of its runs, decided from the pictures' truth and the maps that a state carries."""
 
 import dataclasses
-import functools
 import re
-from typing import Any
 
 import numpy as np
 
 from lessons.disparity.lesson import lesson
 from lessons.disparity.words import caption
+from tests.readings import LENGTH, NUMBER, metres, number, says, says_length
+from tests.truths.disparity import (
+    CHOSEN,
+    comparing,
+    depths_off,
+    found_at,
+    given_up_of_hidden,
+    hidden_share,
+    mean_error,
+    near_an_edge,
+    of_stage,
+    off_in,
+    pair_of,
+    states,
+    true_depth,
+    wrong,
+)
 from tests.verdicts import Claim, Run
 from workbench.algorithms.disparity import Stage
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
-
-CHOSEN, CHECKED = -6, -5  # from the end: the last map before the check, and the check
-UNITS = {"mm": 0.001, "cm": 0.01, "m": 1.0}
-
-
-def off(state, disparity: np.ndarray | None = None) -> np.ndarray:
-    """Return how far the pixels that both cameras see are off, pixels; NaN where a disparity is unknown."""
-    pair = state.setup.pair
-    return np.abs((state.disparity if disparity is None else disparity) - pair.disparity)[pair.visible]
-
-
-def wrong(state) -> float:
-    """Return the percentage of the pixels that both see whose disparity is over 1 px off."""
-    return 100.0 * float((off(state) > 1.0).mean())
-
-
-def mean_error(state) -> float:
-    """Return the mean error of those that are within 1 px."""
-    errors = off(state)
-    return float(errors[errors <= 1.0].mean())
-
-
-def true_depth(setup) -> np.ndarray:
-    camera, d = setup.pair.camera, setup.pair.disparity + setup.pair.camera.doffs
-    return np.where(d > 0, camera.f * camera.baseline / np.where(d > 0, d, 1.0), np.inf)
-
-
-def depths_off(state) -> tuple[np.ndarray, np.ndarray]:
-    """Return the errors of the depths, metres, and the true ones, where both are known and finite."""
-    true = true_depth(state.setup)
-    known = np.isfinite(state.depth) & np.isfinite(true)
-    return np.abs(state.depth[known] - true[known]), true[known]
 
 
 def right(run: Run, k: int) -> bool | None:
@@ -59,90 +42,65 @@ def right(run: Run, k: int) -> bool | None:
     return True if relative <= 0.03 and wrong(state) <= 5.0 else None
 
 
-def metres(text: str) -> float:
-    number, unit = text.split()
-    return float(number) * UNITS[unit]
-
-
-def about(said: str, value: float) -> bool:
-    """Whether a number as it is written is this one, to its last digit."""
-    digits = len(said.partition(".")[2])
-    return abs(float(said.replace(",", "")) - value) <= 0.51 * 10.0**-digits
-
-
-@functools.lru_cache(maxsize=2)
-def comparing(states: tuple) -> tuple[tuple[int, float], ...]:
-    """Return for every slice how many pixels it fits better than all before it, and the mean lowest cost after it."""
-    lowest, found = None, []
-    for state in states:
-        if state.stage is not Stage.COMPARE:
-            break
-        slice_ = np.where(np.isfinite(state.piece), state.piece, np.inf)
-        fresh = slice_.size if lowest is None else int((slice_ < lowest).sum())
-        lowest = slice_ if lowest is None else np.minimum(lowest, slice_)
-        found.append((fresh, float(lowest[np.isfinite(lowest)].mean())))
-    return tuple(found)
-
-
 def fits_better(run: Run, k: int, found: re.Match[str]) -> bool:
     fresh = comparing(run.states)[k][0]
     said, share = (
-        int(found["n"].replace(",", "")),
-        100 * int(found["n"].replace(",", "")) / run.states[k].disparity.size,
+        number(found["n"]),
+        100 * number(found["n"]) / run.states[k].disparity.size,
     )
-    return abs(said - fresh) <= max(2, 0.001 * fresh) and about(found["share"], share)
+    return abs(said - fresh) <= max(2, 0.001 * fresh) and says(found["share"], share)
 
 
 def lowest_cost(run: Run, k: int, found: re.Match[str]) -> bool:
     mean = comparing(run.states)[k][1]
-    return bool(np.isclose(float(found["n"]), mean, rtol=6e-3)) and (k == 0 or mean <= comparing(run.states)[k - 1][1])
+    return bool(np.isclose(number(found["n"]), mean, rtol=6e-3)) and (k == 0 or mean <= comparing(run.states)[k - 1][1])
 
 
 def wrong_change(run: Run, k: int, found: re.Match[str]) -> bool:
-    return about(found["was"], wrong(run.states[k - 1])) and about(found["is"], wrong(run.states[k]))
+    return says(found["was"], wrong(run.states[k - 1])) and says(found["is"], wrong(run.states[k]))
 
 
 def wrong_now(run: Run, k: int, found: re.Match[str]) -> bool:
-    return about(found["is"], wrong(run.states[k]))
+    return says(found["is"], wrong(run.states[k]))
 
 
 def error_change(run: Run, k: int, found: re.Match[str]) -> bool:
-    return about(found["was"], mean_error(run.states[k - 1])) and about(found["is"], mean_error(run.states[k]))
+    return says(found["was"], mean_error(run.states[k - 1])) and says(found["is"], mean_error(run.states[k]))
 
 
 def given_up(run: Run, k: int, found: re.Match[str]) -> bool:
     unknown = np.isnan(run.states[k].disparity)
-    return int(found["n"].replace(",", "")) == unknown.sum() and about(found["share"], 100 * unknown.mean())
+    return number(found["n"]) == unknown.sum() and says(found["share"], 100 * unknown.mean())
 
 
 def hidden_given_up(run: Run, k: int, found: re.Match[str]) -> bool:
     pair = run.states[k].setup.pair
     hidden = np.isfinite(pair.disparity) & ~pair.visible
-    return about(found["n"], 100 * np.isnan(run.states[k].disparity)[hidden].mean())
+    return says(found["n"], 100 * np.isnan(run.states[k].disparity)[hidden].mean())
 
 
 def between_pixels(run: Run, k: int, found: re.Match[str]) -> bool:
     d = run.states[k].disparity[np.isfinite(run.states[k].disparity)]
-    return about(found["n"], float(np.abs(d - np.round(d)).mean())) and np.abs(d - np.round(d)).max() <= 0.5
+    return says(found["n"], float(np.abs(d - np.round(d)).mean())) and np.abs(d - np.round(d)).max() <= 0.5
 
 
 def energy_falls(run: Run, k: int, found: re.Match[str]) -> bool:
     was, now = run.states[k - 1].energy, run.states[k].energy
-    return bool(np.isclose(float(found["was"]), was, rtol=1e-3) and np.isclose(float(found["is"]), now, rtol=1e-3))
+    return bool(np.isclose(number(found["was"]), was, rtol=1e-3) and np.isclose(number(found["is"]), now, rtol=1e-3))
 
 
 def law(run: Run, k: int, found: re.Match[str]) -> bool:
     """The depth of the followed pixel by Z = f B / (d + doffs); and its true depth."""
     state = run.states[k]
     setup, (u, v) = state.setup, state.setup.pixel
-    f, B = float(found["f"]), float(found["B"])
-    doffs = float(found["doffs"] or 0.0)
+    f, B = number(found["f"]), number(found["B"])
+    doffs = number(found["doffs"] or "0")
     true = float(true_depth(setup)[v, u])
     return bool(
-        np.isclose(f * B / (float(found["d"]) + doffs), float(found["z"]), rtol=0.01)
+        np.isclose(f * B / (number(found["d"]) + doffs), metres(found["z"]), rtol=0.01)
         and np.isclose(f * B, setup.f * setup.pair.camera.baseline, rtol=1e-3)
-        and about(found["d"], state.disparity[v, u])
-        and (found["true"] is None or about(found["true"], true))
+        and says(found["d"], state.disparity[v, u])
+        and (found["true"] is None or says_length(found["true"], true))
         and (found["true"] is not None or not np.isfinite(true))
     )
 
@@ -151,63 +109,56 @@ def is_infinite(run: Run, k: int, found: re.Match[str]) -> bool:
     state = run.states[k]
     u, v = state.setup.pixel
     true = float(true_depth(state.setup)[v, u])
-    said = np.isinf(true) if found["true"] is None else about(found["true"], true)
+    said = np.isinf(true) if found["true"] is None else says_length(found["true"], true)
     return bool(state.disparity[v, u] == 0 and said)
 
 
 def first_order(run: Run, k: int, found: re.Match[str]) -> bool:
-    e, fB = float(found["e"]), run.states[k].setup.f * run.states[k].setup.pair.camera.baseline
+    e, fB = number(found["e"]), run.states[k].setup.f * run.states[k].setup.pair.camera.baseline
     pairs = [part.split(" by ") for part in found["list"].split(", ")]
     return all(np.isclose(metres(moved), metres(z) ** 2 / fB * e, rtol=0.03, atol=6e-4) for z, moved in pairs)
 
 
 def measured(run: Run, k: int, found: re.Match[str]) -> bool:
     """The boards, at 1, 5 and 20 m, moved by this in the median."""
-    state = run.states[k]
-    true = np.round(true_depth(state.setup), 6)
-    moved = []
-    for z in (1.0, 5.0, 20.0):
-        here = (true == z) & state.setup.pair.visible & np.isfinite(state.depth)
-        moved.append(abs(float(np.median(state.depth[here])) - z))
-    said = [metres(part) for part in found["list"].split(", ")]
-    return bool(np.allclose(said, moved, rtol=0.01, atol=6e-4))
+    said = found["list"].split(", ")
+    moved = [abs(depth - z) for z, depth in found_at(run, k).items()]
+    return all(says_length(text, off_by) for text, off_by in zip(said, moved, strict=True))
 
 
 def half_within(run: Run, k: int, found: re.Match[str]) -> bool:
-    return bool(np.isclose(metres(found["z"]), np.median(depths_off(run.states[k])[0]), rtol=0.01, atol=6e-4))
+    return says_length(found["z"], float(np.median(depths_off(run.states[k])[0])))
 
 
 def exchanged(run: Run, k: int, found: re.Match[str]) -> bool:
-    return run.params.mistake == "pictures exchanged" and float(found["b"]) > float(found["a"]) + 5
+    return run.params.mistake == "pictures exchanged" and number(found["b"]) > number(found["a"]) + 5
 
 
-N = r"\d+(?:\.\d+)?"
-LENGTH = r"\d+(?:\.\d+)? (?:mm|cm|m)"
 CAPTIONS = (
-    Claim(r"(?P<n>[\d,]+) pixels \((?P<share>\d+(?:\.\d+)?) %\) fit better than at any smaller shift", fits_better),
-    Claim(r"the mean lowest cost is (?P<n>\d+(?:\.\d+)?)", lowest_cost),
-    Claim(r"energy (?P<was>\d+(?:\.\d+)?) → (?P<is>\d+(?:\.\d+)?) per pixel", energy_falls),
-    Claim(r"[Ww]rong pixels (?P<was>\d+(?:\.\d+)?) → (?P<is>\d+(?:\.\d+)?) %", wrong_change),
-    Claim(r"(?P<is>\d+(?:\.\d+)?) % are wrong", wrong_now),
-    Claim(r"the pixel is given up: (?P<n>[\d,]+) \((?P<share>\d+(?:\.\d+)?) %\)", given_up),
+    Claim(rf"(?P<n>{NUMBER}) pixels \((?P<share>{NUMBER}) %\) fit better than at any smaller shift", fits_better),
+    Claim(rf"the mean lowest cost is (?P<n>{NUMBER})", lowest_cost),
+    Claim(rf"energy (?P<was>{NUMBER}) → (?P<is>{NUMBER}) per pixel", energy_falls),
+    Claim(rf"[Ww]rong pixels (?P<was>{NUMBER}) → (?P<is>{NUMBER}) %", wrong_change),
+    Claim(rf"(?P<is>{NUMBER}) % are wrong", wrong_now),
+    Claim(rf"the pixel is given up: (?P<n>{NUMBER}) \((?P<share>{NUMBER}) %\)", given_up),
     Claim(r"(?P<n>\d+) % of what the right camera cannot see", hidden_given_up),
-    Claim(r"(?P<n>\d+(?:\.\d+)?) px from whole ones on average", between_pixels),
-    Claim(r"mean error of the right ones (?P<was>\d+(?:\.\d+)?) → (?P<is>\d+(?:\.\d+)?) px", error_change),
+    Claim(rf"(?P<n>{NUMBER}) px from whole ones on average", between_pixels),
+    Claim(rf"mean error of the right ones (?P<was>{NUMBER}) → (?P<is>{NUMBER}) px", error_change),
     Claim(
-        rf"Z = f B / (?:d|\(d \+ (?P<doffs>{N})\)) with f = (?P<f>{N}) px, B = (?P<B>{N}) m: left pixel \(\d+, \d+\),"
-        rf" d = (?P<d>{N}) px, is (?P<z>{N}) m away(?: \(truth (?P<true>{N}) m\))?",
+        rf"Z = f B / (?:d|\(d \+ (?P<doffs>{NUMBER})\)) with f = (?P<f>{NUMBER}) px, B = (?P<B>{NUMBER}) m: left pixel"
+        rf" \(\d+, \d+\), d = (?P<d>{NUMBER}) px, is (?P<z>{LENGTH}) away(?: \(truth: (?P<true>{LENGTH})\))?",
         law,
     ),
     Claim(
-        r"has d = 0, which means infinitely far, not missing \(truth(?:: infinitely far| (?P<true>\d+\.\d+) m)\)",
+        rf"has d = 0, which means infinitely far, not missing \(truth: (?:infinitely far|(?P<true>{LENGTH}))\)",
         is_infinite,
     ),
     Claim(
-        r"(?P<n>[\d,]+) pixels are infinitely far",
-        lambda run, k, found: int(found["n"].replace(",", "")) == np.isinf(run.states[k].depth).sum(),
+        rf"(?P<n>{NUMBER}) pixels are infinitely far",
+        lambda run, k, found: number(found["n"]) == np.isinf(run.states[k].depth).sum(),
     ),
     Claim(
-        r"To first order (?P<e>\d+(?:\.\d+)?) px of error moves a depth by Z² / \(f B\) · \d+(?:\.\d+)? px:"
+        rf"To first order (?P<e>{NUMBER}) px of error moves a depth by Z² / \(f B\) · {NUMBER} px:"
         rf" (?P<list>(?:{LENGTH} by {LENGTH}(?:, )?)+)",
         first_order,
     ),
@@ -229,27 +180,6 @@ BARE = (slice(30, 90), slice(46, 88))  # of the plain wall, well inside
 STRIPES = (slice(30, 90), slice(60, 110))
 
 
-@functools.lru_cache(maxsize=8)
-def states(params) -> tuple:
-    return tuple(lesson.run(params))
-
-
-def of_stage(run: Run, stage: Stage):
-    return [state for state in run.states if state.stage is stage][-1]
-
-
-def off_in(state, part: tuple[slice, slice]) -> float:
-    return float((np.abs(state.disparity - state.setup.pair.disparity) > 1.0)[part].mean())
-
-
-def hidden(state) -> np.ndarray:
-    return ~state.setup.pair.visible
-
-
-def given_up_of_hidden(run: Run) -> float:
-    return float(np.isnan(run.states[CHECKED].disparity)[hidden(run.states[0])].mean())
-
-
 def flat(run: Run, k: int, found: re.Match[str]) -> bool:
     """The curve of the bare wall stays low at every shift, far below the median cost where there is texture."""
     state = of_stage(run, Stage.AGGREGATE)
@@ -269,31 +199,9 @@ def valleys(run: Run, k: int, found: re.Match[str]) -> bool:
     return len(at) == 5 and bool(deep and (abs(apart - 6) <= 1).all() and abs(apart.mean() - 6) <= 0.25)
 
 
-def near_an_edge(run: Run) -> tuple[float, float]:
-    """Return the share of the wrong pixels, and of all, that have a jump of the true disparity within 10 px."""
-    state = run.states[CHOSEN]
-    truth, visible = state.setup.pair.disparity, state.setup.pair.visible
-    jump = np.zeros(truth.shape, bool)
-    for axis in (0, 1):
-        step = np.abs(np.diff(truth, axis=axis)) > 2.0
-        jump[tuple(slice(1, None) if a == axis else slice(None) for a in (0, 1))] |= step
-        jump[tuple(slice(None, -1) if a == axis else slice(None) for a in (0, 1))] |= step
-    rows, columns = np.nonzero(jump)
-    near = np.zeros(truth.shape, bool)
-    for v, u in zip(rows, columns, strict=True):
-        near[max(v - 10, 0) : v + 11, max(u - 10, 0) : u + 11] = True
-    bad = (np.abs(state.disparity - truth) > 1.0) & visible
-    return float(near[bad].mean()), float(near[visible].mean())
-
-
 def scattered(run: Run, k: int, found: re.Match[str]) -> bool:
     of_wrong, of_all = near_an_edge(run)
     return of_wrong < 1.3 * of_all
-
-
-def pair_of(params) -> Any:
-    """Return the made pair of a run, with its truth."""
-    return next(iter(lesson.run(params))).setup.pair
 
 
 def times_baseline(run: Run, times: float) -> bool:
@@ -362,7 +270,7 @@ LINES = {
         Claim("Every disparity is made 1 px too large", lambda run, k, _: run.params.disparity_error == 1.0),
         Claim(
             r"The last step tells how far each board moves: by Z² / \(f B\), and measured",
-            lambda run, k, _: "20 m by 5.00 m. Measured: " in caption(run.states[-1]).text,
+            lambda run, k, _: "20 m by 5 m. Measured: " in caption(run.states[-1]).text,
         ),
     ),
     "sky": (
@@ -398,22 +306,12 @@ LINES = {
 # explanations -------------------------------------------------------------------------------------------------------
 
 
-def found_at(run: Run, step: int) -> dict[float, float]:
-    """Return the median depth found of what truly stands at 1, 5 and 20 m."""
-    state = run.states[step]
-    true = np.round(true_depth(state.setup), 6)
-    return {
-        z: float(np.median(state.depth[(true == z) & state.setup.pair.visible & np.isfinite(state.depth)]))
-        for z in (1.0, 5.0, 20.0)
-    }
-
-
 def came_nearer(run: Run, k: int, found: re.Match[str]) -> bool:
     at = found_at(run, -1)
     return (
-        about(found["far"], 20 - at[20])
-        and about(found["times"], (20 - at[20]) / (1 - at[1]))
-        and about(found["near"], 100 * (1 - at[1]))
+        says(found["far"], 20 - at[20])
+        and says(found["times"], (20 - at[20]) / (1 - at[1]))
+        and says_length(found["near"], 1 - at[1])
         and abs(20 - at[20] - (20 - 80 / 5)) < 0.05
     )
 
@@ -421,16 +319,12 @@ def came_nearer(run: Run, k: int, found: re.Match[str]) -> bool:
 def means(run: Run, k: int, found: re.Match[str]) -> bool:
     at = list(found_at(run, -2).values())
     fB = 640 * 0.125
-    return about(found["z"], float(np.mean(at))) and about(found["d"], fB / float(np.mean([fB / z for z in at])))
-
-
-def hidden_share(params) -> float:
-    return 100 * float((~pair_of(params).visible).mean())
+    return says(found["z"], float(np.mean(at))) and says(found["d"], fB / float(np.mean([fB / z for z in at])))
 
 
 def more_hidden(run: Run, k: int, found: re.Match[str]) -> bool:
     was, now = hidden_share(dataclasses.replace(run.params, baseline=0.1, seed=0)), hidden_share(run.params)
-    return about(found["was"], was) and about(found["is"], now) and 1.5 < now / was < 2.5
+    return says(found["was"], was) and says(found["is"], now) and 1.5 < now / was < 2.5
 
 
 def twice_as_exact(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -442,9 +336,9 @@ def twice_as_exact(run: Run, k: int, found: re.Match[str]) -> bool:
 def beside_edges(run: Run, k: int, found: re.Match[str]) -> bool:
     of_wrong, of_all = near_an_edge(run)
     return (
-        about(found["wrong"], wrong(run.states[CHOSEN]))
-        and abs(float(found["near"]) - 100 * of_wrong) < 3  # what counts as an edge differs by a pixel
-        and abs(float(found["all"]) - 100 * of_all) < 5
+        says(found["wrong"], wrong(run.states[CHOSEN]))
+        and abs(number(found["near"]) - 100 * of_wrong) < 3  # what counts as an edge differs by a pixel
+        and abs(number(found["all"]) - 100 * of_all) < 5
         and of_wrong > 1.5 * of_all
     )
 
@@ -452,15 +346,16 @@ def beside_edges(run: Run, k: int, found: re.Match[str]) -> bool:
 WHYS = {
     "quarter": (
         Claim(
-            r"found at (?P<near>\d+(?:\.\d+)?) m and (?P<far>\d+(?:\.\d+)?) m",
+            rf"found at (?P<near>{NUMBER}) m and (?P<far>{NUMBER}) m",
             lambda run, k, found: (
-                about(found["near"], found_at(run, -2)[5]) and about(found["far"], found_at(run, -2)[20])
+                says(found["near"], found_at(run, -2)[5]) and says(found["far"], found_at(run, -2)[20])
             ),
         ),
     ),
     "nearer": (
         Claim(
-            rf"it came (?P<far>{N}) m nearer, (?P<times>\d+) times as much as the board at 1 m \((?P<near>{N}) cm\)",
+            rf"it came (?P<far>{NUMBER}) m nearer, (?P<times>\d+) times as much as the board at 1 m"
+            rf" \((?P<near>{LENGTH})\)",
             came_nearer,
         ),
         Claim(
@@ -474,12 +369,12 @@ WHYS = {
     ),
     "averages": (
         Claim(
-            r"The mean of the depths is (?P<z>\d+(?:\.\d+)?) m, the mean disparity stands for (?P<d>\d+(?:\.\d+)?) m",
+            rf"The mean of the depths is (?P<z>{NUMBER}) m, the mean disparity stands for (?P<d>{NUMBER}) m",
             means,
         ),
     ),
     "baseline": (
-        Claim(r"(?P<was>\d+(?:\.\d+)?) % became (?P<is>\d+(?:\.\d+)?) %", more_hidden),
+        Claim(rf"(?P<was>{NUMBER}) % became (?P<is>{NUMBER}) %", more_hidden),
         Claim(r"The depths of the rest are about twice as exact", twice_as_exact),
     ),
     "window": (

@@ -2,17 +2,25 @@
 
 import re
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
-from scipy.spatial import KDTree
-from scipy.spatial.transform import Rotation
 
 from lessons.icp.lesson import run as run_icp
-from lessons.icp.params import Params
-from lessons.icp.presets import OVERLAP
-from lessons.icp.state import State
+from lessons.icp.state import Params, State
 from lessons.icp.words import caption
+from tests.readings import LENGTH, NUMBER, metres, near, near_length
+from tests.truths.icp import (
+    arrived,
+    came_home,
+    end_of,
+    ended,
+    fixed_gate,
+    moved,
+    off_by,
+    share,
+    spacing,
+    try_home,
+)
 from tests.verdicts import Claim, Run
 from workbench.algorithms.icp import Stop
 
@@ -27,83 +35,13 @@ def until_the_end(params: Params) -> Iterator[State]:
             return
 
 
-UNITS = {"km": 1000.0, "m": 1.0, "mm": 0.001, "µm": 1e-6}
-LENGTH = r"[\d,.e-]+ (?:km|mm|µm|m)"
-
-
-def degrees(T: np.ndarray, truth: np.ndarray) -> float:
-    return float(np.degrees((Rotation.from_matrix(T[:3, :3]) * Rotation.from_matrix(truth[:3, :3]).inv()).magnitude()))
-
-
-def metres(words: str) -> float:
-    number, unit = words.split()
-    return float(number.replace(",", "")) * UNITS[unit]
-
-
-def moved(T: np.ndarray, p: np.ndarray) -> np.ndarray:
-    return p @ T[:3, :3].T + T[:3, 3]
-
-
-@lru_cache(maxsize=4)
-def _spacing(key: int, p: bytes) -> float:
-    places = np.unique(np.frombuffer(p).reshape(-1, 3), axis=0)
-    return float(np.median(np.asarray(KDTree(places).query(places, k=2)[0])[:, 1]))
-
-
-def spacing(state: State) -> float:
-    p = state.scans.p_target
-    return _spacing(len(p), np.ascontiguousarray(p).tobytes())
-
-
-def off_by(state: State, T: np.ndarray) -> tuple[float, float, float]:
-    """Degrees, metres at the middle, and metres by root mean square over the source's points."""
-    assert state.scans.T_truth is not None
-    p = state.scans.p_source[~state.scans.is_outlier]
-    off = moved(T, p) - moved(state.scans.T_truth, p)
-    middle = moved(T, p.mean(axis=0)[None]) - moved(state.scans.T_truth, p.mean(axis=0)[None])
-    return degrees(T, state.scans.T_truth), float(np.linalg.norm(middle)), float(np.sqrt((off**2).sum(axis=1).mean()))
-
-
-def home(state: State, T: np.ndarray) -> bool:
-    """Rotation and place and all: the rotation alone says nothing of a slide."""
-    turn, _, distance = off_by(state, T)
-    return turn < 5.0 and distance < 2.0 * spacing(state)
-
-
-def end_of(run: Run) -> State:
-    return next(state for state in run.states if state.icp.stop)
-
-
-def arrived(run: Run, k: int) -> bool:
-    return home(run.states[k], run.states[k].icp.T_target_source)
-
-
 def right(run: Run, k: int) -> bool | None:
     state = run.states[k]
     return None if state.icp.stop is None else arrived(run, k)
 
 
-def try_home(state: State, i: int) -> bool:
-    assert state.scans.T_truth is not None
-    return home(state, state.tries[i].T_target_truth @ state.scans.T_truth)
-
-
-def close(said: str, true: float, slack: float = 0.006) -> bool:
-    """Whether a length in words is the true one, to three digits."""
-    return abs(metres(said) - true) <= slack * true + 1e-9
-
-
 def angle_close(said: str, true: float) -> bool:
-    return true < 0.0011 if said.startswith("less") else abs(float(said) - true) <= 0.006 * true + 1e-6
-
-
-def share(run: Run, k: int) -> float:
-    state = run.states[k]
-    assert state.scans.T_truth is not None
-    kept = state.icp.kept
-    belongs = moved(state.scans.T_truth, state.scans.p_source[kept])
-    off = np.linalg.norm(state.scans.p_target[state.icp.indices[kept]] - belongs, axis=1)
-    return float(np.mean(off <= 2.0 * state.scans.spacing))
+    return true < 0.0011 if said.startswith("less") else near(said, true)
 
 
 def said_share(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -138,7 +76,7 @@ def try_ends(run: Run, k: int, m: re.Match[str]) -> bool:
         (m[2] == "comes home") is try_home(state, -1)
         and float(m[1]) == state.tries[-1].start_angle
         and angle_close(m[3], turn)
-        and close(m[4], place)
+        and near_length(m[4], place)
     )
 
 
@@ -153,10 +91,10 @@ def row(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def fit_ends(run: Run, k: int, m: re.Match[str]) -> bool:
     turn, place, _ = off_by(run.states[k], run.states[k].icp.T_target_source)
-    return angle_close(m[1], turn) and close(m[2], place)
+    return angle_close(m[1], turn) and near_length(m[2], place)
 
 
-ANGLE = r"(less than 0\.001|[\d.e-]+)°"
+ANGLE = rf"(less than 0\.001|{NUMBER})°"
 CAPTIONS = (
     Claim(rf"from (\d+)° away, ICP (comes home|ends) {ANGLE} and ({LENGTH}) from the truth", try_ends),
     Claim(r"In this row, every start up to (\d+)° comes home\.", row),
@@ -172,23 +110,6 @@ CAPTIONS = (
     ),
     Claim(r"It is wrong\.", lambda run, k, m: not arrived(run, k)),
 )
-
-
-def ended(run: Run) -> tuple[float, float, float]:
-    return off_by(end_of(run), end_of(run).icp.T_target_source)
-
-
-def came_home(run: Run) -> bool:
-    return home(end_of(run), end_of(run).icp.T_target_source)
-
-
-@lru_cache(maxsize=32)
-def fixed_gate(seed: int) -> float:
-    """Degrees that the fixed gate leaves at this seed."""
-    for state in run_icp(Params(**{**vars(OVERLAP), "seed": seed})):
-        if state.icp.stop:
-            return off_by(state, state.icp.T_target_source)[0]
-    raise AssertionError
 
 
 def from_60_lost(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -233,7 +154,7 @@ WHYS = {
             lambda run, k, m: (
                 (m[1] == "came home to") is came_home(run)
                 and angle_close(m[2], ended(run)[0])
-                and close(m[3], ended(run)[1])
+                and near_length(m[3], ended(run)[1])
             ),
         ),
         Claim(r"^(\d+) %", lambda run, k, m: abs(100 * share(run, 0) - float(m[1])) <= 0.51 and share(run, 0) < 0.25),
@@ -242,7 +163,9 @@ WHYS = {
     "predict-far": (
         Claim(
             rf"It ended {ANGLE} and ({LENGTH}) from the truth",
-            lambda run, k, m: angle_close(m[1], ended(run)[0]) and close(m[2], ended(run)[1]) and not came_home(run),
+            lambda run, k, m: (
+                angle_close(m[1], ended(run)[0]) and near_length(m[2], ended(run)[1]) and not came_home(run)
+            ),
         ),
         Claim(
             r"Each fit can only lower the cost",
@@ -257,7 +180,7 @@ WHYS = {
         Claim(
             rf"RMSE ({LENGTH}), where neighbouring target points lie ({LENGTH}) apart",
             lambda run, k, m: (
-                close(m[1], end_of(run).icp.rmse)
+                near_length(m[1], end_of(run).icp.rmse)
                 and abs(metres(m[2]) / spacing(end_of(run)) - 1) < 0.1  # the lesson takes some hundred points
                 and metres(m[1]) < 2 * metres(m[2])
             ),

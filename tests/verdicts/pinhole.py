@@ -1,6 +1,5 @@
 """What the pinhole lesson says of its camera and its mistakes, held against the camera written out in plain numpy."""
 
-import functools
 import re
 from dataclasses import replace
 from typing import Any
@@ -9,120 +8,36 @@ import numpy as np
 
 from lessons.pinhole import words
 from lessons.pinhole.lesson import run as follow
-from tests.readings import NUMBER, close, number, says
+from tests.readings import LENGTH, NUMBER, POWER, close, number, says, says_length
+from tests.truths.pinhole import (
+    CRATE,
+    STAGES,
+    TOWER,
+    bent,
+    both,
+    camera,
+    centre,
+    edited,
+    fold,
+    height,
+    ideal,
+    lost,
+    median_back,
+    median_off,
+    moves,
+    pixels,
+    pixels_at,
+    shot_gap,
+)
 from tests.verdicts import Claim, Run
 from workbench.data.street import BALL_CENTER, BALL_RADIUS, street
 from workbench.scene import Caption
 
-STAGES = ("world", "camera", "divide", "distort", "pixels", "back")
 POINT = rf"\(({NUMBER}), ({NUMBER}), ({NUMBER})\)"
-POWER = rf"{NUMBER}(?: × 10[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?"
-CRATE = np.array([[-1.4, 5.5, 0.0], [-1.4, 5.5, 1.0]])
-TOWER = np.array([[-3.7, 13.2, 0.0], [-3.7, 13.2, 5.0]])
 
 
 def caption(state: Any) -> Caption:
     return words.caption(state)
-
-
-# The true camera, from the params -------------------------------------------------------------------------------------
-
-
-@functools.lru_cache(maxsize=32)
-def camera(params: Any, dolly: float | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """R, t and K before the edit."""
-    eye, target = np.array(params.camera, float), np.array(params.target, float)
-    forward = (target - eye) / np.linalg.norm(target - eye)
-    right = np.cross(forward, [0.0, 0.0, 1.0])
-    right /= np.linalg.norm(right)
-    factor = params.dolly if dolly is None else dolly
-    eye = target - factor * np.linalg.norm(target - eye) * forward
-    R = np.stack([right, np.cross(forward, right), forward])
-    f = params.f * factor
-    return R, -R @ eye, np.array([[f, 0, 159.5], [0, f, 119.5], [0, 0, 1.0]])
-
-
-def edited(params: Any, K: np.ndarray) -> np.ndarray:
-    K = K.copy()
-    if "cropped" in params.edit:
-        K[:2, 2] -= (60, 40)
-    if "half" in params.edit:
-        K[:2, 2] = (K[:2, 2] + 0.5) / 2 - 0.5
-        K[:2, :2] /= 2
-    return K
-
-
-def ideal(params: Any, p: np.ndarray, dolly: float | None = None) -> np.ndarray:
-    """Places on the plane Z = 1; NaN where nothing is in front."""
-    R, t, _ = camera(params, dolly)
-    X, Y, Z = R @ p.T + t[:, None]
-    with np.errstate(all="ignore"):
-        return np.where(Z > 0, np.array([X, Y]) / Z, np.nan).T
-
-
-def fold(params: Any) -> float:
-    """The radius at which the radial polynomial turns round, by looking for it; infinity without tangential terms found."""
-    r = np.linspace(0, 5, 50001)
-    slope = 1 + 3 * params.k1 * r**2 + 5 * params.k2 * r**4
-    return float(r[np.argmax(slope <= 0)]) if (slope <= 0).any() else np.inf
-
-
-def bent(params: Any, xy: np.ndarray) -> np.ndarray:
-    (x, y), (p1, p2) = xy.T, (params.p1, params.p2)
-    s = x * x + y * y
-    g = 1 + params.k1 * s + params.k2 * s * s
-    out = np.array([x * g + 2 * p1 * x * y + p2 * (s + 2 * x * x), y * g + p1 * (s + 2 * y * y) + 2 * p2 * x * y]).T
-    if not (p1 or p2):
-        out[np.sqrt(s) > fold(params)] = np.nan
-    return out
-
-
-def pixels(params: Any, p: np.ndarray, dolly: float | None = None) -> np.ndarray:
-    K = edited(params, camera(params, dolly)[2])
-    return bent(params, ideal(params, p, dolly)) @ K[:2, :2] + K[:2, 2]
-
-
-def centre(params: Any) -> np.ndarray:
-    R, t, _ = camera(params)
-    return -R.T @ t
-
-
-def height(params: Any, ends: np.ndarray, dolly: float | None = None) -> float:
-    low, high = pixels(params, ends, dolly)
-    return float(np.linalg.norm(high - low))
-
-
-# How far a stage is from it -------------------------------------------------------------------------------------------
-
-
-def both(run: Run, k: int) -> tuple[np.ndarray, np.ndarray]:
-    """The calculated and the true places of all points at a stage, in pixels of the true K."""
-    state, params = run.states[k], run.params
-    K = edited(params, camera(params)[2])
-    xy = ideal(params, street().points)
-    if k == STAGES.index("divide"):
-        got, true = state.now.xy, xy
-    elif k == STAGES.index("distort"):
-        got, true = state.now.xy_bent, bent(params, xy)
-    else:
-        return state.now.uv, pixels(params, street().points)
-    return got @ K[:2, :2] + K[:2, 2], true @ K[:2, :2] + K[:2, 2]
-
-
-def median_off(run: Run, k: int) -> float:
-    off = np.linalg.norm(np.subtract(*both(run, k)), axis=1)
-    return float(np.median(off[np.isfinite(off)])) if np.isfinite(off).any() else 0.0
-
-
-def lost(run: Run, k: int) -> tuple[int, int]:
-    """How many points have a true place and no calculated one, and the other way round."""
-    got, true = (np.isfinite(uv).all(axis=1) for uv in both(run, k))
-    return int((true & ~got).sum()), int((got & ~true).sum())
-
-
-def median_back(run: Run) -> float:
-    off = np.linalg.norm(run.states[-1].now.p_back - street().points, axis=1)
-    return float(np.median(off[np.isfinite(off)])) if np.isfinite(off).any() else 0.0
 
 
 def right(run: Run, k: int) -> bool | None:
@@ -138,19 +53,6 @@ def right(run: Run, k: int) -> bool | None:
 
 
 # The sentences --------------------------------------------------------------------------------------------------------
-
-
-def power(text: str) -> tuple[float, float]:
-    """A number that may be a power of ten, and the size of its last digit."""
-    plain, _, tens = text.partition(" × 10")
-    scale = 10.0 ** int(tens.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")) or 0)
-    digits = len(plain.partition(".")[2])
-    return number(plain) * scale, 10.0**-digits * scale
-
-
-def about(text: str, value: float) -> bool:
-    said, last = power(text)
-    return abs(said - value) <= 0.51 * last + 1e-9 * abs(value)
 
 
 def place(m: re.Match[str], p: np.ndarray) -> bool:
@@ -184,19 +86,19 @@ def _bent(run: Run, k: int, m: re.Match[str]) -> bool:
     moved = f * np.linalg.norm(now.xy_bent - now.xy, axis=1)
     nearer = np.linalg.norm(now.xy_bent[run.params.point]) < np.linalg.norm(now.xy[run.params.point])
     way = nearer if m[2] == "nearer to" else not nearer
-    there = all(about(text, value) for text, value in zip((m[3], m[4]), now.xy_bent[run.params.point], strict=True))
-    return bool(about(m[1], moved[run.params.point]) and way and there and about(m[5], np.nanmax(moved)))
+    there = all(says(text, value) for text, value in zip((m[3], m[4]), now.xy_bent[run.params.point], strict=True))
+    return bool(says(m[1], moved[run.params.point]) and way and there and says(m[5], np.nanmax(moved)))
 
 
 def _most(run: Run, k: int, m: re.Match[str]) -> bool:
     now, f = run.states[k].now, edited(run.params, camera(run.params)[2])[0, 0]
     here = np.isfinite(now.xy_bent[run.params.point]).all()
-    return about(m[1], float(np.nanmax(f * np.linalg.norm(now.xy_bent - now.xy, axis=1)))) and not here
+    return says(m[1], float(np.nanmax(f * np.linalg.norm(now.xy_bent - now.xy, axis=1)))) and not here
 
 
 def _pixel(run: Run, k: int, m: re.Match[str]) -> bool:
     u, v = run.states[k].now.uv[run.params.point]
-    return about(m[1], u) and about(m[2], v)
+    return says(m[1], u) and says(m[2], v)
 
 
 def _inside(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -213,12 +115,12 @@ def _came_back(run: Run, k: int, m: re.Match[str]) -> bool:
     start = all(says(text, float(value)) for text, value in zip(m.groups()[:3], now.p_center, strict=True))
     if m[4] is None:
         return start and miss < 1e-6
-    return start and about(m[4], 1000 * miss if m[5] == "mm" else miss)
+    return start and says_length(m[4], miss, 3)
 
 
 def _heights(run: Run, k: int, m: re.Match[str]) -> bool:
     ends = {"crate": CRATE, "tower": TOWER}[m[1]]
-    return about(m[2], height(run.params, ends, 1.0)) and about(m[3], height(run.params, ends))
+    return says(m[2], height(run.params, ends, 1.0)) and says(m[3], height(run.params, ends))
 
 
 def _gap(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -229,7 +131,7 @@ def _gap(run: Run, k: int, m: re.Match[str]) -> bool:
     depth = R[2] @ np.array(params.target) + t[2]
     flat = np.array([X, Y]).T * K[0, 0] / depth + K[:2, 2]
     off = np.linalg.norm(pixels(params, corners) - flat, axis=1)[Z > 0]
-    return about(m[1], float(off.max()))
+    return says(m[1], float(off.max()))
 
 
 def _rails(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -284,7 +186,7 @@ CAPTIONS = (
     Claim(rf"The rails stay 1.5 m apart; their pictures run towards \(({NUMBER}), ({NUMBER})\)", _rails),
     Claim(rf"the ball's outline is ({NUMBER}) times as long as wide", _ball),
     Claim(rf"it gives a ray from {POINT} m, but not how far to go along it. With .* we come out"
-          rf" (?:where we began|({NUMBER}) (mm|m) from where we began)", _came_back),
+          rf" (?:where we began|({LENGTH}) from where we began)", _came_back),
     Claim("the followed point has no pixel, so nothing leads back to it", lambda run, k, m: bool(
         np.isnan(run.states[k].now.uv[run.params.point]).all())),
     Claim("The pose is inverted: camera-to-world stands where world-to-camera belongs", _wrong("pose inverted")),
@@ -298,13 +200,13 @@ CAPTIONS = (
     Claim("The length of the ray was taken for the depth Z", _wrong("ray length for depth")),
     Claim("K is still that of the full picture", lambda run, k, m: run.params.edit != "none" and not run.params.k_follows),
     Claim(rf"[Tt]he median distance from the true pixels is ({POWER}) px", lambda run, k, m: (
-        about(m[1], median_off(run, k)))),
+        says(m[1], median_off(run, k)))),
     Claim(rf"({NUMBER}) of ({NUMBER}) points lose their pixel", lambda run, k, m: (
         number(m[1]) == lost(run, k)[0] and number(m[2]) == len(street().points))),
     Claim(rf"({NUMBER}) points? ha(?:s|ve) a pixel that the true camera does not give", lambda run, k, m: (
         number(m[1]) == lost(run, k)[1])),
-    Claim(rf"[Tt]he median distance of points that come back from where they are is ({NUMBER}) m", lambda run, k, m: about(
-        m[1], median_back(run))),
+    Claim(rf"[Tt]he median distance of points that come back from where they are is ({LENGTH})", lambda run, k, m: (
+        says_length(m[1], median_back(run)))),
     Claim(rf"^(?!.*(?:{BLAME}))", lambda run, k, m: right(run, k) is not False),  # who blames nobody says that all is right
 )  # fmt: skip
 
@@ -332,28 +234,12 @@ def _one_over_the_distance(run: Run, k: int, m: re.Match[str]) -> bool:
     return run.params.dolly == 50 and bool(parallel) and abs(gaps[0] / gaps[1] - 2) < 0.1
 
 
-def shot_gap(params: Any) -> float:
-    corners = street().edges.reshape(-1, 3)
-    R, t, K = camera(params)
-    X, Y, _ = R @ corners.T + t[:, None]
-    depth = R[2] @ np.array(params.target) + t[2]
-    flat = np.array([X, Y]).T * K[0, 0] / depth + K[:2, 2]
-    return float(np.linalg.norm(pixels(params, corners) - flat, axis=1).max())
-
-
 def _meet(run: Run, k: int, m: re.Match[str]) -> bool:
     """Lines along d far out, wherever they and the camera are, come to K R d."""
     R, _, K = camera(run.params)
     v = K @ R @ [0.0, 1.0, 0.0]
     far = pixels(run.params, np.array([[x, 1e9, z] for x in (-5.0, 0.0, 7.0) for z in (0.0, 3.0)]))
     return close(far, v[:2] / v[2], atol=1e-5)
-
-
-def moves(run: Run) -> tuple[np.ndarray, np.ndarray]:
-    """Each point's place and shift by the lens."""
-    now = run.states[STAGES.index("distort")].now
-    seen = np.isfinite(now.xy_bent).all(axis=1)
-    return now.xy[seen], (now.xy_bent - now.xy)[seen]
 
 
 def _radial(sign: int):
@@ -418,11 +304,7 @@ def _mirrored(run: Run, k: int, m: re.Match[str]) -> bool:
     true = pixels(run.params, street().points)
     seen = np.isfinite(true).all(axis=1)
     behind = (run.states[1].now.p_camera[seen, 2] < 0).all()
-    return bool(behind) and close(_pixels_at(run)[seen], true[seen] * (-1, 1) + (319, 0))
-
-
-def _pixels_at(run: Run) -> np.ndarray:
-    return run.states[STAGES.index("pixels")].now.uv
+    return bool(behind) and close(pixels_at(run)[seen], true[seen] * (-1, 1) + (319, 0))
 
 
 LINES = {
@@ -441,15 +323,15 @@ LINES = {
     "fold": (Claim("k₁ = −0.6 turns round at radius 0.745.*they get no pixel", _folds),),
     "behind": (Claim("The followed lamp hangs behind the camera. Step on: it is divided by its negative depth", lambda
         run, k, m: bool(run.states[1].now.p_camera[run.params.point, 2] < 0 and np.isfinite(
-            _pixels_at(run)[run.params.point]).all())),),
+            pixels_at(run)[run.params.point]).all())),),
     "inverted": (
         Claim("Nearly every point is then behind the camera and loses its pixel", lambda run, k, m: bool(
-            (run.states[1].now.p_camera[:, 2] < 0).mean() > 0.95 and np.isnan(_pixels_at(run)).mean() > 0.95)),
+            (run.states[1].now.p_camera[:, 2] < 0).mean() > 0.95 and np.isnan(pixels_at(run)).mean() > 0.95)),
     ),
     "opengl": (Claim("gives all that is in front a negative depth; dividing anyway gives a picture mirrored left to right",
         _mirrored),),
     "rows": (Claim("the picture is flipped about its diagonal", lambda run, k, m: close(
-        _pixels_at(run), pixels(run.params, street().points)[:, ::-1], equal_nan=True)),),
+        pixels_at(run), pixels(run.params, street().points)[:, ::-1], equal_nan=True)),),
     "lens-on-pixels": (Claim("points fly millions of pixels away", lambda run, k, m: median_off(run, 3) > 2e6),),
     "crop-wrong": (Claim("the calculation is shifted and twice as large as it should be", _shifted_and_doubled),),
     "crop-right": (
@@ -480,7 +362,7 @@ WHYS = {
     "predict-behind": (Claim(
         rf"At \(({NUMBER}), ({NUMBER})\), well inside the picture. Z = ({NUMBER}) m turns both signs, and a lamp above the"
         " axis shows up below it", lambda run, k, m: bool(
-            says(m[1], _pixels_at(run)[5, 0]) and says(m[2], _pixels_at(run)[5, 1])
+            says(m[1], pixels_at(run)[5, 0]) and says(m[2], pixels_at(run)[5, 1])
             and 40 < number(m[1]) < 280 and 119.5 < number(m[2]) < 200
             and says(m[3], run.states[1].now.p_camera[5, 2]) and run.states[1].now.p_camera[5, 1] < 0)),),
     "predict-centre": (

@@ -1,52 +1,36 @@
 """What the RANSAC lesson says of its runs, decided from the rows and the truth that a state carries."""
 
 import dataclasses
-import functools
-import itertools
 import re
-from collections.abc import Sequence
 
 import numpy as np
 
-from lessons.ransac.lesson import lesson
-from lessons.ransac.words import caption_of as caption
+from lessons.ransac.words import caption
+from tests.readings import NUMBER, near, near_length, number
+from tests.truths.ransac import (
+    apart,
+    at_true_share,
+    clean,
+    clutter_votes,
+    determines,
+    drawn,
+    enough_for,
+    error,
+    error_of_rival,
+    hundreds_by_chance,
+    is_right,
+    kept,
+    last_error,
+    reached,
+    refused,
+    rms,
+    states,
+)
 from tests.verdicts import Claim, Run
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 
 NUMBERS = {"no": 0, "none": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7}
-
-
-def apart(model: str, estimate: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """Return the distances of rows to an estimate, written here once more."""
-    if model in ("line", "plane"):
-        return np.abs(p @ estimate[:-1] + estimate[-1]) / np.linalg.norm(estimate[:-1])
-    if model in ("circle", "sphere"):
-        return np.abs(np.linalg.norm(p - estimate[:-1], axis=1) - estimate[-1])
-    first, second = (np.column_stack([uv, np.ones(len(p))]) for uv in (p[:, :2], p[:, 2:]))
-    if model == "homography":
-        moved = first @ estimate.T
-        return np.linalg.norm(moved[:, :2] / moved[:, 2:] - p[:, 2:], axis=1)
-    lines, back = first @ estimate.T, second @ estimate
-    slope = np.square(lines[:, :2]).sum(1) + np.square(back[:, :2]).sum(1)
-    return np.abs((second * lines).sum(1)) / np.sqrt(slope)
-
-
-def rms(values: np.ndarray) -> float:
-    return float(np.sqrt(np.square(values).mean()))
-
-
-def error(state, estimate: np.ndarray) -> float:
-    """Return how far the true rows, free of noise, are from an estimate: it holds all of its parameters."""
-    return rms(apart(state.subject.model.name, estimate, state.subject.p_true))
-
-
-def is_right(state) -> bool:
-    """Nearer to the truth than the noise lets single rows be."""
-    if state.now.best is None:
-        return False
-    sigma = state.params.noise_pixels if state.subject.model.unit == "px" else state.params.noise
-    return error(state, state.now.best.estimate) < sigma
 
 
 def right(run: Run, k: int) -> bool | None:
@@ -58,25 +42,14 @@ def right(run: Run, k: int) -> bool | None:
     return None
 
 
-def determines(sample: np.ndarray) -> bool:
-    """Whether three points make a plane, or four matches a homography that some camera can see."""
-    if sample.shape[1] == 3:
-        return bool(np.linalg.matrix_rank(np.diff(sample, axis=0), tol=1e-9) > 1)
-    corners = [sample[list(three)] for three in itertools.combinations(range(4), 3)]
-    turned = [side(three[:, :2]) * side(three[:, 2:]) for three in corners]
-    return all(turn > 0 for turn in turned) or all(turn < 0 for turn in turned)
+def distance(name: str) -> str:
+    """Return what finds a distance and calls it so."""
+    return rf"(?P<{name}>{NUMBER} (?:mm|µm|m|px))"
 
 
-def side(uv: np.ndarray) -> float:
-    """Return on which side of two pixels the third is: as signed area."""
-    (a, b), (c, d) = uv[1] - uv[0], uv[2] - uv[0]
-    return float(a * d - b * c)
-
-
-def same(said: str, unit: str, value: float) -> bool:
-    """Whether a length as it is written is this one, to the three digits that are written."""
-    metres = float(said.replace(",", "")) * (0.001 if unit == "mm" else 1.0)
-    return bool(np.isclose(metres, value, rtol=6e-3, atol=1e-6))
+def same(said: str, value: float) -> bool:
+    """Whether a distance as it is written is this one, to the three digits that are written."""
+    return near(said.removesuffix(" px"), value) if said.endswith("px") else near_length(said, value)
 
 
 def outliers_of(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -86,13 +59,13 @@ def outliers_of(run: Run, k: int, found: re.Match[str]) -> bool:
     return NUMBERS[found["size"]] == len(state.now.sample) and said == wrong
 
 
-def near(run: Run, k: int, found: re.Match[str]) -> bool:
+def counted(run: Run, k: int, found: re.Match[str]) -> bool:
     """So many rows lie within the limit of the estimate in question."""
     state = run.states[k]
     estimate = state.now.estimate if state.now.phase == "inliers" else state.now.best.estimate
     limit = state.params.inlier_pixels if state.subject.model.unit == "px" else state.params.inlier_distance
     count = np.count_nonzero(apart(state.subject.model.name, estimate, state.subject.p) <= limit)
-    return same(found["limit"], found["unit"], limit) and int(found["n"].replace(",", "")) == count
+    return same(found["limit"], limit) and number(found["n"]) == count
 
 
 def stays(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -101,7 +74,7 @@ def stays(run: Run, k: int, found: re.Match[str]) -> bool:
     fewer = now.trial.score <= now.best.score
     after = run.states[k + 1].now
     replaced = after.phase == "best" and after.iteration == now.iteration
-    return fewer and best == int(found["n"].replace(",", "")) and not replaced
+    return fewer and best == number(found["n"]) and not replaced
 
 
 def is_new_best(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -111,27 +84,16 @@ def is_new_best(run: Run, k: int, found: re.Match[str]) -> bool:
     share = 100.0 * np.count_nonzero(now.best.inliers) / len(now.best.inliers)
     return (
         all(now.best.score > score for score in before)
-        and int(found["after"].replace(",", "")) == now.iteration
-        and int(found["n"].replace(",", "")) == np.count_nonzero(now.best.inliers)
+        and number(found["after"]) == now.iteration
+        and number(found["n"]) == np.count_nonzero(now.best.inliers)
         and abs(float(found["share"]) - share) <= 0.5 + 1e-9
     )
-
-
-def enough_for(share: float, size: int, confidence: float) -> float:
-    """Return the fewest draws of which one is clean with this confidence, by doubling and halving."""
-    clean, low, high = share**size, 0, 1
-    while 1.0 - (1.0 - clean) ** high < confidence:
-        low, high = high, 2 * high
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (low, middle) if 1.0 - (1.0 - clean) ** middle >= confidence else (middle, high)
-    return high
 
 
 def draws_needed(run: Run, k: int, found: re.Match[str]) -> bool:
     state = run.states[k]
     share = np.count_nonzero(state.now.best.inliers) / len(state.subject.p)
-    confidence, said = float(found["p"]) / 100.0, int(found["n"].replace(",", ""))
+    confidence, said = float(found["p"]) / 100.0, number(found["n"])
     assert confidence == state.params.confidence
     if found["no"]:
         clean = share**state.subject.model.sample_size
@@ -141,7 +103,7 @@ def draws_needed(run: Run, k: int, found: re.Match[str]) -> bool:
 
 def error_is(run: Run, k: int, found: re.Match[str]) -> bool:
     state = run.states[k]
-    return same(found["n"], found["unit"], error(state, state.now.best.estimate))
+    return same(found["n"], error(state, state.now.best.estimate))
 
 
 def refit(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -149,12 +111,8 @@ def refit(run: Run, k: int, found: re.Match[str]) -> bool:
     state, before = run.states[k], run.states[k - 1]
     counts = [np.count_nonzero(each.now.best.inliers) for each in (before, state)]
     errors = [error(state, each.now.best.estimate) for each in (before, state)]
-    said = [int(found[name].replace(",", "")) for name in ("n", "old", "new")]
-    return (
-        said == [counts[0], *counts]
-        and same(found["was"], found["unit"], errors[0])
-        and same(found["is"], found["u"], errors[1])
-    )
+    said = [number(found[name]) for name in ("n", "old", "new")]
+    return said == [counts[0], *counts] and same(found["was"], errors[0]) and same(found["is"], errors[1])
 
 
 def stopped(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -163,7 +121,7 @@ def stopped(run: Run, k: int, found: re.Match[str]) -> bool:
     bests = [each.now.best for each in run.states[:k] if each.now.phase in ("sample", "inliers", "best")]
     share = np.count_nonzero([best for best in bests if best is not None][-1].inliers) / len(state.subject.p)
     asked = enough_for(share, state.subject.model.sample_size, state.params.confidence)
-    drawn = int(found["n"].replace(",", ""))
+    drawn = number(found["n"])
     if found["why"].startswith("enough"):
         return drawn == state.now.iteration >= asked
     return drawn == state.now.iteration == state.params.most_samples <= asked
@@ -172,7 +130,7 @@ def stopped(run: Run, k: int, found: re.Match[str]) -> bool:
 def rms_of_best(run: Run, k: int, found: re.Match[str]) -> bool:
     best, state = run.states[k].now.best, run.states[k]
     off = apart(state.subject.model.name, best.estimate, state.subject.p)[best.inliers]
-    return same(found["n"], found["unit"], rms(off))
+    return same(found["n"], rms(off))
 
 
 def errors_are(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -180,17 +138,16 @@ def errors_are(run: Run, k: int, found: re.Match[str]) -> bool:
     state = run.states[k]
     squares, huber = (rival.estimate for rival in state.rivals)
     return (
-        same(found["r"], found["ru"], error(state, state.now.best.estimate))
-        and same(found["s"], found["su"], error(state, squares))
-        and same(found["h"], found["hu"], error(state, huber))
+        same(found["r"], error(state, state.now.best.estimate))
+        and same(found["s"], error(state, squares))
+        and same(found["h"], error(state, huber))
     )
 
 
-LENGTH = r"(?P<{}>[\d,.]+) (?P<{}>mm|m|px)"
 ROWS = r"(points|matches)"
 CAPTIONS = (
     Claim(rf"Of its (?P<size>\w+) {ROWS} (?P<n>\w+) (is an outlier|are outliers) in truth", outliers_of),
-    Claim(rf"(?P<n>[\d,]+) of [\d,]+ {ROWS} (lie|are) within {LENGTH.format('limit', 'unit')} of (its|the) \w+", near),
+    Claim(rf"(?P<n>[\d,]+) of [\d,]+ {ROWS} (lie|are) within {distance('limit')} of (its|the) \w+", counted),
     Claim(r"The best so far has (?P<n>[\d,]+) inliers( \([^)]*\))?: it stays", stays),
     Claim(
         r"New best after (?P<after>[\d,]+) samples?: (?P<n>[\d,]+) inliers( \([^)]*\))?, (?P<share>\d+) % of all",
@@ -203,19 +160,19 @@ CAPTIONS = (
     ),
     Claim(
         r"least squares on the (?P<n>[\d,]+) inliers, then counted anew: (?P<old>[\d,]+) → (?P<new>[\d,]+); RMS error to the"
-        rf" truth {LENGTH.format('was', 'unit')} → {LENGTH.format('is', 'u')}",
+        rf" truth {distance('was')} → {distance('is')}",
         refit,
     ),
-    Claim(rf"RMS error to the truth {LENGTH.format('n', 'unit')}(?! →)\b", error_is),
+    Claim(rf"RMS error to the truth {distance('n')}(?! →)\b", error_is),
     Claim(
         r"Stop after (?P<n>[\d,]+) samples?: (?P<why>enough samples for the confidence asked for|the maximum number of"
         r" samples is reached)",
         stopped,
     ),
-    Claim(rf"RMS distance {LENGTH.format('n', 'unit')}", rms_of_best),
+    Claim(rf"RMS distance {distance('n')}", rms_of_best),
     Claim(
-        rf"RMS error to the truth: RANSAC {LENGTH.format('r', 'ru')}, least squares {LENGTH.format('s', 'su')}, Huber"
-        rf" {LENGTH.format('h', 'hu')}",
+        rf"RMS error to the truth: RANSAC {distance('r')}, least squares {distance('s')}, Huber"
+        rf" {distance('h')}",
         errors_are,
     ),
     Claim(
@@ -228,49 +185,6 @@ CAPTIONS = (
 
 
 # preset lines -------------------------------------------------------------------------------------------------------
-
-
-@functools.lru_cache(maxsize=4)
-def states(params) -> tuple:
-    return tuple(lesson.run(params))
-
-
-def drawn(run: Run) -> int:
-    return run.states[-1].now.iteration
-
-
-def last_error(run: Run) -> float:
-    return error(run.states[-1], run.states[-1].now.best.estimate)
-
-
-def error_of_rival(run: Run, name: str) -> float:
-    state = run.states[-1]
-    return error(state, next(rival.estimate for rival in state.rivals if rival.name == name))
-
-
-def clean(run: Run, size: int) -> float:
-    return float(run.states[-1].subject.is_inlier.mean()) ** size
-
-
-def refused(run: Run) -> float:
-    """Return the share of the true rows beyond the limit of the final model, and of the true one."""
-    state = run.states[-1]
-    inliers = state.subject.p[state.subject.is_inlier]
-    beyond = apart("plane", state.now.best.estimate, inliers) > state.inlier_distance
-    return float(beyond.mean())
-
-
-def clutter_votes(run: Run) -> bool:
-    """Over a third of the outliers lie within the limit."""
-    state = run.states[-1]
-    off = apart("plane", state.now.best.estimate, state.subject.p[~state.subject.is_inlier])
-    return bool((off <= state.inlier_distance).mean() > 1 / 3)
-
-
-def kept(found: Sequence) -> float:
-    """Return the error of the best before the refit."""
-    best = [state for state in found if state.now.phase == "best"][-1]
-    return error(best, best.now.best.estimate)
 
 
 def no_farther(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -292,22 +206,6 @@ def twice_as_many(run: Run, k: int, found: re.Match[str]) -> bool:
 
 def sooner(run: Run, k: int, found: re.Match[str]) -> bool:
     return drawn(run) < states(dataclasses.replace(run.params, local_refit=False))[-1].now.iteration
-
-
-def reached(found: Sequence) -> int:
-    """Return after how many samples the best has four fifths of the inliers it ends with."""
-    enough = 0.8 * np.count_nonzero(found[-1].now.best.inliers)
-    return next(
-        state.now.iteration
-        for state in found
-        if state.now.best is not None and np.count_nonzero(state.now.best.inliers) >= enough
-    )
-
-
-@functools.cache
-def hundreds_by_chance(params) -> float:
-    """Return how often chance needs a hundred samples at least, of five seeds."""
-    return float(np.mean([reached(states(dataclasses.replace(params, seed=seed))) >= 100 for seed in range(5)]))
 
 
 def few_dozens(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -401,10 +299,6 @@ LINES = {
 # explanations -------------------------------------------------------------------------------------------------------
 
 
-def at_true_share(run: Run, size: int) -> float:
-    return enough_for(clean(run, 1), size, run.params.confidence)
-
-
 def of_one_sample(run: Run, k: int, found: re.Match[str]) -> bool:
     w, cube, spoilt, needed = (float(found[name]) for name in ("w", "cube", "spoilt", "n"))
     return (
@@ -439,9 +333,9 @@ def pull_upwards(run: Run, k: int, found: re.Match[str]) -> bool:
 
 def three_errors(run: Run, k: int, found: re.Match[str]) -> bool:
     return (
-        same(found["r"], found["ru"], last_error(run))
-        and same(found["h"], found["hu"], error_of_rival(run, "Huber"))
-        and same(found["s"], found["su"], error_of_rival(run, "least squares"))
+        same(found["r"], last_error(run))
+        and same(found["h"], error_of_rival(run, "Huber"))
+        and same(found["s"], error_of_rival(run, "least squares"))
     )
 
 
@@ -462,8 +356,8 @@ WHYS = {
     "predict-two-planes": (
         Claim(r"Its plane has (?P<n>\d+) points near it and stands upright: the wall", on_the_wall),
         Claim(
-            rf"The points of the table are {LENGTH.format('n', 'unit')} from it \(RMS\)",
-            lambda run, k, found: same(found["n"], found["unit"], last_error(run)),
+            rf"The points of the table are {distance('n')} from it \(RMS\)",
+            lambda run, k, found: same(found["n"], last_error(run)),
         ),
     ),
     "predict-size": (
@@ -475,7 +369,7 @@ WHYS = {
     ),
     "predict-huber": (
         Claim(
-            rf"RANSAC {LENGTH.format('r', 'ru')}, Huber {LENGTH.format('h', 'hu')}, least squares {LENGTH.format('s', 'su')}"
+            rf"RANSAC {distance('r')}, Huber {distance('h')}, least squares {distance('s')}"
             " off",
             three_errors,
         ),

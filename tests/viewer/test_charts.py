@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from tests import fake
-from workbench.publish.replay import beside
+from workbench.page.charts import outline
+from workbench.page.steps import Steps
 from workbench.scene import Caption, Curve, Scalar
 from workbench.timeline import Timeline
-from workbench.viewer.charts import joined, outline
+from workbench.viewer.charts import joined
 
 
 def curve(x, y, kind: Any = "line") -> Curve:
@@ -53,7 +54,7 @@ def test_round_off_is_zero_in_what_is_plotted_recorded_and_published():
 
     timeline = Timeline(replace(fake.lesson, draw=draw), fake.Params(steps=3, points=3)).complete()
     assert timeline.series()["off"].values.tolist() == [0.0, 0.0, 0.0]
-    data = beside(timeline)
+    data = Steps(timeline).whole()
     assert data["series"][0]["values"] == [0.0, 0.0, 0.0]
     chart = data["charts"]["Error to the true picture"]
     assert chart["y"]["words"] == ("0", "0.5", "1.0")

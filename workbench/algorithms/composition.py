@@ -41,7 +41,7 @@ class State:
 
 @traced
 def compose(shape: Sequence[Factor], motions: Sequence[Factor], invert_rigid: Invert) -> Iterator[State]:
-    """Multiply factors from the right to the left, then take the rigid ones back.
+    """Yield the product after each factor, multiplied from right to left, and then with the rigid ones undone.
 
     Args:
         shape: Factors that change the body's shape; they act first.

@@ -27,7 +27,7 @@ CENSUS_BITS = 24
 def sad_cost_volume(
     left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int, window: int = 1
 ) -> Real[np.ndarray, "d h w"]:
-    """Sum the absolute grey differences over a window: cheap, and needs equal exposure.
+    """Return the sum of absolute grey differences over a window: cheap, and needs equal exposure.
 
     Args:
         left: Grey picture of the left camera.
@@ -40,6 +40,12 @@ def sad_cost_volume(
 
     Raises:
         ValueError: If the sizes differ, the window is not odd and positive, or the shift exceeds the width.
+
+    Examples:
+        >>> right = np.array([[0, 9, 0, 0]], dtype=np.uint8)
+        >>> left = np.array([[0, 0, 9, 0]], dtype=np.uint8)  # the bright pixel is one column further right
+        >>> sad_cost_volume(left, right, max_disparity=1)[:, 0, 2].tolist()
+        [9, 0]
     """
     return _windowed(left, right, max_disparity, window, _absolute_difference, 255)
 
@@ -47,16 +53,39 @@ def sad_cost_volume(
 def ssd_cost_volume(
     left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int, window: int = 1
 ) -> Real[np.ndarray, "d h w"]:
-    """Sum the squared grey differences over a window: as `sad_cost_volume`, but one outlier weighs more."""
+    """Return the sum of squared grey differences over a window: one outlier weighs more than in `sad_cost_volume`.
+
+    Args:
+        left: Grey picture of the left camera.
+        right: Grey picture of the right one, of the same size; rows correspond.
+        max_disparity: Largest shift that is tried, pixels.
+        window: Side of the square window, pixels, odd.
+
+    Returns:
+        cost[d, y, x] = sum over the window of (left(y, x) - right(y, x - d))².
+
+    Raises:
+        ValueError: As `sad_cost_volume`.
+    """
     return _windowed(left, right, max_disparity, window, _squared_difference, 255**2)
 
 
 def census_cost_volume(
     left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int, window: int = 1
 ) -> Real[np.ndarray, "d h w"]:
-    """Count in how many bits the census codes differ, summed over a window: only the order of grey values matters.
+    """Return the number of bits in which the census codes differ, summed over a window.
 
-    The result is whole numbers (24 per pixel of the window at most) for pictures of every type.
+    Only the order of grey values within a window matters. The costs are whole numbers (24 per pixel of the window at most)
+    for pictures of every type.
+
+    Args:
+        left: Grey picture of the left camera.
+        right: Grey picture of the right one, of the same size; rows correspond.
+        max_disparity: Largest shift that is tried, pixels.
+        window: Side of the square window, pixels, odd.
+
+    Raises:
+        ValueError: As `sad_cost_volume`.
 
     Reference: Zabih and Woodfill, Non-parametric local transforms for computing visual correspondence, ECCV 1994.
     """
@@ -67,6 +96,15 @@ def ncc_cost_volume(
     left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int, window: int = 3
 ) -> Real[np.ndarray, "d h w"]:
     """Return 1 - the normalised correlation of the two windows, from 0 (alike up to brightness and contrast) to 2.
+
+    Args:
+        left: Grey picture of the left camera.
+        right: Grey picture of the right one, of the same size; rows correspond.
+        max_disparity: Largest shift that is tried, pixels.
+        window: Side of the square window, pixels, odd.
+
+    Raises:
+        ValueError: As `sad_cost_volume`.
 
     Note:
         A window without contrast correlates with nothing: its cost is 1. One pixel has no correlation, so a window of 1 is

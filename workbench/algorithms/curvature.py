@@ -146,7 +146,16 @@ def measure_curvature(
 
 
 def angles_at(p: Points, vertex: int, ring: Int[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-    """Return the angles at a vertex between each neighbour of its ring and the next, the last being back to the first."""
+    """Return the angles at a vertex between each neighbour of its ring and the next, the last being back to the first.
+
+    Args:
+        p: Vertices, metres.
+        vertex: The vertex at which the angles are.
+        ring: Its neighbours, in the order in which they go round it.
+
+    Returns:
+        Angles in [0, pi], radians.
+    """
     a = p[ring] - p[vertex]
     b = np.roll(a, -1, axis=0)
     return np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.einsum("nx,nx->n", a, b))

@@ -54,7 +54,7 @@ class Stage(Enum):
 class Matching:
     """A step of `match`.
 
-    Args:
+    Attributes:
         stage: What was just done.
         cost: The volume the map was chosen from; while comparing, its disparities so far.
         disparity: The map so far, pixels, NaN where unknown.
@@ -95,7 +95,7 @@ def match(
     compare: CostVolume = sad_cost_volume,
     choose: Choose = winner_takes_all,
 ) -> Iterator[Matching]:
-    """Find the disparity of every left pixel, step by step.
+    """Yield the disparity of every left pixel as it is found, stage by stage.
 
     Args:
         left: Grey picture of the left camera.
@@ -148,7 +148,7 @@ def reconstruct(
     disparity_error: float,
     depth_of: DepthOf = depth_from_disparity,
 ) -> Iterator[Depths]:
-    """Turn disparities into depths, then say how sure they are.
+    """Yield the depths of a disparity map, then the same with their uncertainty.
 
     Args:
         disparity: The map, pixels, doffs added where the principal points differ; NaN is unknown.

@@ -1,4 +1,4 @@
-"""What is done with a map of disparities: choose it from costs, check it against the right picture, refine, smooth, fill.
+"""Disparity maps: chosen from costs, checked against the right picture, refined between pixels, smoothed and filled.
 
 A map is (h, w), pixels, for the left picture: d = x_left - x_right. Cost volumes are as in `cost_volume`: (d, h, w).
 """
@@ -11,6 +11,11 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
     """Return the disparity of the lowest cost at every pixel; the smallest of several.
 
     Reference: Scharstein and Szeliski, IJCV 2002, section 3.3.
+
+    Examples:
+        >>> cost = np.array([[[3.0, 1.0]], [[2.0, 1.0]]])  # two disparities, a picture of 1 x 2 pixels
+        >>> winner_takes_all(cost).tolist()
+        [[1, 0]]
     """
     lowest = cost[0].copy()
     number = np.uint8 if len(cost) <= 2**8 else np.uint16
@@ -35,9 +40,14 @@ def seen_from_right(cost: Real[np.ndarray, "d h w"]) -> Real[np.ndarray, "d h w"
 def agree(
     left_disparity: Int[np.ndarray, "h w"], right_disparity: Int[np.ndarray, "h w"], tolerance: int = 1
 ) -> Bool[np.ndarray, "h w"]:
-    """Say which left pixels have a partner in the right picture that, within `tolerance` pixels, has them as its partner.
+    """Return whether each left pixel's partner in the right picture has that pixel as its own partner.
 
     Occluded pixels fail, for the right picture shows something nearer there; so do most wrong matches.
+
+    Args:
+        left_disparity: Of the left picture's pixels, whole pixels.
+        right_disparity: Of the right picture's pixels, whole pixels.
+        tolerance: By how much the two may differ, pixels.
 
     Reference: Hirschmueller, PAMI 2008, section 2.3.
     """
@@ -49,10 +59,15 @@ def agree(
 
 
 def sub_pixel(cost: Real[np.ndarray, "d h w"], disparity: Int[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
-    """Move every disparity to the lowest point of the parabola through its cost and the two beside it, by half at most.
+    """Return disparities refined between pixels: the lowest point of the parabola through a cost and the two beside it.
+
+    Args:
+        cost: The volume that the map was chosen from.
+        disparity: The map, whole pixels.
 
     Note:
-        At either end of the range, beside an infinite cost, and where the three costs have no valley, it stays whole.
+        No disparity moves by more than half a pixel. At either end of the range, beside an infinite cost, and where the
+        three costs have no valley, it stays whole.
 
     Reference: Scharstein and Szeliski, IJCV 2002, section 3.4.
     """
@@ -69,10 +84,10 @@ def sub_pixel(cost: Real[np.ndarray, "d h w"], disparity: Int[np.ndarray, "h w"]
 
 
 def fill(disparity: Float[np.ndarray, "h w"], known: Bool[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
-    """Give every unknown pixel the smaller of the nearest known disparities to its left and right.
+    """Return the map with every unknown pixel given the smaller of the nearest known disparities to its left and right.
 
-    What one camera alone sees lies behind what hides it from the other: the background, the smaller disparity, goes on.
-    Rows without any known pixel stay as they are.
+    A region seen by one camera only lies behind what hides it from the other, so the background's disparity, the smaller,
+    is continued. Rows without any known pixel stay as they are.
 
     Reference: Hirschmueller, PAMI 2008, section 2.5.3, along rows only.
     """

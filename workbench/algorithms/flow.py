@@ -110,11 +110,20 @@ def descend(
     slope: Float[np.ndarray, "n 3"],
     length: float,
 ) -> tuple[Float[np.ndarray, "n 3"], float]:
-    """Step against the slope to where the distance is lower; return the cloud as it was where nothing helps.
+    """Return the cloud one step down the slope and its distance; the cloud as it was where no step lowers the distance.
 
     A step that is too long is tried once more, half as far, against the mean of the slopes at its two ends: for a point
     that passed a kink, such as its own place, these cancel and it stays, while the others go on. That is kept where the
     distance falls in a straight line, as it does between kinks. Else the step is halved until the distance is lower.
+
+    Args:
+        distance: What is lowered.
+        gradient: Its gradient with respect to the moving cloud.
+        p_moving: The cloud now, metres.
+        p_target: The cloud that stays, same frame.
+        value: The distance now.
+        slope: The gradient now.
+        length: The step length that is tried first: the points move by `length * slope`.
 
     Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., algorithm 3.1, with plain decrease as the condition;
     the mean over a kink after Wolfe, A method of conjugate subgradients for minimizing nondifferentiable functions, 1975.
@@ -149,6 +158,14 @@ def polyak_length(value: float, slope: Float[np.ndarray, "n 3"], share: float) -
     The whole of it reaches zero at once where the distance falls like a cone, and goes half the way where it falls like a
     square.
 
+    Args:
+        value: The function's value; its least one is zero.
+        slope: Its gradient.
+        share: 1 for the whole step.
+
+    Returns:
+        The step length; 0 where the gradient is zero.
+
     Reference: Polyak 1987, section 5.3.
     """
     squared = float(np.vdot(slope, slope))
@@ -167,7 +184,13 @@ def rms(v: Float[np.ndarray, "n 3"]) -> float:
 
 
 def why_stop(value: float, value_next: float, at_limit: bool) -> Stop | None:
-    """Return the reason to stop, or None to go on."""
+    """Return the reason to stop, or None to go on.
+
+    Args:
+        value: The distance before the step.
+        value_next: The distance after it.
+        at_limit: Whether this is the last step allowed.
+    """
     if value <= _ARRIVED:
         return Stop.ARRIVED
     if not value_next < value:
@@ -179,6 +202,12 @@ def numeric_gradient(
     distance: Distance, p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"], h: float = 1e-6
 ) -> Float[np.ndarray, "n 3"]:
     """Return the gradient of any distance with respect to p_a, by central differences of 2 h metres.
+
+    Args:
+        distance: Of two clouds.
+        p_a: The cloud that is moved, metres.
+        p_b: The other one.
+        h: Half the width of a difference, metres.
 
     Note:
         It asks for the distance twice per coordinate. A coordinate in which all points of both clouds agree is left at

@@ -151,6 +151,12 @@ def icp(
     Note:
         ICP finds the nearest minimum, not the best one. With `align_rigid` and a gate that only trims, the RMSE of the
         kept matches never rises; a plateau or a small RMSE is no proof of a right answer.
+
+    Examples:
+        >>> p_target = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        >>> *_, last = icp(p_target, p_target - np.array([0.1, 0.0, 0.0]))
+        >>> last.stop.name, last.T_target_source[:3, 3].round(6).tolist()
+        ('CONVERGED', [0.1, 0.0, 0.0])
     """
     check_clouds(p_target, p_source)
     match = matcher(p_target, p_source) if match is None else match
@@ -220,7 +226,11 @@ def _tree(p: np.ndarray) -> "scipy.spatial.KDTree":
 
 
 def check_clouds(*clouds: np.ndarray) -> None:
-    """Refuse empty clouds and numbers that are not finite."""
+    """Raise ValueError unless every cloud has points and all of them are finite.
+
+    Raises:
+        ValueError: If a cloud is empty or holds numbers that are not finite.
+    """
     for p in clouds:
         if len(p) == 0:
             raise ValueError("a cloud has no points")
@@ -246,7 +256,15 @@ def misfit(
     distances: Float[np.ndarray, "n"],
     kept: Bool[np.ndarray, "n"],
 ) -> float:
-    """Return the root mean square, over the kept matches, of what the fit minimises, in metres."""
+    """Return the root mean square, over the kept matches, of what the fit minimises, in metres.
+
+    Args:
+        p_match: The partner of each moved source point, target frame, metres.
+        p_moved: The moved source points, target frame, metres.
+        n_match: Unit normals at the partners, or None for point-to-point distances.
+        distances: Between the two, metres.
+        kept: The matches that the fit used.
+    """
     if n_match is not None:
         distances = np.einsum("ij,ij->i", p_match - p_moved, n_match)
     return rms(distances[kept])
@@ -269,7 +287,19 @@ def summary(
     residual: float,
     stop: Stop | None,
 ) -> State:
-    """Return the state with its figures."""
+    """Return the state of these values, with its RMSE and overlap computed from them.
+
+    Args:
+        phase: Which sub-step just happened.
+        iteration: Counted from 1.
+        T_target_source: The motion so far.
+        indices: The target point matched to each source point.
+        distances: Between each moved source point and its partner, metres.
+        limit: The largest distance the gate accepted, metres.
+        kept: The matches within the limit.
+        residual: Root mean square of what the fit minimises, metres.
+        stop: Why this is the last state, or None.
+    """
     overlap = float(kept.mean())
     return State(
         phase,

@@ -43,7 +43,14 @@ class State:
 def slerp_and_lerp(
     T_world_start: Pose, T_world_end: Pose, times: Times, rotation_from_axis_angle: Rodrigues
 ) -> Iterator[State]:
-    """Turn about one axis at constant speed: the shortest turn there is."""
+    """Yield poses on the shortest turn about one axis at constant speed (slerp), the place on a straight line.
+
+    Args:
+        T_world_start: The pose at time 0, metres.
+        T_world_end: The pose at time 1.
+        times: When to yield a state, from 0 to 1.
+        rotation_from_axis_angle: Makes the rotations.
+    """
     R_start, R_end = T_world_start[:3, :3], T_world_end[:3, :3]
     p_start, p_end = T_world_start[:3, 3], T_world_end[:3, 3]
     axis, angle = axis_angle_from_rotation(R_end @ R_start.T)
@@ -55,7 +62,15 @@ def slerp_and_lerp(
 
 @traced
 def slerp_to_minus_q(T_world_start: Pose, T_world_end: Pose, times: Times) -> Iterator[State]:
-    """Go along the great circle to the wrong one of the two quaternions that both are the end's rotation."""
+    """Yield poses on the great circle to the farther of the two quaternions that both are the end's rotation.
+
+    It shows what an implementation of slerp does that does not choose the sign: the body turns the long way round.
+
+    Args:
+        T_world_start: The pose at time 0, metres.
+        T_world_end: The pose at time 1.
+        times: When to yield a state, from 0 to 1.
+    """
     p_start, p_end = T_world_start[:3, 3], T_world_end[:3, 3]
     q_start = quaternion_from_matrix(T_world_start[:3, :3])
     q_end = quaternion_from_matrix(T_world_end[:3, :3])
@@ -76,7 +91,17 @@ def lerp_of_euler_angles(
     times: Times,
     euler_to_matrix: FromEuler,
 ) -> Iterator[State]:
-    """Let each of the three angles run at constant speed, and find that the body does not."""
+    """Yield poses with each Euler angle interpolated linearly; axis and speed of the resulting turn are not constant.
+
+    Args:
+        angles_start: Radians at time 0, one for each letter of the order.
+        angles_end: Radians at time 1.
+        order: As in `euler_to_matrix`.
+        p_start: The place at time 0, world frame, metres.
+        p_end: The place at time 1.
+        times: When to yield a state, from 0 to 1.
+        euler_to_matrix: Makes the rotations.
+    """
     for t in times:
         angles = (1 - t) * angles_start + t * angles_end
         R = euler_to_matrix(angles, order)
@@ -86,7 +111,13 @@ def lerp_of_euler_angles(
 
 @traced
 def lerp_of_entries(T_world_start: Pose, T_world_end: Pose, times: Times) -> Iterator[State]:
-    """Let each of the sixteen numbers run at constant speed: what lies between is no rotation."""
+    """Yield matrices with each of the sixteen entries interpolated linearly; between the ends they are no rigid motions.
+
+    Args:
+        T_world_start: The pose at time 0, metres.
+        T_world_end: The pose at time 1.
+        times: When to yield a state, from 0 to 1.
+    """
     for t in times:
         T = (1 - t) * T_world_start + t * T_world_end
         yield State(t, T)
@@ -96,7 +127,14 @@ def lerp_of_entries(T_world_start: Pose, T_world_end: Pose, times: Times) -> Ite
 def along_a_screw(
     T_world_start: Pose, T_world_end: Pose, times: Times, invert_rigid: Callable[[np.ndarray], np.ndarray]
 ) -> Iterator[State]:
-    """Turn about one line and slide along it, both at constant speed: the geodesic of exp and log on SE(3)."""
+    """Yield poses on the screw from start to end: the geodesic exp(t log) of SE(3), at constant speed.
+
+    Args:
+        T_world_start: The pose at time 0, metres.
+        T_world_end: The pose at time 1.
+        times: When to yield a state, from 0 to 1.
+        invert_rigid: The inverse of a rigid motion.
+    """
     twist = log_se3(T_world_end @ invert_rigid(T_world_start))
     for t in times:
         T = exp_se3(t * twist) @ T_world_start

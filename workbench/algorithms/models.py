@@ -27,7 +27,7 @@ from workbench.geometry.homography import (
 from workbench.geometry.lines_planes import fit_hyperplane, hyperplane_distances, line_from_points, plane_from_points
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Model:
     """A kind of model. An estimate of it is an array whose shape depends on the kind.
 
@@ -57,17 +57,26 @@ class Model:
 
 
 def finite(estimates: Float[np.ndarray, "k ..."]) -> Float[np.ndarray, "j ..."]:
-    """Return the estimates without a NaN: the solvers mark a degenerate sample by it."""
+    """Return the estimates that have no NaN: the solvers mark a degenerate sample by it."""
     return estimates[np.isfinite(estimates).all(axis=tuple(range(1, estimates.ndim)))]
 
 
 def from_points(solver: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndarray], np.ndarray]:
-    """Make a `Model.solve` of a function that takes one sample and gives one estimate, NaN for a degenerate one."""
+    """Return a `Model.solve` made of a function that takes one sample and gives one estimate, NaN for a degenerate one."""
     return lambda samples: finite(np.stack([np.asarray(solver(sample), dtype=float) for sample in samples]))
 
 
 def rms_distance(model: Model, estimate: Float[np.ndarray, "..."], p: Float[np.ndarray, "n d"]) -> float:
-    """Return the root mean square distance of the rows to an estimate: its error, where the rows are free of noise."""
+    """Return the root mean square distance of the rows to an estimate: its error, where the rows are free of noise.
+
+    Args:
+        model: What the estimate is of.
+        estimate: Its parameters.
+        p: The rows.
+
+    Returns:
+        In the unit of the model's distances.
+    """
     return float(np.sqrt(np.square(model.distances(estimate, p)).mean()))
 
 
@@ -123,27 +132,69 @@ def _refit_fundamental(
 
 
 LINE = Model(
-    "line", 2, 2, 2, "m", "the two points coincide",
-    lambda samples: finite(line_from_points(samples)), _hyperplane_distances, _refit_hyperplane,
-)  # fmt: skip
+    name="line",
+    sample_size=2,
+    fewest=2,
+    columns=2,
+    unit="m",
+    degenerate_when="the two points coincide",
+    solve=lambda samples: finite(line_from_points(samples)),
+    distances=_hyperplane_distances,
+    refit=_refit_hyperplane,
+)
 PLANE = Model(
-    "plane", 3, 3, 3, "m", "the three points lie on one line",
-    lambda samples: finite(plane_from_points(samples)), _hyperplane_distances, _refit_hyperplane,
-)  # fmt: skip
+    name="plane",
+    sample_size=3,
+    fewest=3,
+    columns=3,
+    unit="m",
+    degenerate_when="the three points lie on one line",
+    solve=lambda samples: finite(plane_from_points(samples)),
+    distances=_hyperplane_distances,
+    refit=_refit_hyperplane,
+)
 CIRCLE = Model(
-    "circle", 3, 3, 2, "m", "the three points lie on one line",
-    lambda samples: finite(circle_from_points(samples)), _sphere_distances, fit_sphere,
-)  # fmt: skip
+    name="circle",
+    sample_size=3,
+    fewest=3,
+    columns=2,
+    unit="m",
+    degenerate_when="the three points lie on one line",
+    solve=lambda samples: finite(circle_from_points(samples)),
+    distances=_sphere_distances,
+    refit=fit_sphere,
+)
 SPHERE = Model(
-    "sphere", 4, 4, 3, "m", "the four points lie in one plane",
-    lambda samples: finite(sphere_from_points(samples)), _sphere_distances, fit_sphere,
-)  # fmt: skip
+    name="sphere",
+    sample_size=4,
+    fewest=4,
+    columns=3,
+    unit="m",
+    degenerate_when="the four points lie in one plane",
+    solve=lambda samples: finite(sphere_from_points(samples)),
+    distances=_sphere_distances,
+    refit=fit_sphere,
+)
 HOMOGRAPHY = Model(
-    "homography", 4, 4, 4, "px", "no camera can see both sets of four pixels as one plane",
-    _solve_homography, _transfer_distances, _refit_homography,
-)  # fmt: skip
+    name="homography",
+    sample_size=4,
+    fewest=4,
+    columns=4,
+    unit="px",
+    degenerate_when="no camera can see both sets of four pixels as one plane",
+    solve=_solve_homography,
+    distances=_transfer_distances,
+    refit=_refit_homography,
+)
 FUNDAMENTAL = Model(
-    "fundamental matrix", 7, 8, 4, "px", "no two cameras can see the seven matches in front of them",
-    _solve_fundamental, _sampson_distances, _refit_fundamental,
-)  # fmt: skip
+    name="fundamental matrix",
+    sample_size=7,
+    fewest=8,
+    columns=4,
+    unit="px",
+    degenerate_when="no two cameras can see the seven matches in front of them",
+    solve=_solve_fundamental,
+    distances=_sampson_distances,
+    refit=_refit_fundamental,
+)
 MODELS = {model.name: model for model in (LINE, PLANE, CIRCLE, SPHERE, HOMOGRAPHY, FUNDAMENTAL)}

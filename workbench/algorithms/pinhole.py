@@ -51,7 +51,7 @@ class State:
     p_back: np.ndarray
 
     def reached(self, stage: Stage) -> bool:
-        """Tell whether a stage is done."""
+        """Return whether a stage is done."""
         return STAGES.index(stage) <= STAGES.index(self.stage)
 
 
@@ -73,7 +73,7 @@ def follow(
     camera_center: Center = cameras.camera_center,
     depth: Float[np.ndarray, " n"] | None = None,
 ) -> Iterator[State]:
-    """Take points from the world to pixels, one stage per step, and then back along their rays.
+    """Yield the points on their way from the world to pixels, one stage per state, and then back along their rays.
 
     Args:
         p_world: Points, metres.
@@ -115,10 +115,13 @@ def follow(
 
 
 def onto_pixels(xy: Float[np.ndarray, "n 2"], K: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "n 2"]:
-    """Return the pixels of points on the plane one metre in front of the camera."""
+    """Return the pixels of points on the plane one metre in front of the camera.
+
+    Takes (x, y) = (X/Z, Y/Z) to (u, v); both without a lens.
+    """
     return xy @ K[:2, :2].T + K[:2, 2]
 
 
 def off_pixels(uv: Float[np.ndarray, "n 2"], K: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "n 2"]:
-    """Return the points of that plane which these pixels show."""
+    """Return the points, on the plane one metre in front of the camera, that these pixels show: `onto_pixels` undone."""
     return (uv - K[:2, 2]) @ np.linalg.inv(K[:2, :2]).T

@@ -103,7 +103,12 @@ def iterations_needed(inlier_ratio: float, sample_size: int, confidence: float) 
 
     Note:
         A sample without an outlier need not give a good model: its points are noisy.
+
     Reference: Fischler and Bolles 1981, section II.B; Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 4.18.
+
+    Examples:
+        >>> int(iterations_needed(0.5, 3, 0.99))  # half of the points are inliers, a plane needs three
+        35
     """
     clean = inlier_ratio**sample_size
     if clean >= 1.0:
@@ -193,10 +198,16 @@ def ransac(
 def refit_rounds(
     p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit]
 ) -> Iterator[Fit]:
-    """Yield fits, each the least-squares fit to the inliers of the one before, until the inliers stay the same, ten at most.
+    """Yield least-squares fits, each to the inliers of the one before, until these stay the same (ten fits at most).
 
     No round lowers the MSAC score: the fit lowers the squared distances of the old inliers, and the new inliers are the
     choice that lowers the truncated sum further.
+
+    Args:
+        p: The rows: points, or matches.
+        model: What is fitted.
+        fit: The fit to begin with.
+        judge: Says how all rows take an estimate.
 
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.7.1 (guided refit, alternated until it converges).
     """
@@ -213,13 +224,24 @@ def refit_rounds(
 
 
 def polished(p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit]) -> Fit:
-    """Return the fit after its refit rounds, or as it was if they lower its score."""
+    """Return the fit after its refit rounds, or as it was if they lower its score.
+
+    Args:
+        p: The rows: points, or matches.
+        model: What is fitted.
+        fit: The fit to begin with.
+        judge: Says how all rows take an estimate.
+    """
     *_, last = fit, *refit_rounds(p, model, fit, judge)
     return last if last.score >= fit.score else fit
 
 
 def check_rows(p: Float[np.ndarray, "n d"], model: Model) -> None:
-    """Refuse rows that the model cannot be fitted to; the message says why."""
+    """Raise ValueError unless the model can be fitted to these rows; the message says why.
+
+    Raises:
+        ValueError: If there are too few rows, they have the wrong number of columns, or are not finite.
+    """
     if p.shape[1] != model.columns:
         raise ValueError(f"a {model.name} is fitted to rows of {model.columns} numbers, not {p.shape[1]}")
     if len(p) < model.sample_size:

@@ -11,6 +11,11 @@ from jaxtyping import Float, Int
 def uniform_samples(n: int, size: int, rng: np.random.Generator) -> Iterator[Int[np.ndarray, " size"]]:
     """Yield samples of `size` different rows out of n, all sets equally likely, without end.
 
+    Args:
+        n: Rows to choose from.
+        size: Rows in a sample.
+        rng: Where chance comes from.
+
     Raises:
         ValueError: If there are fewer rows than a sample needs.
     """
@@ -49,6 +54,12 @@ def prosac_samples(
 
 def draw_samples(n: int, size: int, samples: int, rng: np.random.Generator) -> Int[np.ndarray, "samples size"]:
     """Return so many samples of `size` different rows out of n, each in random order.
+
+    Args:
+        n: Rows to choose from.
+        size: Rows in a sample.
+        samples: How many samples.
+        rng: Where chance comes from.
 
     Raises:
         ValueError: If there are fewer rows than a sample needs.

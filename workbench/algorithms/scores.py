@@ -15,7 +15,7 @@ Score = Callable[[np.ndarray, float], np.ndarray]
 
 
 def count_score(distances: Float[np.ndarray, "*k n"], inlier_distance: float) -> Shaped[np.ndarray, "*k"]:
-    """Count the points within the inlier distance, all of them alike: the score of RANSAC.
+    """Return the number of points within the inlier distance: the score of RANSAC.
 
     Reference: Fischler and Bolles, Random Sample Consensus, 1981, section II.
     """
@@ -23,7 +23,7 @@ def count_score(distances: Float[np.ndarray, "*k n"], inlier_distance: float) ->
 
 
 def msac_score(distances: Float[np.ndarray, "*k n"], inlier_distance: float) -> Shaped[np.ndarray, "*k"]:
-    """Let each inlier count the more the nearer it is: 1 at distance 0, nothing from the inlier distance on.
+    """Return the sum over points of 1 - (distance / inlier distance)², nothing for a point beyond the inlier distance.
 
     It is n minus the truncated sum of squares of the paper, in units of the squared inlier distance.
 
@@ -42,6 +42,12 @@ def mlesac_score(
     Inliers are normal around the model, with the standard deviation that puts 95 % of them within the inlier distance;
     outliers are anywhere in a window of width `span`. The share of inliers is found by expectation maximisation.
 
+    Args:
+        distances: Of n points to one candidate, or to k candidates in rows.
+        inlier_distance: Within which 95 % of the inliers lie, in the unit of the distances.
+        span: Width of the window over which outliers are uniform, in that unit.
+        steps: Rounds of expectation maximisation.
+
     Reference: Torr and Zisserman, MLESAC, 2000, section 5, eq. 18 to 20.
     """
     sigma = inlier_distance / 1.96
@@ -53,5 +59,11 @@ def mlesac_score(
 
 
 def count_inliers(plane: Float[np.ndarray, "4"], p: Float[np.ndarray, "n 3"], inlier_distance: float) -> int:
-    """Count the points within the inlier distance of a plane (a, b, c, d), on both its sides; metres."""
+    """Return how many points lie within the inlier distance of a plane, on either side.
+
+    Args:
+        plane: (a, b, c, d) with a unit normal; d in metres.
+        p: Points, same frame, metres.
+        inlier_distance: Metres.
+    """
     return int(np.count_nonzero(np.abs(hyperplane_distances(plane, p)) <= inlier_distance))

@@ -2,7 +2,7 @@
 
 The map sought minimises E(D) = sum_p C(p, D_p) + sum over neighbours of P1 [|step| = 1] + P2 [|step| > 1]: a slope of one
 disparity is cheap, a jump costs P2 however high it is. In two dimensions that is NP-hard; along one line it is a shortest
-path, and eight lines that meet in a pixel nearly know the answer.
+path, and the sum over eight lines that meet in a pixel approximates the minimum.
 
 Reference: Hirschmueller, Stereo processing by semiglobal matching and mutual information, PAMI 2008, section 2.2; equation
 numbers are that paper's.
@@ -24,7 +24,7 @@ DIRECTIONS = ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 
 class PathSum:
     """The path costs of all directions so far.
 
-    Args:
+    Attributes:
         direction: The step (rows down, columns right) of the direction just added.
         path: L_r(p, d), its own path costs.
         total: S(p, d), the sum over the directions so far.
@@ -37,7 +37,7 @@ class PathSum:
 
 @traced
 def semi_global(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Iterator[PathSum]:
-    """Add up path costs, one direction per step.
+    """Yield the sum of path costs after each of the eight directions.
 
     Args:
         cost: C(p, d), from `cost_volume`; infinite cells count as the worst finite one.
@@ -74,6 +74,11 @@ class Jumps:
 def prepare(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> tuple[Real[np.ndarray, "d h w"], Jumps]:
     """Return the cost as the sweeps want it: whole numbers as they are, others as float32 without infinities.
 
+    Args:
+        cost: C(p, d), from `cost_volume`.
+        P1: Penalty for a step of one disparity.
+        P2: Penalty for every larger step.
+
     Raises:
         ValueError: Unless 0 <= P1 <= P2.
     """
@@ -86,7 +91,15 @@ def prepare(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> tuple[Real
 
 
 def path_costs(cost: Real[np.ndarray, "d h w"], direction: tuple[int, int], jumps: Jumps) -> Real[np.ndarray, "d h w"]:
-    """Return L_r(p, d) for one direction r = (rows down, columns right), of a cost that `prepare` returned."""
+    """Return the path costs L_r(p, d) of one direction.
+
+    Args:
+        cost: A cost that `prepare` returned.
+        direction: r = (rows down, columns right).
+        jumps: The penalties.
+
+    Reference: Hirschmueller, PAMI 2008, eq. 13.
+    """
     down, right = direction
     path = np.zeros(cost.shape, jumps.type_of_sum(1))
     if down:
@@ -97,7 +110,7 @@ def path_costs(cost: Real[np.ndarray, "d h w"], direction: tuple[int, int], jump
 
 
 def sweep(cost: Real[np.ndarray, "n d w"], path: Real[np.ndarray, "n d w"], slope: int, jumps: Jumps) -> None:
-    """Walk over the lines of a picture in order, and write the path costs.
+    """Write the path costs of all lines of a picture, walked in order.
 
     Args:
         cost: C(p, d), line by line.
@@ -158,12 +171,12 @@ def energy(cost: Real[np.ndarray, "d h w"], disparity: Real[np.ndarray, "h w"], 
 
 
 def by_row(volume: np.ndarray) -> np.ndarray:
-    """View a volume (d, h, w) as its rows (h, d, w)."""
+    """Return a view of a volume (d, h, w) as its rows (h, d, w)."""
     return volume.transpose(1, 0, 2)
 
 
 def by_column(volume: np.ndarray) -> np.ndarray:
-    """View a volume (d, h, w) as its columns (w, d, h)."""
+    """Return a view of a volume (d, h, w) as its columns (w, d, h)."""
     return volume.transpose(2, 0, 1)
 
 

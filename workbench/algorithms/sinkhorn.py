@@ -109,7 +109,19 @@ def sinkhorn_steps(
 def sinkhorn(
     cost: Float[np.ndarray, "n m"], regularisation: float, *, max_sweeps: int = 10_000, tolerance: float = 1e-9
 ) -> Blurred:
-    """Return the last state of `sinkhorn_steps`; whoever watches a run that calls this goes on watching that run."""
+    """Return the last state of `sinkhorn_steps`.
+
+    Its steps are not traced (`workbench.tracing`): a trace of the run that calls this goes on with that run.
+
+    Args:
+        cost: What it costs to move a unit of mass from row to column.
+        regularisation: The weight of the entropy, in units of the cost.
+        max_sweeps: Scale rows and columns at most this often.
+        tolerance: Converged when the row sums are wrong by no more than this in total.
+
+    Raises:
+        ValueError: As `sinkhorn_steps`.
+    """
     with untraced():
         *_, last = sinkhorn_steps(cost, regularisation, max_sweeps=max_sweeps, tolerance=tolerance)
     return last
@@ -129,7 +141,14 @@ def tight_potentials(
 def kernel(
     cost: Float[np.ndarray, "n m"], f: Float[np.ndarray, "n"], g: Float[np.ndarray, "m"], regularisation: float
 ) -> Float[np.ndarray, "n m"]:
-    """Return exp((f_i + g_j - cost_ij) / regularisation), entries that cannot matter kept above the slow denormals."""
+    """Return exp((f_i + g_j - cost_ij) / regularisation), entries that cannot matter kept above the slow denormals.
+
+    Args:
+        cost: What it costs to move a unit of mass from row to column.
+        f: Potentials of the rows, in units of the cost.
+        g: Potentials of the columns.
+        regularisation: The weight of the entropy, in units of the cost.
+    """
     K = f[:, None] + g
     K -= cost
     K *= 1 / regularisation
@@ -138,7 +157,11 @@ def kernel(
 
 
 def check_cost(cost: np.ndarray) -> None:
-    """Refuse a cost that is empty, too large or not finite."""
+    """Raise ValueError if a cost is empty, too large or not finite.
+
+    Raises:
+        ValueError: If the cost is empty, has more than MOST_ENTRIES entries, or one that is not finite.
+    """
     if cost.size == 0:
         raise ValueError(f"a cost of {cost.shape[0]} x {cost.shape[1]} has nothing to move")
     if cost.size > MOST_ENTRIES:

@@ -27,7 +27,7 @@ _CONTESTED = 0.35  # where at least this share of the columns is cheapest to no 
 
 @dataclass(frozen=True, eq=False)
 class Matching:
-    """Who gives to whom: k pairs of a point of a and a point of b, the mass that moves, and how far.
+    """A transport plan: k pairs of a point of a and a point of b, the mass that moves between them, and how far.
 
     Attributes:
         i_a, i_b: The pairs, as indices into the clouds, sorted by i_a.
@@ -60,6 +60,11 @@ def earth_movers(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -
         ValueError: If a cloud is empty or holds coordinates that are not finite, or counts differ and are too large.
 
     Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 2, as a mean.
+
+    Examples:
+        >>> p_a = np.array([[0.0, 0, 0], [1, 0, 0]])
+        >>> earth_movers(p_a, p_a[::-1] + np.array([0.0, 0.0, 0.5]))  # the order of the rows is of no account
+        0.5
     """
     return best_matching(p_a, p_b).cost
 
@@ -172,7 +177,13 @@ def best_plan(
 
 
 def best_plan_by_programme(cost: Float[np.ndarray, "n m"]) -> Float[np.ndarray, "n m"]:
-    """Return the cheapest plan as the solution of a linear programme: row and column sums are equality constraints."""
+    """Return the cheapest plan as the solution of a linear programme: row and column sums are equality constraints.
+
+    Raises:
+        ValueError: If the solver finds no solution.
+
+    Reference: Peyre and Cuturi 2019, equation 2.11.
+    """
     n, m = cost.shape
     rows = scipy.sparse.kron(scipy.sparse.eye_array(n), np.ones((1, m)))
     columns = scipy.sparse.kron(np.ones((1, n)), scipy.sparse.eye_array(m))

@@ -39,8 +39,8 @@ def read_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n 3"]:
         InputError: If the file is missing, too large, not understood, or has fewer than `fewest` points.
     """
     path = Path(path)
-    stamp = _stat(path)
-    p = _cloud(path, *stamp)
+    changed = stamp(path)
+    p = _cloud(path, *changed)
     if len(p) < fewest:
         raise InputError(f"{path.name}: {_count(len(p), 'point')}; at least {fewest} are needed")
     return p
@@ -53,7 +53,7 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
         InputError: If the file is missing, too large, not understood, has no faces, or holds NaN.
     """
     path = Path(path)
-    _stat(path)
+    stamp(path)
     content, kind = _content(path)
     if kind not in _MESHES:
         raise InputError(
@@ -92,7 +92,7 @@ def read_image(path: Path) -> UInt8[np.ndarray, "h w *channels"]:
         InputError: If the file is missing, too large, or no image of 8 bits a channel.
     """
     path = Path(path)
-    _stat(path)
+    stamp(path)
     from PIL import Image
 
     try:
@@ -126,7 +126,7 @@ def read_pose(path: Path, target: Path | None = None, source: Path | None = None
         InputError: If the file is missing, not understood, not a pose, or a list without the two scans.
     """
     path = Path(path)
-    _stat(path)
+    stamp(path)
     content, kind = _content(path)
     if kind == ".npy":
         T = _load_array(content, path.name)
@@ -240,8 +240,12 @@ def _content(path: Path) -> tuple[bytes, str]:
     return content, Path(path.stem).suffix.lower()
 
 
-def _stat(path: Path) -> tuple[int, int]:
-    """Return when the file was changed and its size; refuse what is no file, or too large."""
+def stamp(path: Path) -> tuple[int, int]:
+    """Return when a file was changed and its size: what is read from it may be kept as long as they stay.
+
+    Raises:
+        InputError: If it is no file, or too large.
+    """
     try:
         stat = path.stat()
     except OSError:

@@ -7,6 +7,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from workbench.geometry.meshes import face_normals
+from workbench.geometry.polylines import segments
 
 Shape = Literal["house", "L block", "box"]
 
@@ -45,7 +46,7 @@ def house() -> Solid:
     body = _of_polygons(p, (foot, *sides, (5, 6, 9, 8), (4, 8, 9, 7), (6, 7, 9)))
     x, z = [-0.35, -0.35, -0.1, -0.1], [0.0, 0.4, 0.4, 0.0]
     door = np.stack([x, np.full(4, -0.352), z], axis=1)  # just in front of the wall
-    return Solid(body.p, body.faces, np.concatenate([body.lines, np.stack([door[:-1], door[1:]], axis=1)]))
+    return Solid(body.p, body.faces, np.concatenate([body.lines, segments(door)]))
 
 
 def l_block() -> Solid:

@@ -20,7 +20,8 @@ class StereoPair:
     """Two pictures of which rows correspond, and what is known of them.
 
     Args:
-        left, right: The pictures, RGB.
+        left: The left camera's picture, RGB.
+        right: The right camera's.
         camera: The cameras that took them.
         disparity: The true disparity of left pixels, NaN where unknown; None without truth.
         visible: Which left pixels the right camera sees too; None where it is not known.

@@ -1,4 +1,4 @@
-"""Fewer points of a cloud: one per voxel, so that dense and sparse parts of a scan count alike."""
+"""Fewer points of a cloud: one per voxel, so that dense and sparse parts of a scan count alike, or some drawn by chance."""
 
 import numpy as np
 from jaxtyping import Float
@@ -23,3 +23,11 @@ def voxel_means(p: Float[np.ndarray, "n 3"], size: float) -> Float[np.ndarray, "
     counts = np.diff(np.r_[starts, len(p)])
     offsets = p[order] - np.repeat(origin, counts, axis=0)
     return origin + np.add.reduceat(offsets, starts, axis=0) / counts[:, None]
+
+
+def some_points(p: Float[np.ndarray, "n d"], most: int, rng: np.random.Generator) -> Float[np.ndarray, "m d"]:
+    """Return so many points drawn by chance, in the order they had; all of them where there are no more.
+
+    Nothing is drawn from `rng` where all are returned.
+    """
+    return p if len(p) <= most else p[np.sort(rng.choice(len(p), most, replace=False))]

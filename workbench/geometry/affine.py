@@ -68,6 +68,11 @@ def scaling(factors: Float[np.ndarray, "3"]) -> Map:
 def shear(along: Axis, across: Axis, amount: float) -> Map:
     """Return the map that shifts points along one axis by `amount` times their coordinate on another.
 
+    Args:
+        along: The axis along which points are shifted.
+        across: The axis whose coordinate says by how much.
+        amount: Shift per metre of that coordinate.
+
     Raises:
         ValueError: If the two axes are the same; that would be a scaling.
     """

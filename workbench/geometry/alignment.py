@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from workbench.geometry.motions import apply, exp_so3, motion
+from workbench.geometry.motions import apply, exp_so3, motion, rotation_angle
 
 CHUNK = 8192
 
@@ -36,6 +36,12 @@ def align_rigid(
 
     Reference: Umeyama, Least-squares estimation of transformation parameters between two point patterns, 1991,
     eq. 39-43 with scale 1; Kabsch 1976 and 1978.
+
+    Examples:
+        >>> p_source = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+        >>> T_target_source = align_rigid(p_source + np.array([2.0, 0.0, 0.0]), p_source)
+        >>> bool(np.allclose(T_target_source[:3], [[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0]]))
+        True
     """
     m = _moments(p_target, p_source, weights)
     R, _ = _rotation(m.cross)
@@ -61,6 +67,11 @@ def align_similarity(
         Source points that all coincide say nothing about scale: it is 1 then.
 
     Reference: Umeyama 1991, eq. 39-43.
+
+    Examples:
+        >>> p_source = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+        >>> bool(np.allclose(align_similarity(3.0 * p_source, p_source), np.diag([3.0, 3.0, 3.0, 1.0])))
+        True
     """
     m = _moments(p_target, p_source, weights)
     R, explained = _rotation(m.cross)
@@ -146,8 +157,28 @@ def nearest_rotation(A: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
     return _rotation(A)[0]
 
 
+def degrees_between(T: Float[np.ndarray, "n n"], other: Float[np.ndarray, "n n"]) -> float:
+    """Return the angle between the rotations in two motions, in degrees within [0, 180].
+
+    Args:
+        T: A motion or an affine map, 4x4, or its linear part alone, 3x3.
+        other: Another between the same frames.
+
+    Note:
+        Of a map that scales or shears it is the nearest rotation that counts.
+    """
+    R, R_other = nearest_rotation(T[:3, :3]), nearest_rotation(other[:3, :3])
+    return float(np.degrees(rotation_angle(R @ R_other.T)))
+
+
 def rmse(T: Float[np.ndarray, "4 4"], p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]) -> float:
-    """Return the root mean square distance between pairs after moving the source, in metres."""
+    """Return the root mean square distance between pairs after moving the source, in metres.
+
+    Args:
+        T: T_target_source, any affine map.
+        p_target: Points in the target frame, metres.
+        p_source: Their partners in the source frame, row by row.
+    """
     return float(np.sqrt(np.mean(np.sum((p_target - apply(T, p_source)) ** 2, axis=1))))
 
 

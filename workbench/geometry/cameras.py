@@ -36,6 +36,10 @@ def intrinsics(
 
     Raises:
         ValueError: If a focal length is not positive and finite.
+
+    Examples:
+        >>> intrinsics(500.0, 319.5, 239.5).tolist()
+        [[500.0, 0.0, 319.5], [0.0, 500.0, 239.5], [0.0, 0.0, 1.0]]
     """
     fy = f if fy is None else fy
     if not (0 < f < math.inf and 0 < fy < math.inf):
@@ -44,14 +48,24 @@ def intrinsics(
 
 
 def focal_from_field_of_view(angle: float, size: int) -> float:
-    """Return the focal length in pixels at which `size` pixels span this angle (radians, below pi)."""
+    """Return the focal length in pixels at which `size` pixels span this angle (radians, below pi).
+
+    Raises:
+        ValueError: If the angle is not between 0 and pi.
+    """
     if not 0 < angle < math.pi:
         raise ValueError(f"a pinhole's field of view lies between 0 and pi radians, got {angle}")
     return 0.5 * size / math.tan(0.5 * angle)
 
 
 def crop_intrinsics(K: Float[np.ndarray, "3 3"], left: float, top: float) -> Float[np.ndarray, "3 3"]:
-    """Return the K of the part of a picture whose pixel (0, 0) was (left, top): only the principal point moves."""
+    """Return the K of the part of a picture whose pixel (0, 0) was (left, top): only the principal point moves.
+
+    Args:
+        K: Intrinsics of the whole picture, pixels.
+        left: Its column that becomes column 0.
+        top: Its row that becomes row 0.
+    """
     return np.array([[1.0, 0.0, -left], [0.0, 1.0, -top], [0.0, 0.0, 1.0]]) @ K
 
 
@@ -59,6 +73,11 @@ def resize_intrinsics(K: Float[np.ndarray, "3 3"], scale_u: float, scale_v: floa
     """Return the K of a picture whose width and height were multiplied by these factors.
 
     Pixel centres are at integers, so it is the edge at -0.5 that stays: u_new + 0.5 = scale_u (u + 0.5).
+
+    Args:
+        K: Intrinsics of the old picture, pixels.
+        scale_u: New width over old width.
+        scale_v: New height over old height.
 
     Raises:
         ValueError: If a factor is not positive.
@@ -86,6 +105,11 @@ def look_at(
 
     Note:
         Looking straight along `up` leaves the roll open; then the world axis furthest from it takes its place.
+
+    Examples:
+        >>> T_camera_world = look_at(np.array([0.0, -5.0, 0.0]), np.zeros(3))
+        >>> (T_camera_world @ np.array([0.0, 0.0, 0.0, 1.0]))[:3].round(6).tolist()  # the target: 5 m ahead
+        [0.0, 0.0, 5.0]
     """
     up = np.array([0.0, 0.0, 1.0]) if n_world_up is None else n_world_up
     v_forward = p_world_target - p_world_eye
@@ -105,6 +129,10 @@ def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray,
     """Return where the camera is in the world, metres: C = -R^T t, the point that it takes to its own origin.
 
     Reference: Hartley and Zisserman, 6.1, eq. 6.7.
+
+    Examples:
+        >>> camera_center(look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3))).round(6).tolist()
+        [0.0, -5.0, 1.0]
     """
     R_camera_world, t = T_camera_world[:3, :3], T_camera_world[:3, 3]
     return -R_camera_world.T @ t
@@ -118,7 +146,13 @@ def depths(p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, 
 def in_front(
     p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"], near: float = 0.0
 ) -> Bool[np.ndarray, " n"]:
-    """Say which points have a depth above `near` (metres); NaN rows have not."""
+    """Return which points have a depth above `near`; NaN rows have not.
+
+    Args:
+        p_world: Points, metres.
+        T_camera_world: World-to-camera motion, metres.
+        near: Depth that must be exceeded, metres.
+    """
     return depths(p_world, T_camera_world) > near
 
 
@@ -144,6 +178,11 @@ def project(
         lens model folds (`invertible_radius`): dividing anyway would give a pixel that looks valid.
 
     Reference: Hartley and Zisserman, 6.1, eq. 6.8.
+
+    Examples:
+        >>> p_world = np.array([[0.1, 0.0, 2.0], [0.0, 0.0, -1.0]])  # the second is behind the camera
+        >>> project(p_world, np.eye(4), intrinsics(500.0, 319.5, 239.5)).round(6).tolist()
+        [[344.5, 239.5], [nan, nan]]
     """
     ideal = not any(distortion)
     reach = invertible_radius(distortion) ** 2
@@ -185,7 +224,7 @@ def project_orthographic(
 def dolly(
     T_camera_world: Float[np.ndarray, "4 4"], K: Float[np.ndarray, "3 3"], subject_depth: float, factor: float
 ) -> tuple[Float[np.ndarray, "4 4"], Float[np.ndarray, "3 3"]]:
-    """Move the camera back along its axis and lengthen f, so that the plane of the subject keeps its size.
+    """Return the camera moved back along its axis with f lengthened, so that the plane of the subject keeps its size.
 
     Args:
         T_camera_world: World-to-camera motion, metres.
@@ -207,7 +246,16 @@ def dolly(
 def normalize(
     uv: Float[np.ndarray, "n 2"], K: Float[np.ndarray, "3 3"], distortion: Distortion = NONE
 ) -> Float[np.ndarray, "n 2"]:
-    """Return ideal normalised coordinates of pixels: K and then the lens undone; NaN where the lens has no inverse."""
+    """Return ideal normalised coordinates of pixels: K and then the lens undone; NaN where the lens has no inverse.
+
+    Args:
+        uv: Pixels (column, row).
+        K: Intrinsics, pixels.
+        distortion: The lens.
+
+    Returns:
+        (X/Z, Y/Z), without unit.
+    """
     y = (uv[:, 1] - K[1, 2]) / K[1, 1]
     x = (uv[:, 0] - K[0, 2] - K[0, 1] * y) / K[0, 0]
     xy = np.stack([x, y], axis=1)
@@ -220,7 +268,17 @@ def pixel_rays(
     K: Float[np.ndarray, "3 3"],
     distortion: Distortion = NONE,
 ) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "n 3"]]:
-    """Return the camera centre and the unit direction, in the world, along which each pixel looks."""
+    """Return the camera centre and the unit direction, in the world, along which each pixel looks.
+
+    Args:
+        uv: Pixels (column, row).
+        T_camera_world: World-to-camera motion, metres.
+        K: Intrinsics, pixels.
+        distortion: The lens.
+
+    Returns:
+        The centre in the world, metres; and one direction per pixel, NaN where the lens has no inverse.
+    """
     xy = normalize(uv, K, distortion)
     v_camera = np.column_stack([xy, np.ones(len(xy))])
     n_camera = v_camera / np.linalg.norm(v_camera, axis=1, keepdims=True)
@@ -234,7 +292,20 @@ def back_project(
     K: Float[np.ndarray, "3 3"],
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the world points, metres, that are seen at these pixels at these depths Z (not ray lengths)."""
+    """Return the world points, metres, that are seen at these pixels at these depths Z (not ray lengths).
+
+    Args:
+        uv: Pixels (column, row).
+        depth: Depth Z of each, metres.
+        T_camera_world: World-to-camera motion, metres.
+        K: Intrinsics, pixels.
+        distortion: The lens.
+
+    Examples:
+        >>> K = intrinsics(500.0, 319.5, 239.5)
+        >>> back_project(np.array([[344.5, 239.5]]), np.array([2.0]), np.eye(4), K).round(6).tolist()
+        [[0.1, 0.0, 2.0]]
+    """
     xy = normalize(uv, K, distortion)
     p_camera = np.column_stack([xy, np.ones(len(xy))]) * depth[:, None]
     return apply(inverse(T_camera_world), p_camera)
@@ -246,7 +317,14 @@ def ray_lengths(
     K: Float[np.ndarray, "3 3"],
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, " n"]:
-    """Return the distance from the camera centre of points at these depths, metres: Z sqrt(1 + x² + y²)."""
+    """Return the distance from the camera centre of points at these depths, metres: Z sqrt(1 + x² + y²).
+
+    Args:
+        uv: Pixels (column, row).
+        depth: Depth Z of each, metres.
+        K: Intrinsics, pixels.
+        distortion: The lens.
+    """
     xy = normalize(uv, K, distortion)
     return depth * np.sqrt(1.0 + np.einsum("ni,ni->n", xy, xy))
 
@@ -281,7 +359,13 @@ def vanishing_points(
 def sphere_outline(
     p_world_center: Float[np.ndarray, "3"], radius: float, T_camera_world: Float[np.ndarray, "4 4"], n: int = 96
 ) -> Float[np.ndarray, "n 3"]:
-    """Return n points of the circle in which the camera's rays graze a sphere; in the picture it is an ellipse.
+    """Return n points of the circle in which the camera's rays touch a sphere, metres; in the picture it is an ellipse.
+
+    Args:
+        p_world_center: Centre of the sphere, metres.
+        radius: Its radius, metres.
+        T_camera_world: World-to-camera motion, metres.
+        n: How many points.
 
     Raises:
         ValueError: If the camera is inside the sphere.

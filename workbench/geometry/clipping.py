@@ -1,4 +1,4 @@
-"""Cuts segments and triangles at the near plane, at the picture's border, and into short pieces."""
+"""Cuts segments and triangles at the near plane, lines and planes at a window, and edges into short pieces."""
 
 import functools
 from collections.abc import Callable
@@ -12,7 +12,7 @@ MOST_CUTS = 12
 def clip_segments(
     p: Float[np.ndarray, "n 2 3"], ahead: Float[np.ndarray, "n 2"]
 ) -> tuple[Float[np.ndarray, "m 2 3"], Int[np.ndarray, " m"]]:
-    """Keep of each segment what lies ahead of a plane.
+    """Return the part of each segment that lies ahead of a plane.
 
     Args:
         p: Both ends of each segment, in any frame.
@@ -30,7 +30,7 @@ def clip_segments(
 def clip_triangles(
     p: Float[np.ndarray, "n 3 3"], ahead: Float[np.ndarray, "n 3"]
 ) -> tuple[Float[np.ndarray, "m 3 3"], Int[np.ndarray, " m"]]:
-    """Keep of each triangle what lies ahead of a plane: nothing, one triangle or two.
+    """Return the part of each triangle that lies ahead of a plane: nothing, one triangle or two.
 
     Args:
         p: The corners of each triangle, in any frame.
@@ -52,6 +52,11 @@ def clip_to_rectangle(
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
     """Return from which to which share of its length each segment lies in a rectangle.
 
+    Args:
+        uv: Both ends of each segment, pixels.
+        low: Lowest coordinates of the rectangle.
+        high: Its highest coordinates.
+
     Returns:
         Start and stop in [0, 1]; start is not below stop for a segment that misses the rectangle or has NaN ends.
 
@@ -65,6 +70,58 @@ def clip_to_rectangle(
     return start, np.where(np.isnan(uv).any(axis=(1, 2)), -1.0, stop)
 
 
+def clip_lines(
+    lines: Float[np.ndarray, "n 3"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
+) -> Float[np.ndarray, "m 2 2"]:
+    """Return the parts of infinite lines inside a rectangle; of a line that misses it, nothing.
+
+    Args:
+        lines: (a, b, c) with a x + b y + c = 0 and a unit normal (a, b).
+        low: The corner of the rectangle with the smallest coordinates.
+        high: The corner with the largest.
+    """
+    normals, offsets = lines[:, :2], lines[:, 2:]
+    foot = -normals * offsets
+    direction = np.column_stack([-normals[:, 1], normals[:, 0]])
+    with np.errstate(all="ignore"):
+        to_low, to_high = (low - foot) / direction, (high - foot) / direction
+    nearer, farther = np.fmin(to_low, to_high), np.fmax(to_low, to_high)
+    parallel = direction == 0.0
+    outside = (parallel & ((foot < low) | (foot > high))).any(axis=1)
+    enter = np.where(parallel, -np.inf, nearer).max(axis=1, initial=-np.inf)
+    leave = np.where(parallel, np.inf, farther).min(axis=1, initial=np.inf)
+    seen = (enter < leave) & ~outside
+    t = np.stack([enter[seen], leave[seen]], axis=1)
+    return foot[seen, None] + t[:, :, None] * direction[seen, None]
+
+
+def plane_in_box(
+    plane: Float[np.ndarray, "4"], low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"]
+) -> Float[np.ndarray, "n 3"]:
+    """Return the corners, in order, of the part of a plane inside a box; none where it passes by.
+
+    A plane turned over, or rounded differently, has the same corners in the same order.
+
+    Args:
+        plane: (a, b, c, d) with a x + b y + c z + d = 0.
+        low: The corner of the box with the smallest coordinates.
+        high: The corner with the largest.
+    """
+    corners = np.array([[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)])
+    edges = np.array([(i, j) for i in range(8) for j in range(i + 1, 8) if bin(i ^ j).count("1") == 1])
+    sides = corners @ plane[:3] + plane[3]
+    start, end = sides[edges[:, 0]], sides[edges[:, 1]]
+    cut = (start > 0) != (end > 0)
+    if not cut.any():
+        return np.zeros((0, 3))
+    share = (start[cut] / (start[cut] - end[cut]))[:, None]
+    points = (1.0 - share) * corners[edges[cut, 0]] + share * corners[edges[cut, 1]]
+    normal = plane[:3] * np.sign(plane[np.argmax(np.abs(plane[:3]))])
+    u = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
+    v = points - points.mean(axis=0)
+    return points[np.argsort(np.arctan2(v @ np.cross(normal, u), v @ u))]
+
+
 def cut_finely(
     p: Float[np.ndarray, "n c 3"],
     flatten: Callable[[np.ndarray], np.ndarray],
@@ -72,7 +129,7 @@ def cut_finely(
     low: Float[np.ndarray, "2"],
     high: Float[np.ndarray, "2"],
 ) -> tuple[Float[np.ndarray, "m c 3"], Int[np.ndarray, " m"]]:
-    """Halve edges until all are short in a flat picture, dropping what is outside it on the way.
+    """Return segments or triangles with edges halved until all are short in a flat picture; those outside it are dropped.
 
     Args:
         p: Segments (c = 2) or triangles (c = 3), all ahead of the camera.

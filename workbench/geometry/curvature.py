@@ -46,7 +46,7 @@ class Curvatures:
 
 
 def curvatures(p: Points, faces: Faces) -> Curvatures:
-    """Measure K, H and the principal curvatures at every vertex in one pass over the corners."""
+    """Return K, H and the principal curvatures at every vertex, measured in one pass over the corners."""
     measured, border = corners(p, faces), on_boundary(faces, len(p))
     areas, normals = mixed_areas_of(measured), normals_at_vertices(measured)
     defects = _angle_defects(measured, border)
@@ -62,6 +62,12 @@ def angle_defects(p: Points, faces: Faces) -> PerVertex:
     border curve. Either way all of them add up to 2 pi chi (Gauss-Bonnet).
 
     Reference: Meyer et al. 2003, equation 9.
+
+    Examples:
+        >>> p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        >>> faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        >>> (angle_defects(p, faces) / np.pi).round(3).tolist()  # a right-angled corner, and three alike: 4 pi in all
+        [0.5, 1.167, 1.167, 1.167]
     """
     return _angle_defects(corners(p, faces), on_boundary(faces, len(p)))
 
@@ -114,6 +120,11 @@ def principal_directions(p: Points, faces: Faces, normals: Points) -> tuple[Poin
     Each edge tells the curvature in its direction d, kappa = 2 (p_i - p_j) . n / |p_i - p_j|^2, and B minimises
     sum_j (d_j^T B d_j - kappa_j)^2. The sign of a direction means nothing; where k1 = k2 the direction does neither.
 
+    Args:
+        p: Vertices, metres.
+        faces: Triangles.
+        normals: Outward unit normals at the vertices.
+
     Reference: Meyer et al. 2003, section 5.3, with equal weights.
     """
     a, b = edges(faces).T
@@ -146,7 +157,13 @@ def tangents(normals: Points) -> tuple[Points, Points]:
 
 
 def along(angles: PerVertex, right: Points, up: Points) -> tuple[Points, Points]:
-    """Return the tangents at these angles from `right` towards `up`, and those a quarter turn further."""
+    """Return the tangents at these angles from `right` towards `up`, and those a quarter turn further.
+
+    Args:
+        angles: Radians, one per vertex.
+        right: Unit tangents at angle 0.
+        up: Unit tangents at a right angle to them.
+    """
     c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
     return c * right + s * up, c * up - s * right
 

@@ -31,7 +31,15 @@ def fundamental_from_cameras(
 
     Raises:
         ValueError: If the cameras share their centre: there is no epipolar geometry then.
+
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.12 and 9.6.
+
+    Examples:
+        >>> T_second_first = np.eye(4)
+        >>> T_second_first[0, 3] = -0.2  # the second camera stands 0.2 m to the right
+        >>> F = fundamental_from_cameras(np.eye(3), np.eye(3), T_second_first)
+        >>> epipolar_lines(F, np.array([[0.3, 0.1]])).round(6).tolist()  # v = 0.1: the same row
+        [[0.0, 1.0, -0.1]]
     """
     R_second_first, t_second_first = T_second_first[:3, :3], T_second_first[:3, 3]
     if not np.linalg.norm(t_second_first) > 0.0:
@@ -57,10 +65,15 @@ _GENERATORS = np.array([skew(axis) for axis in np.eye(3)])
 def sampson_distances(
     F: Float[np.ndarray, "*k 3 3"], uv_first: Float[np.ndarray, "n 2"], uv_second: Float[np.ndarray, "n 2"]
 ) -> Float[np.ndarray, "*k n"]:
-    """Return, in pixels, to first order how far each match must move to satisfy the epipolar constraint.
+    """Return how far, to first order and in pixels, each match must move to satisfy the epipolar constraint.
 
     The sign is that of `uv_second_h.T @ F @ uv_first_h`. Both pixels of a match share the movement. Several matrices
     give one row each. Works in the precision of its input.
+
+    Args:
+        F: One fundamental matrix, or k of them.
+        uv_first: Pixels of the first image.
+        uv_second: Their matches in the second.
 
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 11.9 (its square root).
     """
@@ -107,9 +120,14 @@ def fundamentals_from_seven(
 def orientation_agrees(
     F: Float[np.ndarray, "*k s 3 3"], uv_first: Float[np.ndarray, "*k m 2"], uv_second: Float[np.ndarray, "*k m 2"]
 ) -> Bool[np.ndarray, "*k s"]:
-    """Say of each matrix whether all m matches can lie in front of both cameras, or all behind.
+    """Return of each matrix whether all m matches can lie in front of both cameras, or all behind.
 
     A match agrees when `epipole x uv_second_h` and `F @ uv_first_h` point the same way, not merely along the same line.
+
+    Args:
+        F: Fundamental matrices, s of each sample.
+        uv_first: Pixels of the first image.
+        uv_second: Their matches in the second.
 
     Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the Oriented Epipolar
         Constraint, ICPR 2004, eq. 2.
@@ -169,8 +187,16 @@ def refine_fundamental(
 
     The unknown is F = U diag(cos a, sin a, 0) V': two rotations and an angle, seven numbers for seven degrees of freedom.
 
+    Args:
+        F: The matrix to begin with.
+        uv_first: Pixels of the first image.
+        uv_second: Their matches in the second.
+        weights: How much each match's squared distance counts; all alike if None.
+        steps: Linear systems solved at most.
+
     Note:
         Never worse than `F` with its smallest singular value dropped.
+
     Reference: Bartoli and Sturm, Nonlinear Estimation of the Fundamental Matrix with Minimal Parameters, PAMI 2004,
         section 4; the distance is Hartley and Zisserman, eq. 11.9.
     """

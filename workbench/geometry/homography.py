@@ -39,6 +39,11 @@ def transform_pixels(H_b_a: Float[np.ndarray, "*k 3 3"], uv_a: Float[np.ndarray,
     """Return where the homography takes each pixel; NaN where it goes to infinity.
 
     Several homographies give one block each. Works in the precision of its input.
+
+    Examples:
+        >>> H_b_a = np.array([[1.0, 0, 10], [0, 1, 0], [0, 0, 1]])  # ten columns to the right
+        >>> transform_pixels(H_b_a, np.array([[3.0, 4.0]])).tolist()
+        [[13.0, 4.0]]
     """
     rows = H_b_a.reshape(-1, 3)
     uv_b_h = (rows[:, :2] @ uv_a.T + rows[:, 2:]).reshape(*H_b_a.shape[:-1], len(uv_a))
@@ -50,9 +55,14 @@ def transform_pixels(H_b_a: Float[np.ndarray, "*k 3 3"], uv_a: Float[np.ndarray,
 def transfer_distances(
     H_b_a: Float[np.ndarray, "*k 3 3"], uv_a: Float[np.ndarray, "n 2"], uv_b: Float[np.ndarray, "n 2"]
 ) -> Float[np.ndarray, "*k n"]:
-    """Return, in pixels of image b, how far each pixel of image a lands from its match.
+    """Return how far each pixel of image a lands from its match, in pixels of image b.
 
     A pixel that goes to infinity is infinitely far. Several homographies give one row each.
+
+    Args:
+        H_b_a: One homography, or k of them.
+        uv_a: Pixels of image a.
+        uv_b: Their matches in image b.
     """
     off = transform_pixels(H_b_a, uv_a) - uv_b
     distances = np.sqrt(off[..., 0] ** 2 + off[..., 1] ** 2)
@@ -62,7 +72,7 @@ def transfer_distances(
 def four_in_general_position(
     uv_a: Float[np.ndarray, "*k 4 2"], uv_b: Float[np.ndarray, "*k 4 2"]
 ) -> Bool[np.ndarray, "*k"]:
-    """Say of each sample of four matches whether some camera can see both quadrangles as one plane.
+    """Return of each sample of four matches whether some camera can see both quadrangles as one plane.
 
     False where three pixels lie on one line in either image, and where only some of the four triangles turn over:
     a real view keeps the orientation of all of them, or of none.
@@ -112,7 +122,14 @@ def fit_homography(
 
     Note:
         Matches whose pixels all lie on one line give one of the many homographies that fit.
+
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., algorithm 4.2.
+
+    Examples:
+        >>> uv_a = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
+        >>> H_b_a = fit_homography(uv_a, 2.0 * uv_a)
+        >>> bool(np.allclose(H_b_a / H_b_a[2, 2], np.diag([2.0, 2.0, 1.0])))
+        True
     """
     if len(uv_a) < 4 or len(uv_a) != len(uv_b):
         raise ValueError(f"a homography needs at least 4 pairs of pixels, got {uv_a.shape} and {uv_b.shape}")
@@ -141,6 +158,13 @@ def refine_homography(
     steps: int = 10,
 ) -> Float[np.ndarray, "3 3"]:
     """Return the homography near `H_b_a` with the smallest sum of squared transfer distances in image b.
+
+    Args:
+        H_b_a: The homography to begin with.
+        uv_a: Pixels of image a.
+        uv_b: Their matches in image b.
+        weights: How much each match's squared distance counts; all alike if None.
+        steps: Linear systems solved at most.
 
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.2.2 (transfer error) and 4.5.
     """

@@ -52,7 +52,7 @@ class Change:
 
 
 def measure(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Measures:
-    """Measure a mesh whose faces are counter-clockwise seen from outside."""
+    """Return the measures of a mesh whose faces are counter-clockwise seen from outside."""
     a, b = edges(faces).T
     v = p[b] - p[a]
     lengths = np.linalg.norm(v, axis=1)

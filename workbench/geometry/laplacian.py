@@ -57,6 +57,11 @@ def eigenpairs(
     The functions are orthonormal over the surface, U^T M U = 1; those of equal eigenvalues may come in any rotation. On
     a closed mesh the first is constant, with eigenvalue 0. On an open mesh the slope across the border is zero.
 
+    Args:
+        p: Vertices, metres.
+        faces: Triangles of a mesh that `check_mesh` accepts.
+        count: How many, fewer than there are vertices.
+
     Raises:
         ValueError: If `count` is not below the number of vertices.
     """

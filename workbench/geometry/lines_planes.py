@@ -25,6 +25,10 @@ def plane_from_points(p: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 4
 
     Points on one line give a row of NaN: a whole pencil of planes fits. They count as such when the triangle's area
     is below a billionth of its squared longest side.
+
+    Examples:
+        >>> plane_from_points(np.array([[0.0, 0, 2], [1, 0, 2], [0, 1, 2]])).tolist()  # z = 2
+        [0.0, 0.0, 1.0, -2.0]
     """
     v, w = p[..., 1, :] - p[..., 0, :], p[..., 2, :] - p[..., 0, :]
     normal = v[..., [1, 2, 0]] * w[..., [2, 0, 1]] - v[..., [2, 0, 1]] * w[..., [1, 2, 0]]
@@ -40,11 +44,16 @@ def fit_hyperplane(
     The distances are perpendicular (total least squares), so the answer turns with the points. The sign of the normal is
     such that its largest entry is positive.
 
+    Args:
+        p: Points (n, 2) or (n, 3), metres.
+        weights: How much each point's squared distance counts; all alike if None.
+
     Raises:
         ValueError: If fewer than d points have a positive weight.
 
     Note:
         Points that leave a choice (all on one line in space) give one of the planes that fit.
+
     Reference: Pearson, On lines and planes of closest fit to systems of points in space, 1901.
     """
     weights = np.ones(len(p)) if weights is None else weights

@@ -57,12 +57,12 @@ class Corners:
         return self.dots[[1, 2, 0]] + self.dots[[2, 0, 1]]
 
     def sums(self, values: Float[np.ndarray, "3 f"]) -> Float[np.ndarray, " v"]:
-        """Add up at every vertex what stands at its corners."""
+        """Return at every vertex the sum of what stands at its corners."""
         return np.bincount(self.vertices.ravel(), values.ravel(), self.count)
 
 
 def corners(p: Points, faces: Faces) -> Corners:
-    """Measure all corners of a mesh in one pass."""
+    """Return the measures at all corners of a mesh, in one pass."""
     f = len(faces)
     vertices = np.ascontiguousarray(faces.T)
     edge, dots, normals = np.empty((3, 3, f)), np.empty((3, f)), np.empty((3, f))
@@ -84,7 +84,12 @@ def face_angles(p: Points, faces: Faces) -> Float[np.ndarray, "f 3"]:
 
 
 def face_areas(p: Points, faces: Faces) -> Float[np.ndarray, " f"]:
-    """Return the area of every face, m^2."""
+    """Return the area of every face, m^2.
+
+    Examples:
+        >>> face_areas(np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])).tolist()
+        [1.0]
+    """
     return corners(p, faces).double_areas / 2
 
 
@@ -125,7 +130,7 @@ def boundary_edges(faces: Faces) -> Int[np.ndarray, "b 2"]:
 
 
 def on_boundary(faces: Faces, count: int) -> Bool[np.ndarray, " {count}"]:
-    """Tell for each of `count` vertices whether it lies on the border of an oriented mesh (see `check_mesh`)."""
+    """Return for each of `count` vertices whether it lies on the border of an oriented mesh (see `check_mesh`)."""
     # Going round a closed fan every neighbour follows once and precedes once, so that the sum of (next - previous) is
     # 0; round an open fan it is the first neighbour minus the last. Whole numbers below 2^53 add up exactly.
     following, preceding = faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]
@@ -162,13 +167,29 @@ def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.n
     return around[order], np.array(ring if first else ring[:-1])
 
 
+def vertices_within(edges: Int[np.ndarray, "e 2"], vertex: int, steps: int) -> Int[np.ndarray, " n"]:
+    """Return the vertices that are at most so many edges away from one, itself included, in ascending order."""
+    a, b = edges.T
+    near = np.zeros(max(int(edges.max(initial=-1)), vertex) + 1, dtype=bool)
+    near[vertex] = True
+    for _ in range(steps):
+        touched = near[a] | near[b]
+        near[a[touched]] = near[b[touched]] = True
+    return np.flatnonzero(near)
+
+
 def euler_characteristic(faces: Faces) -> int:
-    """Return chi = V - E + F, counting the vertices in use: 2 for a sphere, 0 for a torus, 2 - 2g for genus g."""
+    """Return chi = V - E + F, counting the vertices in use: 2 for a sphere, 0 for a torus, 2 - 2g for genus g.
+
+    Examples:
+        >>> euler_characteristic(np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))  # a tetrahedron
+        2
+    """
     return len(np.unique(faces)) - len(edges(faces)) + len(faces)
 
 
 def welded(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
-    """Make one vertex of those at the same place, and drop faces that thereby lose a corner, and unused vertices.
+    """Return the mesh with one vertex per place, without faces that lose a corner by it and without unused vertices.
 
     Files often list a vertex once per face or texture; across such seams a mesh would seem to have borders.
     """
@@ -182,7 +203,7 @@ def welded(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Int[np.nd
 
 
 def check_mesh(p: Points, faces: Faces) -> None:
-    """Refuse a mesh on which curvature has no meaning, and say what to mend.
+    """Raise InputError, with what to mend, for a mesh on which curvature has no meaning.
 
     Raises:
         InputError: If the mesh is empty, names vertices that are not there, holds values that are not finite, has faces
@@ -268,12 +289,12 @@ def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " 
 
 
 def half_edges(faces: Faces) -> Int[np.ndarray, "h 2"]:
-    """Edge 0 of all faces, then edge 1, then edge 2, each in the direction of its face."""
+    """Return edge 0 of all faces, then edge 1, then edge 2, each in the direction of its face."""
     return np.concatenate([faces[:, [1, 2]], faces[:, [2, 0]], faces[:, [0, 1]]])
 
 
 def edge_keys(half: Int[np.ndarray, "h 2"]) -> Int[np.ndarray, " h"]:
-    """One whole number per undirected edge: sorting numbers is much faster than sorting rows."""
+    """Return one whole number per undirected edge: sorting numbers is much faster than sorting rows."""
     return half.min(axis=1).astype(np.int64) << 32 | half.max(axis=1).astype(np.int64)
 
 

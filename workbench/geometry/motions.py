@@ -11,7 +11,12 @@ from jaxtyping import Float
 
 
 def motion(R: Float[np.ndarray, "3 3"], t: Float[np.ndarray, "3"]) -> Float[np.ndarray, "4 4"]:
-    """Return the 4x4 motion with this rotation and this translation in metres."""
+    """Return the 4x4 motion with this rotation and this translation in metres.
+
+    Examples:
+        >>> motion(np.eye(3), np.array([1.0, 2.0, 3.0]))[:3, 3].tolist()
+        [1.0, 2.0, 3.0]
+    """
     T = np.eye(4)
     T[:3, :3] = R
     T[:3, 3] = t
@@ -23,13 +28,24 @@ def inverse(T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
 
     Note:
         It is wrong for a motion that scales or shears; those want `np.linalg.inv`.
+
+    Examples:
+        >>> T_a_b = exp_se3(np.array([1.0, 2.0, 3.0, 0.1, 0.2, 0.3]))
+        >>> bool(np.allclose(inverse(T_a_b) @ T_a_b, np.eye(4)))
+        True
     """
     R = T[:3, :3]
     return motion(R.T, -R.T @ T[:3, 3])
 
 
 def apply(T: Float[np.ndarray, "4 4"], p: Float[np.ndarray, "*n 3"]) -> Float[np.ndarray, "*n 3"]:
-    """Return the points moved by a motion or an affine map: T_a_b takes p_b to p_a."""
+    """Return the points moved by a motion or an affine map: T_a_b takes p_b to p_a.
+
+    Examples:
+        >>> T_world_body = motion(exp_so3(np.array([0.0, 0.0, np.pi / 2])), np.array([5.0, 0.0, 0.0]))
+        >>> apply(T_world_body, np.array([[1.0, 0.0, 0.0]])).round(6).tolist()
+        [[5.0, 1.0, 0.0]]
+    """
     return p @ T[:3, :3].T + T[:3, 3]
 
 
@@ -38,6 +54,10 @@ def rotation_angle(R: Float[np.ndarray, "3 3"]) -> float:
 
     The sine comes from the antisymmetric part and the cosine from the trace, so neither end loses digits as the
     arc cosine alone does.
+
+    Examples:
+        >>> round(rotation_angle(exp_so3(np.array([0.0, 0.0, 0.5]))), 6)
+        0.5
     """
     return float(np.arctan2(np.linalg.norm(_twice_vee(R)), np.trace(R) - 1.0))
 
@@ -52,6 +72,10 @@ def exp_so3(w: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
 
     Args:
         w: Rotation vector, radians; zero gives the identity.
+
+    Examples:
+        >>> bool(np.allclose(exp_so3(np.array([0.0, 0.0, np.pi / 2])), [[0, -1, 0], [1, 0, 0], [0, 0, 1]]))
+        True
     """
     angle = np.linalg.norm(w)
     W = skew(w)
@@ -63,6 +87,10 @@ def log_so3(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3"]:
 
     Note:
         At half a turn both signs of the axis are right, and one of them is returned.
+
+    Examples:
+        >>> log_so3(exp_so3(np.array([0.1, -0.2, 0.3]))).round(6).tolist()
+        [0.1, -0.2, 0.3]
     """
     w, *v = _unit_quaternion(R)
     sine = np.linalg.norm(v)
@@ -78,7 +106,12 @@ def exp_se3(twist: Float[np.ndarray, "6"]) -> Float[np.ndarray, "4 4"]:
 
 
 def log_se3(T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "6"]:
-    """Return the twist (v, w) of a rigid motion, such that `exp_se3` gives the motion back."""
+    """Return the twist (v, w) of a rigid motion, such that `exp_se3` gives the motion back.
+
+    Examples:
+        >>> log_se3(motion(np.eye(3), np.array([1.0, 2.0, 3.0]))).tolist()
+        [1.0, 2.0, 3.0, 0.0, 0.0, 0.0]
+    """
     w = log_so3(T[:3, :3])
     return np.concatenate([np.linalg.solve(_left_jacobian(w), T[:3, 3]), w])
 

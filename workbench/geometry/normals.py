@@ -41,10 +41,10 @@ def point_normals(
 
 
 def on_a_line(p: Float[np.ndarray, "n 3"], k: int = 16) -> Bool[np.ndarray, "n"]:
-    """Tell of each point whether its k nearest points lie along a line, so that its normal means nothing.
+    """Return of each point whether its k nearest points lie along a line, so that its normal means nothing.
 
-    So they do on one ring of a lidar scan: of their variances along the principal axes, the second is at most a fifth of
-    the largest. Coinciding points count as a line.
+    They count as a line where the second of their variances along the principal axes is at most a fifth of the largest,
+    as on one ring of a lidar scan. Coinciding points count as a line.
 
     Args:
         p: Points, metres.
@@ -55,6 +55,17 @@ def on_a_line(p: Float[np.ndarray, "n 3"], k: int = 16) -> Bool[np.ndarray, "n"]
         variances = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).T)
         line[rows] = variances[:, 1] <= LINE * variances[:, 2]
     return line
+
+
+def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
+    """Return lambda_0 / (lambda_0 + lambda_1 + lambda_2) of the points' covariance: 0 where they are flat, at most 1/3.
+
+    It is 0 too for points at one place.
+
+    Reference: Pauly, Gross and Kobbelt, Efficient simplification of point-sampled surfaces, 2002, equation 4.
+    """
+    values = np.linalg.eigvalsh(np.cov(p.T))
+    return float(values[0] / values.sum()) if values.sum() > 0 else 0.0
 
 
 def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:

@@ -1,7 +1,7 @@
 """Curvature of a triangle mesh by a quadric fitted to the neighbourhood of each vertex.
 
 Angle defects and cotangents read the curvature off the shape of a few triangles, and on an irregular mesh their error
-stays however fine it gets. A smooth function fitted to a neighbourhood forgets the triangles: its error falls with
+stays however fine it gets. A smooth function fitted to a neighbourhood depends on the vertices alone: its error falls with
 their size.
 """
 
@@ -62,7 +62,7 @@ class Quadrics:
 
 
 def fit_quadrics(p: Points, faces: Faces, rings: int = 2) -> Quadrics:
-    """Fit a quadric by weighted least squares to every vertex and all vertices at most `rings` edges away.
+    """Return a quadric at every vertex, fitted by weighted least squares to all vertices at most `rings` edges away.
 
     A neighbour at distance r counts exp(-(r / r_rms)^2), r_rms being the root mean square of all of them. The error falls in
     proportion to the mesh' edges, on any mesh whose vertices lie on the surface. More rings forgive more noise and blur
@@ -73,8 +73,12 @@ def fit_quadrics(p: Points, faces: Faces, rings: int = 2) -> Quadrics:
         faces: Triangles.
         rings: How many edges away a neighbour may be; 2 gives about 18 neighbours.
 
+    Raises:
+        ValueError: If `rings` is below 1.
+
     Note:
         With fewer than six vertices in reach, or all of them on a conic, the row is nan.
+
     Reference: Cazals and Pouget, Estimating differential quantities using polynomial fitting of osculating jets, 2005,
     theorem 3 (degree 2: K and H converge with the first power of the distance).
     """

@@ -107,7 +107,7 @@ def render(
     background: tuple[int, int, int] = (255, 255, 255),
     to_pixels: ToPixels | None = None,
 ) -> Image:
-    """Draw the items as the camera sees them.
+    """Return the picture of the items as the camera sees them, and its depths.
 
     Args:
         items: What to draw; of two things at exactly the same depth the later wins. Lines and points win from

@@ -1,4 +1,4 @@
-"""What can be mended in a triangle mesh without moving a point of its surface: repeats, turned faces, sheets that touch.
+"""Mends a triangle mesh without moving a point of its surface: repeats, turned faces, sheets that touch.
 
 Nothing here refuses a mesh: what cannot be mended is left as it is, for `workbench.geometry.meshes.check_mesh` to name.
 """
@@ -22,7 +22,7 @@ def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
 
 
 def oriented(faces: Faces) -> Faces:
-    """Turn faces round until neighbours agree which side is outside; in each piece as few as possible.
+    """Return the faces turned round until neighbours agree which side is outside; in each piece as few as possible.
 
     A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an edge, stay as they are.
     """
@@ -48,9 +48,9 @@ def oriented(faces: Faces) -> Faces:
 
 
 def split_where_sheets_touch(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Faces]:
-    """Give each fan of faces a vertex of its own where several meet in one vertex only; new ones come behind the old.
+    """Return the mesh with a vertex for each fan of faces where several fans meet in one; new ones come behind the old.
 
-    Angles, areas and places stay; what touched in a point no longer hangs together.
+    Angles, areas and places stay; pieces that touched in a point are no longer connected there.
     """
     fan_vertex, fan = corner_fans(faces)
     # The first fan of each vertex keeps it, the others get new ones.

@@ -36,6 +36,11 @@ def rotation_from_axis_angle(axis: Float[np.ndarray, "3"], angle: float) -> Floa
         ValueError: If the axis is zero or not finite; it names no direction.
 
     Reference: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, eq. 2.14.
+
+    Examples:
+        >>> R = rotation_from_axis_angle(np.array([0.0, 0.0, 2.0]), np.pi / 2)  # of any length
+        >>> (R @ np.array([1.0, 0.0, 0.0])).round(6).tolist()
+        [0.0, 1.0, 0.0]
     """
     length = np.linalg.norm(axis)
     if not 0.0 < length < np.inf:
@@ -73,6 +78,11 @@ def euler_to_matrix(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[
         ValueError: If the order is not one of the 24.
 
     Reference: Diebel, Representing Attitude, 2006, section 5.1; his R takes world to body, ours body to world.
+
+    Examples:
+        >>> angles = np.array([0.1, 0.2, 0.3])
+        >>> bool(np.allclose(euler_to_matrix(angles, "xyz"), euler_to_matrix(angles[::-1], "ZYX")))
+        True
     """
     (i, j, k), carried = _letters(order)
     first, second, third = _about(i, angles[0]), _about(j, angles[1]), _about(k, angles[2])
@@ -96,8 +106,12 @@ def matrix_to_euler(R: Float[np.ndarray, "3 3"], order: EulerOrder) -> Float[np.
         In gimbal lock only the sum or the difference of the outer angles is determined; the last one is then zero.
         `euler_to_matrix` gives R back there too, and arbitrarily close to it.
 
-    Source: derived from the product in `euler_to_matrix`: the third turn leaves its own axis alone, so where R takes
+    Reference: derived from the product in `euler_to_matrix`: the third turn leaves its own axis alone, so where R takes
         that axis gives the first two angles, and what they leave of R is the third.
+
+    Examples:
+        >>> matrix_to_euler(euler_to_matrix(np.array([0.1, 0.2, 0.3]), "ZYX"), "ZYX").round(6).tolist()
+        [0.1, 0.2, 0.3]
     """
     (i, j, k), carried = _letters(order)
     if not carried:  # the same product, read from its other end
@@ -167,7 +181,12 @@ def other_triple(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.
 
 
 def quaternion_from_matrix(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"]:
-    """Return the unit quaternion (w, x, y, z) of a rotation that has w >= 0; its negative is the same rotation."""
+    """Return the unit quaternion (w, x, y, z) of a rotation that has w >= 0; its negative is the same rotation.
+
+    Examples:
+        >>> quaternion_from_matrix(rotation_about("z", np.pi)).round(6).tolist()
+        [0.0, 0.0, 0.0, 1.0]
+    """
     w = log_so3(R)
     half = 0.5 * np.linalg.norm(w)
     return np.concatenate([[max(np.cos(half), 0.0)], 0.5 * np.sinc(half / np.pi) * w])
@@ -202,6 +221,11 @@ def quaternion_product(p: Float[np.ndarray, "4"], q: Float[np.ndarray, "4"]) -> 
 def great_circle(q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float) -> Float[np.ndarray, "4"]:
     """Return the unit quaternion at the fraction t of the arc from one to the other, signs taken as they are.
 
+    Args:
+        q_start: Unit quaternion (w, x, y, z).
+        q_end: Unit quaternion, taken with the sign it has.
+        t: 0 at the start, 1 at the end.
+
     Note:
         q and -q are one rotation but two points of the sphere: with the wrong one of them the arc is the long way
         round. Opposite quaternions have no one arc between them; the start is returned.
@@ -226,6 +250,11 @@ def slerp(q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: flo
 
     Note:
         Half a turn can go either way round; the way that the signs of the two quaternions give is taken.
+
+    Examples:
+        >>> q_start, q_end = np.array([1.0, 0.0, 0.0, 0.0]), quaternion_from_matrix(rotation_about("z", 0.8))
+        >>> bool(np.allclose(matrix_from_quaternion(slerp(q_start, q_end, 0.25)), rotation_about("z", 0.2)))
+        True
     """
     return great_circle(q_start, q_end if q_start @ q_end >= 0 else -q_end, t)
 

@@ -62,7 +62,7 @@ class Nearest:
 
 
 def nearest_both_ways(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> Nearest:
-    """Find the nearest neighbour of every point of each cloud in the other.
+    """Return the nearest neighbour of every point of each cloud in the other.
 
     Args:
         p_a: Points, metres.
@@ -115,6 +115,11 @@ def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> flo
         ValueError: If a cloud is empty or holds coordinates that are not finite.
 
     Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 1, with means in place of sums.
+
+    Examples:
+        >>> p_a = np.array([[0.0, 0, 0], [1, 0, 0]])
+        >>> chamfer(p_a, p_a + np.array([0.0, 0.0, 0.5]))  # 0.25 m² from each side
+        0.5
     """
     return nearest_both_ways(p_a, p_b).chamfer()
 
@@ -140,12 +145,25 @@ def one_sided_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
 
 
 def hausdorff(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the Hausdorff distance in metres: how far the loneliest point of either cloud is from the other cloud."""
+    """Return the Hausdorff distance: the largest distance from a point of either cloud to the nearest of the other, metres.
+
+    Raises:
+        ValueError: As `chamfer`.
+    """
     return nearest_both_ways(p_a, p_b).hausdorff()
 
 
 def f_score(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"], max_distance: float) -> float:
-    """Return the F-score, 0 to 1, of two clouds at a distance in metres; see `Nearest.f_score`."""
+    """Return the F-score, 0 to 1, of two clouds at a distance in metres; see `Nearest.f_score`.
+
+    Args:
+        p_a: Points, metres.
+        p_b: Points in the same frame.
+        max_distance: Within which a point counts as near, metres.
+
+    Raises:
+        ValueError: As `chamfer`.
+    """
     return nearest_both_ways(p_a, p_b).f_score(max_distance)
 
 
@@ -165,7 +183,11 @@ def index_mse(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> float:
 
 
 def check_clouds(*clouds: np.ndarray) -> None:
-    """Refuse empty clouds and coordinates that are not finite."""
+    """Raise ValueError unless every cloud has points and all of them are finite.
+
+    Raises:
+        ValueError: If a cloud is empty or holds coordinates that are not finite.
+    """
     for p in clouds:
         if len(p) == 0:
             raise ValueError("a cloud has no points")

@@ -20,7 +20,7 @@ from workbench.geometry.cameras import back_project, intrinsics, resize_intrinsi
 class StereoCamera:
     """A rectified pair of cameras, seen from the left one.
 
-    Args:
+    Attributes:
         f: Focal length of both, pixels.
         cx, cy: Principal point of the left camera, pixels.
         baseline: Distance between the two centres, metres.
@@ -45,6 +45,10 @@ class StereoCamera:
         """The left camera's intrinsics."""
         return intrinsics(self.f, self.cx, self.cy)
 
+    def depth(self, d: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
+        """Return the depths, metres, of disparities as they were measured: `depth_from_disparity` of d + doffs."""
+        return depth_from_disparity(d + self.doffs, self.f, self.baseline)
+
     def shrunk(self, k: int) -> "StereoCamera":
         """Return the cameras of pictures with blocks of k x k pixels averaged: all but the baseline shrinks."""
         K = resize_intrinsics(self.K, 1.0 / k, 1.0 / k)
@@ -64,13 +68,23 @@ def depth_from_disparity(d: Float[np.ndarray, "..."], f: float, baseline: float)
         disparity gives NaN: nothing in front of both cameras causes one.
 
     Reference: Szeliski, Computer Vision, 2nd ed., 12.1.1, eq. 12.1.
+
+    Examples:
+        >>> depth_from_disparity(np.array([50.0, 25.0, 0.0]), f=500.0, baseline=0.2).tolist()
+        [2.0, 4.0, inf]
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(d >= 0.0, f * baseline / np.abs(d), np.nan)
 
 
 def disparity_from_depth(depth: Float[np.ndarray, "..."], f: float, baseline: float) -> Float[np.ndarray, "..."]:
-    """Return the disparity d = f B / Z, pixels, of points at these depths, metres; infinity gives 0."""
+    """Return the disparity d = f B / Z, pixels, of points at these depths, metres; infinity gives 0.
+
+    Args:
+        depth: Depths, metres.
+        f: Focal length, pixels.
+        baseline: Distance between the cameras, metres.
+    """
     return f * baseline / depth
 
 
@@ -96,7 +110,17 @@ def depth_uncertainty(
 def depth_interval(
     d: Float[np.ndarray, "..."], f: float, baseline: float, disparity_error: float
 ) -> tuple[Float[np.ndarray, "..."], Float[np.ndarray, "..."]]:
-    """Return the nearest and furthest depth within `disparity_error` pixels of a disparity; the latter may be infinite."""
+    """Return the nearest and furthest depth within `disparity_error` pixels of a disparity, metres.
+
+    Args:
+        d: Disparities, pixels, doffs added where the principal points differ.
+        f: Focal length, pixels.
+        baseline: Distance between the cameras, metres.
+        disparity_error: The error of a disparity, pixels.
+
+    Returns:
+        Nearest, then furthest; the latter is infinite where the error reaches a disparity of zero.
+    """
     near = depth_from_disparity(d + disparity_error, f, baseline)
     return near, depth_from_disparity(np.maximum(d - disparity_error, 0.0), f, baseline)
 
@@ -121,5 +145,11 @@ def depth_cloud(
 def points_on_ray(
     uv: tuple[float, float], depth: Float[np.ndarray, " n"], camera: StereoCamera
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the points at these depths, metres, on the ray of one left pixel (column, row), in the left camera's frame."""
+    """Return the points at these depths, metres, on the ray of one left pixel (column, row), in the left camera's frame.
+
+    Args:
+        uv: A left pixel (column, row).
+        depth: Depths, metres.
+        camera: Its left camera took the picture.
+    """
     return back_project(np.broadcast_to(np.array(uv, float), (len(depth), 2)), depth, np.eye(4), camera.K)

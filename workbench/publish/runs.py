@@ -12,8 +12,9 @@ from workbench import knobs
 from workbench.errors import InputError
 from workbench.flags import show_command
 from workbench.lesson import Lesson, catalog
+from workbench.page.steps import Steps
 from workbench.publish.pages import embed_page, question_run
-from workbench.publish.replay import Renderer, beside
+from workbench.publish.replay import Renderer
 from workbench.publish.sources import sources_digest
 from workbench.publish.workers import WorkerLostError, shared_out
 from workbench.recording import file_name, record_bytes
@@ -119,7 +120,7 @@ def render(lesson: Lesson, run: Run, renderer: Renderer) -> dict[str, bytes]:
 def run_script(lesson: Lesson, run: Run, timeline: Timeline, scene: str) -> str:
     """Return the script file of a run."""
     first = timeline.opening(f"lesson {lesson.name}, run {run.name!r}", run.first)
-    data = beside(timeline) | {
+    data = Steps(timeline).whole() | {
         "scene": scene,
         "first": first,
         "reopen": show_command(lesson, run.params),

@@ -7,15 +7,14 @@ from typing import Any
 import numpy as np
 import viser
 
-from workbench.axis import Axis, axis, labelled, number, value_axis
+from workbench.axis import Axis, labelled, number
+from workbench.page.charts import axes_of, outline, table_html, titled
+from workbench.page.legend import bar_html, css_color
 from workbench.scene import PALETTE, Curve, Field, Picture, Scene, Table, in_space, same
 from workbench.session import Look
 from workbench.timeline import Series, plotted_values
-from workbench.viewer.style import bar_html, css_color, escape
 
 HEIGHT = 150
-NARROW_BAR = 0.96
-"""How much of the room between two bars a bar takes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,28 +169,6 @@ class Beside:
             self._others[path] = (primitive, handle, extra)
 
 
-def axes_of(xs: Sequence[np.ndarray], ys: Sequence[np.ndarray]) -> tuple[Axis, Axis]:
-    """Return the axes of a chart in which all these points are."""
-    x = np.concatenate(xs)
-    whole = bool(np.array_equal(x, np.rint(x)))
-    return axis(float(x.min()), float(x.max()), whole=whole), value_axis(ys, most=4)
-
-
-def titled(curves: Sequence[Curve]) -> tuple[str, str]:
-    """Return the title of a chart of curves and the label of its values."""
-    chart = curves[0].chart
-    above, label = labelled(curves[0].y_label, "", False)
-    return f"{chart}: {above}" if above and above != chart else chart, label
-
-
-def table_html(table: Table) -> str:
-    """Return a table as HTML, its text escaped."""
-    head = "".join(f"<th>{escape(cell)}</th>" for cell in table.header)
-    rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows)
-    title = f"<strong>{escape(table.title)}</strong>" if table.title else ""
-    return f'<div class="wb wb-pad">{title}<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
-
-
 def _groups(series: Mapping[str, Series]) -> dict[str, list[str]]:
     groups: dict[str, list[str]] = {}
     for path, one in series.items():
@@ -231,19 +208,6 @@ def joined(curves: Sequence[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray,
 def _posts(marks: Sequence[float], up: Axis) -> tuple[np.ndarray, np.ndarray]:
     """Return vertical lines at the marks."""
     return np.repeat(np.array(marks, float), 3), np.tile([up.low, up.high, np.nan], len(marks))
-
-
-def outline(curve: Curve) -> tuple[np.ndarray, np.ndarray]:
-    """Return x and y sorted by x; bars become their outline, each on the ground at both ends."""
-    order = np.argsort(curve.x, kind="stable")
-    x, y = curve.x[order].astype(float), curve.y[order].astype(float)
-    if curve.kind != "bars":
-        return x, y
-    gaps = np.diff(x)
-    half = 0.5 * NARROW_BAR * (gaps[gaps > 0].min() if (gaps > 0).any() else 1.0)
-    x, y = x[np.isfinite(y)], y[np.isfinite(y)]
-    sides = np.column_stack([x - half, x - half, x + half, x + half])
-    return sides.ravel(), np.column_stack([0 * y, y, y, 0 * y]).ravel()
 
 
 def _style(line: Line) -> dict[str, Any]:

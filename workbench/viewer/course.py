@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterable
 import viser
 
 from workbench.lesson import Lesson
+from workbench.page.legend import escape
 from workbench.viewer.progress import Progress
-from workbench.viewer.style import escape
 
 WELCOME = (
     '<div class="wb wb-pad" style="padding-bottom:0"><h1>Geometry workbench</h1><p>Every lesson is one algorithm that you '

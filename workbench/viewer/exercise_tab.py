@@ -12,7 +12,7 @@ from workbench.exercise.reports import MARKS, counted
 from workbench.exercise.starter import commands, starter
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson
-from workbench.viewer.style import escape
+from workbench.page.legend import escape
 
 
 class ExerciseTab:

@@ -24,6 +24,7 @@ from workbench.exercise.finding import exercises_of
 from workbench.exercise.watching import Watched
 from workbench.knobs import Pick, fields_of
 from workbench.lesson import Lesson, Question
+from workbench.page.legend import escape
 from workbench.picking import picked_params
 from workbench.questions import answer as find_answer
 from workbench.scene import Caption
@@ -39,7 +40,6 @@ from workbench.viewer.progress import KEY, Progress
 from workbench.viewer.reading import Reading
 from workbench.viewer.sink import ViserSink
 from workbench.viewer.stage import BACKDROPS, set_stage
-from workbench.viewer.style import escape
 from workbench.viewer.terminal import tell_terminal
 from workbench.viewer.transport import Transport
 

@@ -8,9 +8,9 @@ import viser
 
 from workbench.errors import InputError
 from workbench.lesson import Lesson, Question
+from workbench.page.legend import escape
 from workbench.questions import Answer
 from workbench.typeset import inline_html, page_of
-from workbench.viewer.style import escape
 from workbench.viewer.terminal import tell_terminal
 
 Predict = Callable[[Question, Any], None]

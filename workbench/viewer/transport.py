@@ -6,8 +6,8 @@ from typing import Any
 
 import viser
 
+from workbench.page.legend import escape, legend_html
 from workbench.session import Look
-from workbench.viewer.style import escape, legend_html
 
 BUTTONS = ("First", "Back", "Play", "Next", "Last")
 

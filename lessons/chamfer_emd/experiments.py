@@ -1,0 +1,205 @@
+"""Experiments, each the picture of one misconception, and what to predict before looking."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lessons.chamfer_emd.state import Params, Side, State
+from lessons.chamfer_emd.words import metres, squared
+from workbench.lesson import Preset, Question
+from workbench.numerals import percent
+
+CLUMP = Params()
+FLIP = Params(start="bunched", amount=0.8, points=140)
+LARGER = Params(start="larger", amount=0.05, points=140)
+BUMP = Params(start="bump", amount=0.147, points=140)
+MISSING = Params(start="part missing", amount=0.5)
+ONE_WAY = Params(start="part missing", amount=0.5, lowers="source to target")
+OUTLIER = Params(start="one outlier", amount=1.0)
+SHUFFLED = Params(start="shuffled rows", amount=1.0)
+DOUBLED = Params(start="doubled points", amount=0.5)
+IDLE = Params(lowers="target to source")
+BLURRED = Params(blur=0.5)
+UNEQUAL = Params(source_points=40)
+SPHERE = Params(shape="sphere", points=140)
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "clump", "One blob, two flows", "Both flows leave from one blob, each down its own distance. Where will the points"
+        " be when their number has become small? See the bars, and the mass astray.",
+        CLUMP,
+    ),
+    Preset(
+        "flip", "Bunched against 5 % larger", "80 % of the points in one bunch, some everywhere. The lowest table says what"
+        " the ring 5 % larger costs: which cloud is closer, and by which number?",
+        FLIP, 6,
+    ),
+    Preset(
+        "larger", "5 % larger", "Every point is 5 cm off: 2 × 0.05² = 0.0050 m² by Chamfer, 0.05 m by EMD. Squares make"
+        " small distances look tiny.",
+        LARGER, 0,
+    ),
+    Preset(
+        "bump", "Equal Chamfer, another shape", "A bump of 14.7 cm on an eighth of the ring has the Chamfer distance of the"
+        " ring 5 % larger, 0.0050 m²; but EMD 0.019 against 0.05 m, Hausdorff 0.147 against 0.05 m.",
+        BUMP, 0,
+    ),
+    Preset(
+        "missing", "A part is missing", "The source has only the left half of the target, twice. Set “Left flow lowers” to"
+        " each side of Chamfer in turn: which of them sees what is missing?",
+        MISSING, 4,
+    ),
+    Preset(
+        "outlier", "One far outlier", "One point of 80 is 1 m off, the others are at home. Compare each number with what it"
+        " says of the ring 5 % larger (lowest table).",
+        OUTLIER, 0,
+    ),
+    Preset(
+        "shuffled", "Rows in another order", "The same points: all distances are 0 except the mean square of index pairs,"
+        " over 1.5 m². It measures the order of a file.",
+        SHUFFLED, 0,
+    ),
+    Preset(
+        "doubled", "Chamfer 0, clouds different", "The left half of the points counts twice. Chamfer and Hausdorff are 0,"
+        " EMD is 0.21 m: a distance that is 0 between different clouds is no metric.",
+        DOUBLED, 0,
+    ),
+    Preset(
+        "idle", "Nobody's nearest never moves", "The left flow lowers only target to source: 70 points or more of"
+        " 80 (vermillion) end as nearest to no target point, and nothing pulls them; the others serve all 80.",
+        IDLE, -1,
+    ),
+    Preset(
+        "blurred", "Fast EMD is not exact", "Sinkhorn with a blur of 0.5 m says nearly 1 m where EMD is 0.8 m, and at the"
+        " end of the right flow 0.54 m where EMD is under 1 cm: its zero is not zero.",
+        BLURRED, 0,
+    ),
+    Preset(
+        "unequal", "40 points against 80", "Exact EMD splits masses: nearly every source point ends midway between the two"
+        " target points it serves, 0.04 m from both. One-to-one pairs would leave 40 points out.",
+        UNEQUAL, -1,
+    ),
+    Preset(
+        "sphere", "The same on a sphere", "On a surface too: compare the mass that each flow leaves astray, and turn the"
+        " spheres to see where it is missing.",
+        SPHERE, -1,
+    ),
+)  # fmt: skip
+
+
+def nearer_side(side: Side) -> float:
+    """Return the share of a cloud that is left of the middle, where the blob starts."""
+    return float(np.mean(side.flow.p_moving[:, 0] < 0))
+
+
+def flips(state: State) -> bool:
+    """Tell whether Chamfer and earth mover's rank the cloud and the target 5 % larger differently."""
+    now, larger = state.left.numbers, state.yardsticks["5 % larger"]
+    return (now.chamfer < larger.chamfer) != (now.earth_movers < larger.earth_movers)
+
+
+def _spread_answer(states: Sequence[State]) -> float:
+    left = nearer_side(states[-1].left)
+    return 0.0 if left < 0.6 else 1.0 if left < 0.99 else 2.0
+
+
+def _spread_why(states: Sequence[State]) -> str:
+    left, right = states[-1].left, states[-1].right
+    return (
+        f"{percent(nearer_side(left), 0)} of its points stay on the nearer half ({percent(nearer_side(right), 0)} for"
+        " earth mover's). A few points near the far side serve all target points there, and the others feel no pull across."
+    )
+
+
+def _flip_answer(states: Sequence[State]) -> float:
+    now, larger = states[0].left.numbers, states[0].yardsticks["5 % larger"]
+    return 2.0 * (now.chamfer > larger.chamfer) + 1.0 * (now.earth_movers > larger.earth_movers)
+
+
+def _flip_why(states: Sequence[State]) -> str:
+    now, larger = states[0].left.numbers, states[0].yardsticks["5 % larger"]
+    return (
+        f"Bunched: Chamfer {squared(now.chamfer)}, EMD {metres(now.earth_movers)}; 5 % larger: {squared(larger.chamfer)} and"
+        f" {metres(larger.earth_movers)}. One point in five is enough to have a neighbour nearby everywhere, and Chamfer"
+        " asks for no more."
+    )
+
+
+def back_share(side: Side) -> float:
+    """Return which share of the two-sided Chamfer distance is the side from target to source."""
+    n = side.numbers
+    return n.to_source / (n.to_target + n.to_source)
+
+
+def _missing_why(states: Sequence[State]) -> str:
+    side = states[0].left
+    return (
+        f"{percent(back_share(side), 0)} of {squared(side.numbers.chamfer)}. Every source point lies on a target point, so"
+        f" that the other side is {squared(side.numbers.to_target)} and its flow, on the left, stays where it is: it cannot"
+        " see what the source lacks."
+    )
+
+
+def _outlier_answer(states: Sequence[State]) -> float:
+    """Return which number grew most against what it says of the target 5 % larger."""
+    now, larger = states[0].left.numbers, states[0].yardsticks["5 % larger"]
+    return float(
+        np.argmax([getattr(now, name) / getattr(larger, name) for name in ("chamfer", "earth_movers", "hausdorff")])
+    )
+
+
+def _outlier_why(states: Sequence[State]) -> str:
+    now, larger = states[0].left.numbers, states[0].yardsticks["5 % larger"]
+    return (
+        f"Hausdorff: {metres(now.hausdorff)}, {now.hausdorff / larger.hausdorff:.0f} times that of the ring 5 % larger;"
+        f" Chamfer {now.chamfer / larger.chamfer:.1f} times; EMD {now.earth_movers / larger.earth_movers:.2f} times. A"
+        " largest distance is one point's; a mean of squares still leans on it; a mean of distances hardly."
+    )
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        "predict-spread",
+        "A blob inside the ring, left of its middle, flows down the two-sided Chamfer distance until it settles. How will"
+        " its points lie on the ring?",
+        answer=_spread_answer,
+        why=_spread_why,
+        params=CLUMP,
+        choices=("Spread evenly", "Most of them on the nearer half", "All of them on the nearer half"),
+    ),
+    Question(
+        "predict-flip",
+        "Cloud B has 80 % of the ring's points bunched at one place, cloud L is the ring 5 % larger. Which is closer to the"
+        " ring?",
+        answer=_flip_answer,
+        why=_flip_why,
+        params=FLIP,
+        choices=(
+            "B by both distances",
+            "B by Chamfer, L by earth mover's",
+            "L by Chamfer, B by earth mover's",
+            "L by both distances",
+        ),
+        step=0,
+    ),
+    Question(
+        "predict-missing",
+        "The source is the target without its right half: each point that is left counts twice. Chamfer adds up two sides."
+        " How much of the sum comes from the side from target to source?",
+        answer=lambda states: round(100 * back_share(states[0].left), 6),
+        why=_missing_why,
+        params=ONE_WAY,
+        unit="%",
+        tolerance=2.0,
+        step=0,
+    ),
+    Question(
+        "predict-outlier",
+        "One point of 80 lies 1 m off. Which number grows most, compared with what it says of the ring 5 % larger?",
+        answer=_outlier_answer,
+        why=_outlier_why,
+        params=OUTLIER,
+        choices=("Chamfer (mean of squares)", "Earth mover's", "Hausdorff"),
+        step=0,
+    ),
+)

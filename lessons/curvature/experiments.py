@@ -1,0 +1,223 @@
+"""Experiments that show what curvature is and what breaks its estimates, and what to predict before looking."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lessons.curvature.state import Params, State, at_stage
+from workbench.geometry.curvature import gaussian_curvature
+from workbench.lesson import Preset, Question
+from workbench.numerals import percent
+
+GAUSSIAN, MEAN, PRINCIPAL, TOTAL = 3, 5, 6, 8
+
+CYLINDER = Params(surface="cylinder", vertices=800)
+CATENOID = Params(surface="catenoid", vertices=800)
+DOUBLE = Params(size=2.0)
+INSIDE_OUT = Params(inside_out=True)
+NO_AREA = Params(vertices=1600, mistake="defect taken for K")
+NO_HALF = Params(surface="sphere", mistake="H without the half")
+BORDER = Params(surface="saddle", vertex=260)
+BORDER_2_PI = Params(surface="plane", vertex=260, mistake="2 pi on the border")
+COARSE = Params(vertices=60)
+FINE = Params(vertices=6000)
+NOISE = Params(vertices=1600, noise=0.003)
+IRREGULAR = Params(vertices=6000, jitter=0.2)
+SPHERE_SUM = Params(surface="sphere", vertices=1000, jitter=0.25, noise=0.01)
+TORUS_SUM = Params(vertices=1000, jitter=0.25, noise=0.01)
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "cylinder", "A rolled sheet",
+        "A tube of radius r = 0.5 m, as rolled from paper; H is 1/2r = 1 m⁻¹. Go one stage back and ask the angles.",
+        CYLINDER, MEAN,
+    ),
+    Preset(
+        "catenoid", "Catenoid: H = 0, K < 0",
+        "It bends as much to one side as to the other: the two cancel in H = (k₁ + k₂)/2 and not in K = k₁ k₂, negative"
+        " everywhere.",
+        CATENOID, PRINCIPAL,
+    ),
+    Preset(
+        "double", "Twice as large",
+        "Every length is doubled. Which numbers follow, and which have no unit and stay? Compare with the default run.",
+        DOUBLE, GAUSSIAN,
+    ),
+    Preset(
+        "inside-out", "Inside out",
+        "All triangles are turned round, and the normals with them. Compare the colours of K and of H with the default run.",
+        INSIDE_OUT, MEAN,
+    ),
+    Preset(
+        "no-area", "A defect is no curvature",
+        "Taken for K, the defect is over 50 times too small here, and about four times smaller still on a mesh four times"
+        " as fine.",
+        NO_AREA, GAUSSIAN,
+    ),
+    Preset(
+        "no-half", "The forgotten half",
+        "The cotangent sum over area gives 2 H n. Without the half the unit sphere has H = 2 m⁻¹, and H² − K = 3 tears k₁"
+        " and k₂ apart.",
+        NO_HALF, MEAN,
+    ),
+    Preset(
+        "border", "A vertex on the border",
+        "Its angles are taken from π: what is missing says how the border turns, so K and H are left open (grey) there.",
+        BORDER, 2,
+    ),
+    Preset(
+        "border-2pi", "2π on the border",
+        "A flat square should add up to 2π. Taken from 2π, each border vertex adds π that is not there, and the sum is"
+        " far off.",
+        BORDER_2_PI, TOTAL,
+    ),
+    Preset(
+        "coarse", "Coarse", "With 60 vertices the relative error of K is about 10 % (RMS): few triangles have to tell how"
+        " the tube bends.",
+        COARSE, GAUSSIAN,
+    ),
+    Preset(
+        "fine", "Fine", "With 6,000 well-spread vertices the relative error of K is under 0.2 % (RMS): on a regular mesh it"
+        " falls with the square of the edges.",
+        FINE, GAUSSIAN,
+    ),
+    Preset(
+        "noise", "Noise, amplified",
+        "3 mm (sigma) off a tube of 40 cm, hardly visible, and K is off by more than its own size (RMS). A finer mesh makes"
+        " it worse: last step.",
+        NOISE, GAUSSIAN,
+    ),
+    Preset(
+        "irregular", "Irregular triangles",
+        "Vertices stray along the surface, never off it: no two triangles are alike. Will a finer mesh help the angles? The"
+        " fit? See the last step.",
+        IRREGULAR, GAUSSIAN,
+    ),
+    Preset(
+        "sphere-sum", "A bumpy sphere",
+        "Noise and jitter put K off by more than its own size (RMS). What do the defects still add up to?",
+        SPHERE_SUM, GAUSSIAN,
+    ),
+    Preset(
+        "torus-sum", "A bumpy torus",
+        "The same noise and jitter on a surface with a handle: gaps and overlaps cancel to the last digit.",
+        TORUS_SUM, TOTAL,
+    ),
+)  # fmt: skip
+
+
+def typical(values: np.ndarray) -> float:
+    """Return the median of what is known."""
+    return float(np.nanmedian(values))
+
+
+def _mean_of_a_cylinder(states: Sequence[State]) -> float:
+    return float(abs(typical(at_stage(states, "gaussian").now.K)) > 0.01)
+
+
+def _why_cylinder(states: Sequence[State]) -> str:
+    K, H = typical(at_stage(states, "gaussian").now.K), typical(at_stage(states, "mean").now.H)
+    return (
+        f"K = {abs(K):.3f} m⁻² and H = {H:.3f} m⁻¹: a sheet of paper rolls into a tube without stretching, so no angle"
+        " changes."
+    )
+
+
+def _size_ratio(states: Sequence[State]) -> float:
+    """Return how K at twice the size compares with K of the same mesh at its own size."""
+    now = at_stage(states, "gaussian").now
+    return float(np.nanmedian(now.K / gaussian_curvature(now.p / DOUBLE.size, now.faces)))
+
+
+def _size_choice(states: Sequence[State]) -> float:
+    return float(np.argmin(np.abs(np.array([1.0, 0.5, 0.25, 0.125]) - _size_ratio(states))))
+
+
+def _signs(states: Sequence[State]) -> tuple[bool, bool]:
+    """Return whether K and H at the vertex have another sign than on the surface as it was made."""
+    state = at_stage(states, "mean")
+    K, H, surface, v = state.now.K, state.now.H, state.subject.truth, state.now.vertex
+    assert surface is not None
+    # Made outside out, K is the same and H the other way round (`inside_out`).
+    return bool(K[v] * surface.gaussian[v] < 0), bool(H[v] * -surface.mean[v] < 0)
+
+
+def _sign_choice(states: Sequence[State]) -> float:
+    return float({(True, False): 0, (False, True): 1, (True, True): 2, (False, False): 3}[_signs(states)])
+
+
+def _finer_ratio(states: Sequence[State]) -> float:
+    study = at_stage(states, "finer").study
+    assert study is not None
+    return float(study.K[0] / study.K[-1])
+
+
+def _finer_choice(states: Sequence[State]) -> float:
+    return float(np.argmin(np.abs(np.log(np.array([16.0, 4.0, 1.0]) / _finer_ratio(states)))))
+
+
+def _why_finer(states: Sequence[State]) -> str:
+    study = at_stage(states, "finer").study
+    assert study is not None
+    return (
+        f"It goes from {percent(study.K[0], 1)} to {percent(study.K[-1], 1)} (RMS). The triangles shrink but keep their odd"
+        f" shapes, and so does the error of defect / area; that of the quadric fit falls to {percent(study.K_fit[-1], 1)}."
+    )
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        "which-rolled",
+        "A sheet of paper is rolled into a tube of radius 0.5 m. What is its Gaussian curvature?",
+        _mean_of_a_cylinder,
+        _why_cylinder,
+        CYLINDER,
+        choices=("0: it can be laid flat", "1 to 4 m⁻²: it is bent"),
+        step=GAUSSIAN,
+    ),
+    Question(
+        "which-double",
+        "The torus is made twice as large. What happens to its Gaussian curvature?",
+        _size_choice,
+        lambda states: (
+            f"It is {_size_ratio(states):.3f} times what it was: the angles stay, and each vertex has four times the"
+            " area. H would be halved."
+        ),
+        DOUBLE,
+        choices=("it stays", "it is halved", "a quarter is left", "an eighth is left"),
+        step=GAUSSIAN,
+    ),
+    Question(
+        "which-sides",
+        "All triangles are turned round, so that inside is outside. Which of K and H changes its sign?",
+        _sign_choice,
+        lambda states: (
+            "H turns with the normal. K is the product of k₁ and k₂, which both turn: minus times minus leaves it."
+        ),
+        INSIDE_OUT,
+        choices=("K", "H", "both", "neither"),
+        step=MEAN,
+    ),
+    Question(
+        "which-finer",
+        "A torus with irregular triangles, vertices exactly on it. Edges become four times shorter: the error of K from"
+        " angle defects …",
+        _finer_choice,
+        _why_finer,
+        IRREGULAR,
+        choices=("falls sixteenfold", "falls fourfold", "hardly changes"),
+    ),
+    Question(
+        "which-sum",
+        "A sphere, roughened by noise until K is off by more than its own size. To how many π do its angle defects add up?",
+        lambda states: round(at_stage(states, "total").now.total / np.pi, 6),
+        lambda states: (
+            f"V − E + F = {at_stage(states, 'total').now.chi}, and 2π times that is 4π. No bump changes how the"
+            " triangles hang together."
+        ),
+        SPHERE_SUM,
+        unit="π",
+        tolerance=0.01,
+        step=TOTAL,
+    ),
+)

@@ -1,0 +1,46 @@
+"""Runs of the curvature lesson that its tests share, and what they read off them."""
+
+from typing import TypeVar
+
+from lessons.curvature.lesson import lesson
+from lessons.curvature.state import Params, State, Study, at_stage
+from tests.runs import finished
+from workbench.scene import Field, Mesh, Scene
+from workbench.timeline import Timeline
+
+Kind = TypeVar("Kind")
+STAGES = ["mesh", "ring", "defect", "gaussian", "normal", "mean", "principal", "quadric", "total", "finer"]
+
+
+def timeline(params: Params) -> Timeline:
+    return finished(lesson.name, params)
+
+
+def at(params: Params, stage: str) -> State:
+    return at_stage(timeline(params).states(), stage)
+
+
+def scene(params: Params, stage: str):
+    return timeline(params)[STAGES.index(stage)].scene
+
+
+def part(kind: type[Kind], scene: Scene, path: str) -> Kind:
+    """Return one thing of a picture, which must be of its kind."""
+    primitive = scene[path]
+    assert isinstance(primitive, kind)
+    return primitive
+
+
+def study_in(state: State) -> Study:
+    assert state.study is not None
+    return state.study
+
+
+def surface_field(params: Params, stage: str) -> Field:
+    color = part(Mesh, scene(params, stage), "surface").color
+    assert isinstance(color, Field)
+    return color
+
+
+def preset(name: str) -> Params:
+    return lesson.preset(name).params

@@ -1,0 +1,105 @@
+"""What the curvature lesson draws: the same numbers as a step holds, on built-in and own meshes."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from lessons.curvature import ring
+from lessons.curvature.state import Params
+from tests.lessons.curvature_runs import at, part, preset, scene, surface_field, timeline
+from workbench.scene import Mesh, Points, Segments, Table
+
+
+def test_the_mesh_is_the_same_arrays_whatever_vertex_is_picked():
+    one, two = (part(Mesh, scene(Params(vertex=v), "gaussian"), "surface") for v in (10, 200))
+    assert one.p is two.p
+    assert one.faces is two.faces
+
+
+def test_colour_scales_are_fixed_and_symmetric():
+    for params in (Params(), preset("double"), preset("coarse"), preset("noise")):
+        for stage, high in (("gaussian", 5.0), ("mean", 2.5), ("defect", 0.2)):
+            field = surface_field(params, stage)
+            assert (field.low, field.high, field.map) == (-high, high, "diverging")
+            assert field.unit
+
+
+def test_the_flat_ring_keeps_lengths_and_angles_and_shows_the_defect():
+    for vertex in (-1, 30):  # a gap outside, an overlap inside
+        now = at(Params(vertex=vertex), "defect").now
+        drawn = ring.flattened(now)
+        fan, gap = part(Mesh, drawn, "flat ring"), part(Segments, drawn, "gap")
+        spokes = np.linalg.norm(fan.p[1:] - fan.p[0], axis=1)
+        real = np.linalg.norm(now.p[now.ring] - now.p[now.vertex], axis=1)
+        np.testing.assert_allclose(spokes[:-1], real, rtol=0.02)
+        n = now.normals[now.vertex]
+        flat = fan.p[1:] - fan.p[0]
+        flat -= (flat @ n)[:, None] * n
+        flat /= np.linalg.norm(flat, axis=1, keepdims=True)
+        turns = np.arccos(np.einsum("nx,nx->n", flat[1:], flat[:-1]))
+        np.testing.assert_allclose(turns, now.angles, atol=1e-6)
+        ends = gap.ends[[0, -1], [0, 1]] - fan.p[0]
+        ends -= (ends @ n)[:, None] * n
+        cosine = ends[0] @ ends[1] / np.prod(np.linalg.norm(ends, axis=1))
+        assert np.arccos(np.clip(cosine, -1, 1)) == pytest.approx(abs(now.defects[now.vertex]), rel=1e-3)
+
+
+@pytest.mark.parametrize("jitter", [0.0, 0.25])
+def test_the_drawn_cell_has_the_mixed_area(jitter):
+    for vertex in range(0, 300, 23):
+        now = at(Params(vertex=vertex, jitter=jitter), "gaussian").now
+        cell = part(Mesh, ring.cell(now), "cell")
+        a, b, c = cell.p[cell.faces].swapaxes(0, 1)
+        area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+        assert area == pytest.approx(now.areas[vertex], rel=1e-6)
+
+
+def test_the_pushes_add_up_to_the_drawn_normal():
+    now = at(Params(jitter=0.2), "normal").now
+    drawn = ring.pushes(now, 0.06)
+    chain, total = part(Segments, drawn, "pushes"), part(Segments, drawn, "mean normal")
+    assert len(chain.ends) == len(now.ring)
+    np.testing.assert_allclose(chain.ends[-1, 1], total.ends[0, 1], atol=1e-9)
+
+
+def test_osculating_circles_have_their_radius_and_touch_the_vertex():
+    now = at(Params(), "principal").now
+    for name, k in (("k₁", now.k1), ("k₂", now.k2)):
+        circle = part(Segments, ring.circles(now), f"circle {name}")
+        centre = now.p[now.vertex] - now.normals[now.vertex] / k[now.vertex]
+        np.testing.assert_allclose(
+            np.linalg.norm(circle.ends[:, 0] - centre, axis=1), 1 / abs(k[now.vertex]), rtol=1e-9
+        )
+        near = np.linalg.norm(circle.ends.reshape(-1, 3) - now.p[now.vertex], axis=1)
+        assert near.min() < 1e-9
+
+
+def test_the_patch_passes_the_vertices_of_its_fit():
+    state = at(Params(surface="saddle", vertices=900), "quadric")
+    drawn = ring.patch(state)
+    patch, fitted = part(Mesh, drawn, "patch"), part(Points, drawn, "fitted")
+    assert state.now.quadrics is not None
+    assert len(fitted.p) == state.now.quadrics.neighbours[state.now.vertex] == len(state.two_rings)
+    gaps = np.linalg.norm(fitted.p[:, None] - patch.p[None], axis=2).min(axis=1)
+    away = np.linalg.norm(fitted.p - state.now.p[state.now.vertex], axis=1)
+    assert gaps[away < 0.8 * away.max()].max() < ring.edge_length(state.now) / 4
+
+
+def test_the_table_grows_and_ends_with_all_estimates():
+    tables = [step.scene.get("vertex table") for step in timeline(Params()).known()]
+    assert tables[0] is None
+    lengths = [len(table.rows) for table in tables[1:] if isinstance(table, Table)]
+    assert lengths == sorted(lengths)
+    assert lengths[0] == 1
+    assert lengths[-1] == 11
+
+
+def test_every_step_draws_on_own_meshes_and_on_the_border(tmp_path):
+    trimesh.creation.icosphere(1).export(tmp_path / "ball.obj")
+    timeline(Params(mesh=tmp_path / "ball.obj"))
+    for surface in ("plane", "saddle", "cylinder", "catenoid"):
+        state = timeline(Params(surface=surface, vertex=0)).states()[0]
+        assert state.on_border
+    trimesh.creation.box().export(tmp_path / "box.obj")
+    box = timeline(Params(mesh=tmp_path / "box.obj"))  # eight vertices
+    assert box[-1].state.now.total == pytest.approx(4 * np.pi)

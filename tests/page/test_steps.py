@@ -1,0 +1,38 @@
+"""The data of a run's steps: equal things once, in any order asked for, by many at once."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+from tests import fake
+from workbench.page.steps import Steps
+from workbench.timeline import Timeline
+
+
+def test_steps_are_the_same_in_whatever_order_they_are_asked_for():
+    timeline = Timeline(fake.lesson, fake.Params()).complete()
+    forward, backward = Steps(timeline), Steps(timeline)
+    told = [forward.step(k) for k in range(len(timeline))]
+    for k in reversed(range(len(timeline))):
+        step = backward.step(k)
+        assert step["caption"] == told[k]["caption"]
+        assert [backward.things[n] for n in step["shown"]] == [forward.things[n] for n in told[k]["shown"]]
+    assert len(forward.things) == len(backward.things)
+
+
+def test_a_step_is_made_once_for_all_who_ask():
+    timeline = Timeline(fake.lesson, fake.Params()).complete()
+    steps = Steps(timeline)
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(steps.step, [2] * 40))
+    assert all(one is found[0] for one in found)
+
+
+def test_the_code_of_a_step_is_its_moment():
+    timeline = Timeline(fake.lesson, fake.Params()).complete()
+    steps = Steps(timeline)
+    for k, step in enumerate(timeline.known()):
+        assert step.moment is not None
+        code = steps.step(k)["code"]
+        _, first = step.moment.source
+        assert first + code["line"] == step.moment.line
+        assert [row[0] for row in code["locals"]] == [one.name for one in step.moment.variables]
+        assert f'data-line="{code["line"]}"' in steps.things[code["source"]]["html"]

@@ -1,0 +1,127 @@
+"""The lesson's camera written out in plain numpy, and how far a stage of the calculation is from it."""
+
+import functools
+from typing import Any
+
+import numpy as np
+
+from tests.verdicts import Run
+from workbench.data.street import street
+
+STAGES = ("world", "camera", "divide", "distort", "pixels", "back")
+CRATE = np.array([[-1.4, 5.5, 0.0], [-1.4, 5.5, 1.0]])
+TOWER = np.array([[-3.7, 13.2, 0.0], [-3.7, 13.2, 5.0]])
+
+
+@functools.lru_cache(maxsize=32)
+def camera(params: Any, dolly: float | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """R, t and K before the edit."""
+    eye, target = np.array(params.camera, float), np.array(params.target, float)
+    forward = (target - eye) / np.linalg.norm(target - eye)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    factor = params.dolly if dolly is None else dolly
+    eye = target - factor * np.linalg.norm(target - eye) * forward
+    R = np.stack([right, np.cross(forward, right), forward])
+    f = params.f * factor
+    return R, -R @ eye, np.array([[f, 0, 159.5], [0, f, 119.5], [0, 0, 1.0]])
+
+
+def edited(params: Any, K: np.ndarray) -> np.ndarray:
+    K = K.copy()
+    if "cropped" in params.edit:
+        K[:2, 2] -= (60, 40)
+    if "half" in params.edit:
+        K[:2, 2] = (K[:2, 2] + 0.5) / 2 - 0.5
+        K[:2, :2] /= 2
+    return K
+
+
+def ideal(params: Any, p: np.ndarray, dolly: float | None = None) -> np.ndarray:
+    """Places on the plane Z = 1; NaN where nothing is in front."""
+    R, t, _ = camera(params, dolly)
+    X, Y, Z = R @ p.T + t[:, None]
+    with np.errstate(all="ignore"):
+        return np.where(Z > 0, np.array([X, Y]) / Z, np.nan).T
+
+
+def fold(params: Any) -> float:
+    """The radius at which the radial polynomial turns round, by looking for it; infinity without tangential terms found."""
+    r = np.linspace(0, 5, 50001)
+    slope = 1 + 3 * params.k1 * r**2 + 5 * params.k2 * r**4
+    return float(r[np.argmax(slope <= 0)]) if (slope <= 0).any() else np.inf
+
+
+def bent(params: Any, xy: np.ndarray) -> np.ndarray:
+    (x, y), (p1, p2) = xy.T, (params.p1, params.p2)
+    s = x * x + y * y
+    g = 1 + params.k1 * s + params.k2 * s * s
+    out = np.array([x * g + 2 * p1 * x * y + p2 * (s + 2 * x * x), y * g + p1 * (s + 2 * y * y) + 2 * p2 * x * y]).T
+    if not (p1 or p2):
+        out[np.sqrt(s) > fold(params)] = np.nan
+    return out
+
+
+def pixels(params: Any, p: np.ndarray, dolly: float | None = None) -> np.ndarray:
+    K = edited(params, camera(params, dolly)[2])
+    return bent(params, ideal(params, p, dolly)) @ K[:2, :2] + K[:2, 2]
+
+
+def centre(params: Any) -> np.ndarray:
+    R, t, _ = camera(params)
+    return -R.T @ t
+
+
+def height(params: Any, ends: np.ndarray, dolly: float | None = None) -> float:
+    low, high = pixels(params, ends, dolly)
+    return float(np.linalg.norm(high - low))
+
+
+def both(run: Run, k: int) -> tuple[np.ndarray, np.ndarray]:
+    """The calculated and the true places of all points at a stage, in pixels of the true K."""
+    state, params = run.states[k], run.params
+    K = edited(params, camera(params)[2])
+    xy = ideal(params, street().points)
+    if k == STAGES.index("divide"):
+        got, true = state.now.xy, xy
+    elif k == STAGES.index("distort"):
+        got, true = state.now.xy_bent, bent(params, xy)
+    else:
+        return state.now.uv, pixels(params, street().points)
+    return got @ K[:2, :2] + K[:2, 2], true @ K[:2, :2] + K[:2, 2]
+
+
+def median_off(run: Run, k: int) -> float:
+    off = np.linalg.norm(np.subtract(*both(run, k)), axis=1)
+    return float(np.median(off[np.isfinite(off)])) if np.isfinite(off).any() else 0.0
+
+
+def lost(run: Run, k: int) -> tuple[int, int]:
+    """How many points have a true place and no calculated one, and the other way round."""
+    got, true = (np.isfinite(uv).all(axis=1) for uv in both(run, k))
+    return int((true & ~got).sum()), int((got & ~true).sum())
+
+
+def median_back(run: Run) -> float:
+    off = np.linalg.norm(run.states[-1].now.p_back - street().points, axis=1)
+    return float(np.median(off[np.isfinite(off)])) if np.isfinite(off).any() else 0.0
+
+
+def shot_gap(params: Any) -> float:
+    corners = street().edges.reshape(-1, 3)
+    R, t, K = camera(params)
+    X, Y, _ = R @ corners.T + t[:, None]
+    depth = R[2] @ np.array(params.target) + t[2]
+    flat = np.array([X, Y]).T * K[0, 0] / depth + K[:2, 2]
+    return float(np.linalg.norm(pixels(params, corners) - flat, axis=1).max())
+
+
+def moves(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Each point's place and shift by the lens."""
+    now = run.states[STAGES.index("distort")].now
+    seen = np.isfinite(now.xy_bent).all(axis=1)
+    return now.xy[seen], (now.xy_bent - now.xy)[seen]
+
+
+def pixels_at(run: Run) -> np.ndarray:
+    return run.states[STAGES.index("pixels")].now.uv

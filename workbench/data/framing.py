@@ -1,0 +1,119 @@
+"""Brings a person's own data into the picture, whatever their unit, size, place and upward axis.
+
+A frame says how: p_world = scale R_world_file (p_file - centre) + offset. Its box may leave out far points, so that a few of
+them do not shrink the rest.
+"""
+
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float
+
+from workbench.geometry.motions import apply, motion
+
+Unit = Literal["m", "cm", "mm", "km"]
+METRES: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0}
+Up = Literal["z", "y", "-y", "x"]
+UPRIGHT: dict[Up, np.ndarray] = {  # R_world_file: takes the axis of the file that points up to the world's +Z
+    "z": np.eye(3),
+    "y": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
+    "-y": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]),
+    "x": np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]),
+}
+FAR = 2.0  # per cent of the points at either end of an axis that may be called far
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Frame:
+    """How data of a file stand in the picture; by default as they are.
+
+    Attributes:
+        centre: The place in the file that the picture is about, in the file's unit.
+        scale: Metres of the picture per unit of the file.
+        R_world_file: How the data are turned.
+        offset: Where the centre comes to in the picture, metres.
+    """
+
+    centre: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    scale: float = 1.0
+    R_world_file: np.ndarray = field(default_factory=lambda: np.eye(3))
+    offset: np.ndarray = field(default_factory=lambda: np.zeros(3))
+
+    def shown(self, p_file: Float[np.ndarray, "*n 3"]) -> Float[np.ndarray, "*n 3"]:
+        """Return points of the file as the picture has them."""
+        return self.scale * (p_file - self.centre) @ self.R_world_file.T + self.offset
+
+    def shown_motion(self, T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
+        """Return a motion or an affine map of the file's points as one of the points that are shown.
+
+        It holds that `apply(shown_motion(T), shown(p))` is `shown(apply(T, p))`.
+        """
+        A, R = T[:3, :3], self.R_world_file
+        A_world = R @ A @ R.T
+        moved = self.scale * R @ (apply(T, self.centre) - self.centre)
+        return motion(A_world, moved + self.offset - A_world @ self.offset)
+
+    def standing(self, p_file: Float[np.ndarray, "n 3"], floor: float = 0.0) -> "Frame":
+        """Return the frame raised or lowered until the lowest of these points stands at the height `floor`."""
+        rise = floor - self.shown(p_file)[:, 2].min()
+        return replace(self, offset=self.offset + np.array([0.0, 0.0, rise]))
+
+
+def frame(p_file: Float[np.ndarray, "n 3"], width: float, *, up: Up = "z", far: float = 0.0) -> Frame:
+    """Return the frame in which the box of the points is `width` metres long, upright and about the origin.
+
+    Args:
+        p_file: Points, in any unit.
+        width: The longest edge of the box in the picture, metres.
+        up: The axis of the file that points up.
+        far: Per cent of the points at either end of each axis that the box leaves out.
+
+    Note:
+        Where all points lie at one place, a unit of the file is `width` metres long.
+    """
+    low, high = box(p_file, far)
+    scale = width / (extent(p_file, far) or 1.0)
+    return Frame(centre=(low + high) / 2, scale=scale, R_world_file=UPRIGHT[up])
+
+
+def box(p: Float[np.ndarray, "n d"], far: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lowest and the highest corner of the points' box, `far` per cent at either end of each axis left out."""
+    low, high = np.percentile(p, [far, 100.0 - far], axis=0)
+    return low, high
+
+
+def extent(p: Float[np.ndarray, "n d"], far: float = 0.0) -> float:
+    """Return the longest edge of that box; of the box of all points where it has none."""
+    low, high = box(p, far)
+    return float((high - low).max()) or float(np.ptp(p, axis=0).max())
+
+
+def likely_up(p: Float[np.ndarray, "n 3"], kind: str) -> Up:
+    """Return the axis of a mesh file that is likely to point up.
+
+    It is the one on which the mesh stands, its lowest point being near 0 or above while the other axis has the mesh on both
+    sides; where neither or both are so, z in stl files (machines and printers), and y in all others (graphics).
+
+    Args:
+        p: The vertices.
+        kind: The ending of the file's name, with its dot, in lower case.
+    """
+    stands = p.min(axis=0) > -0.05 * extent(p)
+    if stands[1] != stands[2]:
+        return "y" if stands[1] else "z"
+    return "z" if kind == ".stl" else "y"
+
+
+def round_below(length: float) -> float:
+    """Return the largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) that is no longer than a positive length."""
+    power = 10.0 ** np.floor(np.log10(length))
+    return float(power * max(digit for digit in (1, 2, 5) if digit * power <= length * (1 + 1e-9)))
+
+
+def ground_grid(cell: float, height: float, reach: float = 1.5) -> Float[np.ndarray, "n 2 3"]:
+    """Return the segments of a level grid about the origin: squares `cell` metres wide, at least `reach` to a side."""
+    n = int(np.ceil(reach / cell))
+    at, end = cell * np.arange(-n, n + 1), n * cell
+    lines = np.array([[[x, -end, height], [x, end, height]] for x in at])
+    return np.concatenate([lines, lines[:, :, [1, 0, 2]]])

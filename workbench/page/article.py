@@ -1,0 +1,57 @@
+"""A lesson's article as HTML: its text with links that run things, and the place of its questions.
+
+In page.md, `[the last step](run:far@-1)` opens the preset `far` at its last step, `[the last step](run:this@-1)` goes to a
+step of the run that is open, and `[[source]]` or `[[source|the scan]]` names a thing of the scene.
+"""
+
+import re
+from collections.abc import Callable
+from html import escape
+
+from workbench.errors import AuthorError
+from workbench.lesson import Lesson
+from workbench.typeset import page_of
+
+_LINK = re.compile(r'<a href="run:([^"@]*)(?:@(-?\d+))?">')
+_TERM = re.compile(r"\[\[([a-z][\w/. ~-]*?)(?:\|([^\]|<]+))?\]\]")
+PLACE = "<!-- questions -->"
+"""Where the questions of a lesson stand in its article."""
+
+Address = Callable[[str, int | None], str]
+"""address(run, step) -> what a link to that moment leads to where no script runs."""
+
+
+def article_html(lesson: Lesson, address: Address) -> str:
+    """Return a lesson's article, with PLACE where the questions belong.
+
+    Raises:
+        AuthorError: If the page names a run that the lesson does not have, or a picture that is not there.
+    """
+    text = page_of(lesson.text(), lesson.page).replace(
+        '<div class="math block">', '<div class="math block" tabindex="0">'
+    )
+    names = {"this", "default", *(preset.name for preset in lesson.presets)}
+
+    def link(found: re.Match[str]) -> str:
+        name, step = found[1], None if found[2] is None else int(found[2])
+        if name not in names:
+            known = ", ".join(preset.name for preset in lesson.presets) or "none"
+            raise AuthorError(f"{lesson.page}: a link runs {name!r}, which is no preset; there are: {known}")
+        name = "" if name == "this" else name
+        at = "" if step is None else f' data-step="{step}"'
+        return f'<a class="run" href="{escape(address(name, step))}" data-run="{escape(name)}"{at}>'
+
+    text = _TERM.sub(lambda found: _term(found[1], found[2] or found[1]), _LINK.sub(link, text))
+    before, after = _around_predict(text)
+    return before + PLACE + after
+
+
+def _term(path: str, words: str) -> str:
+    return f'<span class="term" tabindex="0" data-thing="{escape(path)}">{words}</span>'
+
+
+def _around_predict(html: str) -> tuple[str, str]:
+    """Split an article where its questions belong: behind the section that asks to predict, else at the end."""
+    start = html.find('<section class="s-predict')
+    end = html.find("</section>", start) if start >= 0 else len(html)
+    return html[:end], html[end:]

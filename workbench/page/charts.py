@@ -1,0 +1,107 @@
+"""Charts as plain data: axes with their ticks and words, curves of a step, and scalars over the steps of a run."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from workbench.axis import Axis, axis, labelled, value_axis
+from workbench.page.legend import css_color, escape
+from workbench.scene import PALETTE, Curve, Table
+from workbench.timeline import Series, plotted_values
+
+NARROW_BAR = 0.96
+"""How much of the room between two bars a bar takes."""
+
+
+def axes_of(xs: Sequence[np.ndarray], ys: Sequence[np.ndarray]) -> tuple[Axis, Axis]:
+    """Return the axes of a chart in which all these points are."""
+    x = np.concatenate(xs)
+    whole = bool(np.array_equal(x, np.rint(x)))
+    return axis(float(x.min()), float(x.max()), whole=whole), value_axis(ys, most=4)
+
+
+def titled(curves: Sequence[Curve]) -> tuple[str, str]:
+    """Return the title of a chart of curves and the label of its values."""
+    chart = curves[0].chart
+    above, label = labelled(curves[0].y_label, "", False)
+    return f"{chart}: {above}" if above and above != chart else chart, label
+
+
+def outline(curve: Curve) -> tuple[np.ndarray, np.ndarray]:
+    """Return x and y sorted by x; bars become their outline, each on the ground at both ends."""
+    order = np.argsort(curve.x, kind="stable")
+    x, y = curve.x[order].astype(float), curve.y[order].astype(float)
+    if curve.kind != "bars":
+        return x, y
+    gaps = np.diff(x)
+    half = 0.5 * NARROW_BAR * (gaps[gaps > 0].min() if (gaps > 0).any() else 1.0)
+    x, y = x[np.isfinite(y)], y[np.isfinite(y)]
+    sides = np.column_stack([x - half, x - half, x + half, x + half])
+    return sides.ravel(), np.column_stack([0 * y, y, y, 0 * y]).ravel()
+
+
+def table_html(table: Table) -> str:
+    """Return a table as HTML, its text escaped."""
+    head = "".join(f"<th>{escape(cell)}</th>" for cell in table.header)
+    rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows)
+    title = f"<strong>{escape(table.title)}</strong>" if table.title else ""
+    return f'<div class="wb wb-pad">{title}<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
+
+
+def chart_of(curves: Sequence[Curve]) -> dict[str, Any]:
+    """Return a chart of curves of a step, with its axes."""
+    outlines = [outline(curve) for curve in curves]
+    across, up = axes_of([x for x, _ in outlines], [y for _, y in outlines])
+    title, label = titled(curves)
+    drawn = {"kind": "curves", "title": title, "xLabel": curves[0].x_label, "yLabel": label}
+    return drawn | {"x": asdict(across), "y": asdict(up), "curves": [_curve(curve) for curve in curves]}
+
+
+def series_of(series: Mapping[str, Series]) -> list[dict[str, Any]]:
+    """Return every scalar over the steps of a run that are known."""
+    return [
+        {
+            "path": path,
+            "name": one.scalar.name,
+            "chart": one.scalar.chart,
+            "unit": one.scalar.unit,
+            "color": css_color(PALETTE[one.scalar.color]),
+            "log": one.scalar.log,
+            "values": [number(value) for value in one.values],
+        }
+        for path, one in series.items()
+    ]
+
+
+def series_charts(series: Mapping[str, Series], known: int) -> dict[str, Any]:
+    """Return the axes and words of every chart over steps."""
+    charts: dict[str, list[Series]] = {}
+    for one in series.values():
+        charts.setdefault(one.scalar.chart, []).append(one)
+    steps = np.arange(known, dtype=float)
+    found = {}
+    for chart, lines in charts.items():
+        scalar = lines[0].scalar
+        head, label = labelled(chart, scalar.unit, scalar.log)
+        across, up = axes_of([steps], [plotted_values(one.scalar, one.values) for one in lines])
+        found[chart] = {"head": head, "yLabel": label, "x": asdict(across), "y": asdict(up)}
+    return found
+
+
+def _curve(curve: Curve) -> dict[str, Any]:
+    order = np.argsort(curve.x, kind="stable")
+    return {
+        "name": curve.name,
+        "kind": curve.kind,
+        "color": css_color(PALETTE[curve.color]),
+        "x": [number(value) for value in curve.x[order]],
+        "y": [number(value) for value in curve.y[order]],
+        "marks": [number(value) for value in curve.marks],
+    }
+
+
+def number(value: float) -> float | None:
+    """Return a number with the digits that a curve needs; None where there is none."""
+    return float(f"{float(value):.6g}") if np.isfinite(value) else None

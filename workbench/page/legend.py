@@ -1,0 +1,54 @@
+"""The legend of a scene and the bar of a colour map, as HTML. Whatever a lesson or its params say is escaped."""
+
+import html
+from typing import Any, cast
+
+from workbench.scene import PALETTE, Classes, Curve, Field, Primitive, Role, Scalar, Scene, color_map
+
+
+def escape(text: str) -> str:
+    """Return text that is safe inside HTML."""
+    return html.escape(text)
+
+
+def css_color(rgb: tuple[int, int, int]) -> str:
+    """Return a colour as CSS writes it."""
+    return "#{:02x}{:02x}{:02x}".format(*rgb)
+
+
+def legend_html(scene: Scene, grid: float | None) -> str:
+    """Return the legend of a scene: every named thing with its colour, every colour map with its bar and unit."""
+    rows: dict[str, None] = {}
+    for primitive in scene.values():
+        for row in _legend_rows(primitive):
+            rows.setdefault(row)
+    if grid is not None:
+        rows.setdefault(f"<span>grid {grid:g} m</span>")
+    return f'<div class="wb-legend">{"".join(rows)}</div>' if rows else ""
+
+
+def _legend_rows(primitive: Primitive) -> list[str]:
+    color: Any = getattr(primitive, "color", None)
+    name = getattr(primitive, "name", "")
+    field = color if isinstance(color, Field) else getattr(primitive, "image", None)
+    if isinstance(field, Field):
+        return [bar_html(field)]
+    if isinstance(color, Classes):
+        return [_dot(PALETTE[role], label) for role, label in zip(color.roles, color.names, strict=True)]
+    if isinstance(color, str) and name and not isinstance(primitive, Scalar | Curve):
+        return [_dot(PALETTE[cast(Role, color)], name)]
+    return []
+
+
+def bar_html(field: Field) -> str:
+    """Return the colour bar of a field: its title, ends and unit."""
+    stops = ",".join(css_color(tuple(color_map(field.map, i / 8).tolist())) for i in range(9))  # type: ignore[arg-type]
+    unit = f" {escape(field.unit)}" if field.unit else ""
+    return (
+        f'<span>{escape(field.title)}: {field.low:.3g}<b style="background:linear-gradient(90deg,{stops})"></b>'
+        f"{field.high:.3g}{unit}</span>"
+    )
+
+
+def _dot(rgb: tuple[int, int, int], label: str) -> str:
+    return f'<span><i style="background:{css_color(rgb)}"></i>{escape(label)}</span>'

@@ -1,0 +1,66 @@
+"""What a page knows of a lesson before anything runs: knobs, presets and questions, without their answers."""
+
+from typing import Any
+
+from workbench.knobs import Field, Gizmo, Pick, changed, fields_of
+from workbench.lesson import Lesson, Preset, Question
+from workbench.typeset import inline_html
+
+
+def lesson_data(lesson: Lesson) -> dict[str, Any]:
+    """Return a lesson as plain data: nothing in it gives an answer away."""
+    return {
+        "name": lesson.name,
+        "title": lesson.title,
+        "knobs": [knob_data(field) for field in fields_of(lesson.params) if field.kind != "path"],
+        "presets": [preset_data(lesson, preset) for preset in lesson.presets],
+        "questions": [question_data(question) for question in lesson.questions],
+    }
+
+
+def knob_data(field: Field) -> dict[str, Any]:
+    """Return how a field of Params is set: its name as formulas write it, hint, unit, range and kind."""
+    knob = field.knob
+    data: dict[str, Any] = {
+        "name": field.name,
+        "label": field.label,
+        "hint": knob.hint,
+        "unit": knob.unit,
+        "kind": field.kind,
+        "by": "gizmo" if isinstance(knob.by, Gizmo) else "pick" if isinstance(knob.by, Pick) else "slider",
+        "default": list(field.default) if isinstance(field.default, tuple) else field.default,
+    }
+    if field.kind == "choice":
+        return data | {"choices": field.choices}
+    if field.kind == "bool":
+        return data
+    return data | {"low": knob.low, "high": knob.high, "step": field.step, "parts": part_names(field)}
+
+
+def part_names(field: Field) -> tuple[str, ...]:
+    """Return the names of a vector's entries; of a single number one empty name."""
+    if not field.length:
+        return ("",)
+    known = {2: ("x", "y"), 3: ("x", "y", "z"), 6: ("x", "y", "z", "turn x", "turn y", "turn z")}
+    return tuple(field.knob.parts) or known.get(field.length) or tuple(str(i + 1) for i in range(field.length))
+
+
+def preset_data(lesson: Lesson, preset: Preset) -> dict[str, Any]:
+    """Return a preset: what a person reads of it, and the params that differ from the defaults."""
+    return {
+        "name": preset.name,
+        "title": preset.title,
+        "line": preset.line,
+        "params": changed(preset.params),
+        "step": lesson.first_step if preset.step is None else preset.step,
+    }
+
+
+def question_data(question: Question) -> dict[str, Any]:
+    """Return a question without its answer."""
+    return {
+        "name": question.name,
+        "html": inline_html(question.text),
+        "choices": question.choices,
+        "unit": question.unit,
+    }

@@ -1,0 +1,52 @@
+// The article: links that run things, experiments, and questions that are answered before one looks.
+"use strict";
+
+const article = {
+  start() {
+    document.addEventListener("click", (event) => {
+      const link = event.target.closest("[data-run]");
+      if (!link || event.ctrlKey || event.metaKey) return;
+      event.preventDefault();
+      const step = link.dataset.step === undefined ? null : Number(link.dataset.step);
+      page.open(link.dataset.run, step);
+      if (matchMedia("(max-width: 1099px)").matches) $("#stage").scrollIntoView();
+    });
+    document.addEventListener("submit", (event) => {
+      const form = event.target.closest("form.question");
+      if (!form) return;
+      event.preventDefault();
+      this.answer(form, event.submitter && event.submitter.value === "skip");
+    });
+    const before = kept.get(`answers ${LESSON.name}`) ?? {};
+    for (const form of $$("form.question")) {
+      const said = before[form.dataset.question];
+      if (said) this.tell(form, said);
+    }
+  },
+
+  answer(form, skip) {
+    const chosen = $("input[type=radio]:checked", form), typed = $("input[type=number]", form);
+    const given = skip ? null : chosen ? chosen.value : typed && typed.value !== "" ? Number(typed.value) : undefined;
+    if (given === undefined) $("output", form).textContent = "Choose or type an answer first, or skip.";
+    else source.predict(form.dataset.question, given);
+  },
+
+  // what came of a prediction; it stays answered in this browser
+  answered({ question, given, right, truth, why }) {
+    const said = `${given === null ? `The answer: ${truth}.` : right ? `Right: ${truth}.` : `You said ${given}; the run says ${truth}.`} ${why}`;
+    const form = $(`form.question[data-question="${CSS.escape(question)}"]`);
+    if (!form) return;
+    this.tell(form, { said, right, skipped: given === null });
+    kept.set(`answers ${LESSON.name}`, { ...kept.get(`answers ${LESSON.name}`), [question]: { said, right, skipped: given === null } });
+  },
+
+  tell(form, { said, right, skipped }) {
+    form.classList.toggle("right", right && !skipped);
+    form.classList.add("answered");
+    $("output", form).textContent = said;
+  },
+
+  show(name) {
+    for (const button of $$("button[data-run]")) button.setAttribute("aria-pressed", String(button.dataset.run === name));
+  },
+};

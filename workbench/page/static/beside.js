@@ -1,0 +1,90 @@
+// What stands beside the scene: tiles of curves, pictures, tables and code, each of which can be enlarged.
+"use strict";
+
+const beside = {
+  large: null,  // the key of what is enlarged
+
+  show() {
+    const tiles = this.of(page.run, page.step());
+    $("#tiles").replaceChildren(...tiles.map((tile) => this.tile(tile)));
+    const enlarged = tiles.find((tile) => tile.key === this.large);
+    const box = $("#large");
+    box.hidden = !enlarged;
+    if (!enlarged) return;
+    const top = $(".body", box) ? $(".body", box).scrollTop : 0;
+    const close = element("button", { type: "button", className: "close", textContent: "×", ariaLabel: "Close", onclick: () => this.enlarge(null) });
+    const body = element("div", { className: "body", tabIndex: 0 }, enlarged.whole());
+    box.replaceChildren(close, body);
+    body.scrollTop = top;
+    const line = $(".here", body);
+    if (line) body.scrollTop = line.offsetTop - body.offsetTop - 0.5 * body.clientHeight;
+  },
+
+  // {key, title, small: HTML, whole(): element} of everything that can be shown
+  of(run, step) {
+    if (!run || !step) return [];
+    const found = [], charts = new Map();
+    for (const one of run.series) charts.set(one.chart, [...(charts.get(one.chart) ?? []), one]);
+    for (const [chart, lines] of charts) found.push(this.series(run, chart, lines));
+    step.shown.map((n) => run.things[n]).filter(Boolean).forEach((thing, i) => found.push(this.thing(thing, i)));
+    if (step.code && run.things[step.code.source]) found.push(this.code(run.things[step.code.source], step.code));
+    return found;
+  },
+
+  series(run, chart, lines) {
+    const axes = run.charts[chart], upto = run.seen ? Infinity : run.played, log = lines[0].log;
+    const said = lines.filter((l) => (l.values[page.k] ?? null) !== null).map((l) => `${l.name} ${number(l.values[page.k])} ${l.unit}`.trim());
+    const curve = (l, kind, name) => ({
+      name, kind, color: l.color, marks: [], x: l.values.map((_, i) => i),
+      y: l.values.map((v) => (v !== null && log ? (v > 0 ? Math.log10(v) : null) : v)),
+    });
+    const pinned = (run.pinned ?? []).filter((l) => l.chart === chart).map((l) => curve(l, "pinned", `${l.name}, pinned`));
+    const curves = lines.map((l) => curve(l, "line", l.name));
+    const data = { ...axes, title: [axes.head, said.join(" · ")].filter(Boolean).join(": ") || chart, xLabel: "step", curves };
+    const whole = () => { // what is pinned is shown to its end: it has been seen
+      const drawn = plot({ ...data, curves: [...pinned, ...curves.map((c) => cut(c, upto))] }, [page.k]);
+      return drawn;
+    };
+    return { key: `series ${chart}`, title: said.join(" · ") || chart, small: sparkline(data, [page.k], upto), whole };
+  },
+
+  thing(thing, i) {
+    if (thing.kind === "html") {
+      const made = element("div", { innerHTML: thing.html });
+      const title = $("strong", made)?.textContent ?? "Table";
+      return { key: `table ${title}`, title, small: `<span class="sign">▤</span>`, whole: () => made };
+    }
+    if (thing.kind === "curves") {
+      const marks = thing.curves.flatMap((c) => c.marks);
+      return { key: `curves ${thing.title}`, title: thing.title, small: sparkline(thing, marks), whole: () => plot(thing, marks) };
+    }
+    const whole = () => element("figure", {}, element("figcaption", { textContent: thing.title }),
+      element("img", { src: thing.url, alt: thing.title, className: thing.width < 200 ? "pixels" : "" }),
+      element("div", { className: "wb-legend", innerHTML: thing.bar }));
+    return { key: `picture ${i}`, title: thing.title, small: `<img src="${thing.url}" alt="">`, whole };
+  },
+
+  code(source, at) {
+    const whole = () => {
+      const box = element("div", { className: "wb-code" });
+      box.innerHTML = `<p><b>${escape(source.name)}</b>: the marked line is where this step was yielded.</p><div class="lines">${source.html}</div>` +
+        `<table><thead><tr><th>Variable</th><th>Shape or type</th><th>Value or range</th></tr></thead><tbody>${
+          at.locals.map((row) => `<tr>${row.map((cell, i) => `<td>${i ? escape(cell) : `<code>${escape(cell)}</code>`}</td>`).join("")}</tr>`).join("")}</tbody></table>`;
+      $(`[data-line="${at.line}"]`, box)?.classList.add("here");
+      return box;
+    };
+    return { key: "code", title: "Code", small: `<span class="sign">{ }</span>`, whole };
+  },
+
+  tile({ key, title, small }) {
+    const button = element("button", { type: "button", className: "tile", innerHTML: `${small}<span>${escape(title)}</span>` });
+    button.setAttribute("aria-pressed", String(key === this.large));
+    button.onclick = () => this.enlarge(key === this.large ? null : key);
+    return button;
+  },
+
+  enlarge(key) {
+    this.large = key;
+    this.show();
+  },
+};

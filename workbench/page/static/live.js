@@ -1,0 +1,46 @@
+// Feeds the page from a server: wishes go out as JSON, what came of them comes back; the scene is streamed beside.
+"use strict";
+
+const source = {
+  socket: null, waiting: [], given: {},
+
+  start() {
+    const { token } = document.body.dataset;
+    stage.put({ src: `scene/${token}/` });
+    const address = new URL(`live?token=${token}`, location.href);
+    address.protocol = address.protocol.replace("http", "ws");
+    const socket = this.socket = new WebSocket(address);
+    socket.onopen = () => {
+      this.send({ verb: "open", query: location.search, lesson: LESSON.name });
+      for (const text of this.waiting.splice(0)) socket.send(text);
+    };
+    socket.onmessage = (event) => this.heard(JSON.parse(event.data));
+    socket.onclose = () => page.say("The server is gone. Reload the page when it is back.", "wrong");
+  },
+
+  heard(message) {
+    const { tell, run, ...more } = message;
+    if (tell === "run") page.told({ id: run, ...more });
+    else if (tell === "step") page.came(run, more.k, more.step, more.things);
+    else if (tell === "answer") article.answered({ ...more, given: this.given[more.question] ?? null });
+    else if (tell === "trouble") page.say(more.text, "wrong");
+  },
+
+  send(message) {
+    const text = JSON.stringify(message);
+    if (this.socket && this.socket.readyState === WebSocket.OPEN) this.socket.send(text);
+    else this.waiting.push(text);
+  },
+
+  open(name, step) { this.send({ verb: "run", run: name, step }); },
+  seek(k) { this.send({ verb: "seek", k }); },
+  change(values) { this.send({ verb: "change", values }); },
+  reset() { this.send({ verb: "reset" }); },
+  pin() { this.send({ verb: "pin" }); },
+  handles(on) { this.send({ verb: "handles", on }); },
+  theme(dark) { this.send({ verb: "theme", dark }); },
+  predict(question, given) {
+    this.given[question] = given;
+    this.send({ verb: "predict", question, given });
+  },
+};

@@ -1,0 +1,101 @@
+// The page: what is open, which step is seen, and who is told of it.
+"use strict";
+
+const page = {
+  run: null,  // {id, name, steps, things, series, charts, known, finished, played, seen, pinned}
+  k: 0,
+
+  known() { return this.run ? this.run.known : 0; },
+  step() { return this.run ? this.run.steps[this.k] : undefined; },
+
+  open(name, step) {
+    transport.pause();
+    source.open(name, step);
+  },
+
+  // goes to a step; negative counts from the end
+  seek(k) {
+    const run = this.run, at = k < 0 ? this.known() + k : Math.min(k, Math.max(0, this.known() - 1));
+    source.seek(k < 0 || k >= this.known() ? k : at);
+    if (run && run.steps[at] && (k >= 0 || run.finished)) this.see(at);
+  },
+
+  // what the source says of a run: new, or more of it
+  told(data) {
+    const { id } = data;
+    if (!this.run || this.run.id !== id) {
+      this.run = { steps: [], things: {}, series: [], charts: {}, played: -1, seen: false, pinned: null, ...data };
+      this.k = 0;
+    } else Object.assign(this.run, data);
+    if (data.params) knobs.show(data.params);
+    article.show(this.run.name);
+    $("#pin")?.setAttribute("aria-pressed", String(Boolean(this.run.pinned)));
+    this.draw();
+  },
+
+  // a step that has come
+  came(id, k, step, things) {
+    if (!this.run || this.run.id !== id) return;
+    Object.assign(this.run.things, things);
+    this.run.steps[k] = step;
+    this.see(k);
+  },
+
+  see(k) {
+    const { run } = this;
+    this.k = k;
+    run.played = Math.max(run.played, k);
+    if (run.finished && k === run.known - 1) run.seen = true;
+    this.draw();
+    this.remember();
+  },
+
+  draw() {
+    transport.show();
+    const step = this.step();
+    if (!step) return;
+    this.say(step.caption, step.tone);
+    stage.legend(this.run.things[step.legend] ?? "");
+    beside.show();
+  },
+
+  say(text, tone) {
+    const caption = $("#caption");
+    if (caption.textContent !== text) caption.textContent = text;
+    caption.className = tone;
+  },
+
+  // the address is the place: a reload or a shared link comes back to it
+  remember() {
+    if (transport.playing || !this.run || !this.run.query) return;
+    history.replaceState(null, "", `${this.run.query}&step=${this.k}`);
+  },
+
+  theme(dark) {
+    document.documentElement.dataset.theme = dark ? "dark" : "light";
+    source.theme?.(dark);
+  },
+};
+
+document.addEventListener("DOMContentLoaded", () => {
+  article.start();
+  knobs.start();
+  for (const button of $$("[data-act]")) button.addEventListener("click", () => transport.act(button.dataset.act));
+  $("#step").addEventListener("input", (event) => { transport.pause(); page.seek(Number(event.target.value)); });
+  document.addEventListener("keydown", (event) => keys.pressed(event));
+  const dark = () => document.documentElement.dataset.theme === "dark";
+  const wanted = kept.get("dark") ?? matchMedia("(prefers-color-scheme: dark)").matches;
+  const switched = () => { page.theme(!dark()); kept.set("dark", dark()); };
+  $("#theme").onclick = keys.others.t = switched;
+  keys.others.i = () => source.pin?.();
+  keys.others.r = () => source.reset?.();
+  keys.others.escape = () => beside.enlarge(null);
+  if ($("#move")) $("#move").onclick = keys.others.h = () => {
+    const on = $("#move").getAttribute("aria-pressed") !== "true";
+    $("#move").setAttribute("aria-pressed", String(on));
+    source.handles(on);
+  };
+  if ($("#pin")) $("#pin").onclick = keys.others.i;
+  source.start();
+  page.theme(wanted);
+});

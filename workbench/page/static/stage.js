@@ -1,0 +1,29 @@
+// The scene: viser's client in a frame, whatever home feeds it, with its own panels hidden.
+"use strict";
+
+const stage = {
+  frame: null,
+
+  // shows a frame; `attributes` are its src or srcdoc
+  put(attributes) {
+    const frame = element("iframe", { title: "3D scene of this step; drag to turn it, scroll to come nearer", ...attributes });
+    this.frame = frame;
+    frame.addEventListener("load", () => this.tidy(frame));
+    $("#scene").replaceChildren(frame);
+  },
+
+  // viser's own panels and bars go; the page's keys work in the frame too
+  tidy(frame) {
+    const inside = frame.contentDocument;
+    if (!inside) return;
+    inside.head.append(Object.assign(inside.createElement("style"), {
+      textContent: ".mantine-Paper-root, .mantine-Notifications-root, .mantine-Notification-root { display: none !important }",
+    }));
+    inside.addEventListener("keydown", (event) => {
+      if (!event.key.startsWith("Arrow") && !event.target.closest("input")) keys.pressed(event);
+    });
+    $("#scene").removeAttribute("aria-busy");
+  },
+
+  legend(html) { $("#legend").innerHTML = html; },
+};

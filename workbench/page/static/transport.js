@@ -1,0 +1,71 @@
+// The one line of controls under the scene, and playing.
+"use strict";
+
+const transport = {
+  playing: false, timer: 0,
+
+  show() {
+    const last = Math.max(0, page.known() - 1), k = page.k;
+    $("#step").max = last;
+    $("#step").value = k;
+    $("#step").setAttribute("aria-valuetext", `Step ${k} of ${last}`);
+    $("#count").textContent = `${k} / ${last}${page.run && page.run.finished ? "" : "…"}`;
+  },
+
+  act(verb) {
+    if (!page.run) return;
+    if (verb === "play") return this.playing ? this.pause() : this.play();
+    this.pause();
+    page.seek({ first: 0, back: Math.max(0, page.k - 1), next: page.k + 1, last: -1 }[verb]);
+  },
+
+  play() {
+    if (page.run.finished && page.k >= page.known() - 1) page.seek(0);
+    this.playing = true;
+    this.sign();
+    this.again(1 / this.speed());
+  },
+
+  pause() {
+    clearTimeout(this.timer);
+    this.playing = false;
+    this.sign();
+  },
+
+  again(seconds) {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.tick(), 1000 * seconds);
+  },
+
+  tick() {
+    if (!this.playing) return;
+    if (page.k + 1 < page.known()) {
+      page.seek(page.k + 1);
+      this.again(1 / this.speed());
+    } else if (page.run.finished) this.pause();
+    else this.again(0.05); // the next step is still being computed
+  },
+
+  speed: () => Number($("#speed").value),
+
+  sign() {
+    const button = $('[data-act="play"]');
+    $("path", button).setAttribute("d", this.playing ? "M4 3h3v10H4zM9 3h3v10H9z" : "M4 2.5v11L13.5 8z");
+    button.setAttribute("aria-label", this.playing ? "Pause (K)" : "Play (K)");
+  },
+};
+
+const keys = {
+  verbs: { n: "next", ArrowRight: "next", p: "back", ArrowLeft: "back", " ": "play", k: "play", Home: "first", End: "last" },
+  others: {},  // key -> function: what the other parts of the page add
+
+  pressed(event) {
+    const typing = event.target.closest("input:not([type=range]), select, textarea, pre");
+    const chosen = event.key === " " && event.target.closest("button, a, summary");
+    if (typing || chosen || event.ctrlKey || event.metaKey || event.altKey) return;
+    const verb = this.verbs[event.key], other = this.others[event.key.toLowerCase()];
+    if (!verb && !other) return;
+    event.preventDefault();
+    verb ? transport.act(verb) : other();
+  },
+};
