@@ -45,7 +45,7 @@ BROKEN = [
     (LESSON, "    rng = np", "    return\n    rng = np", "circle/lesson.py, line N: run ended without a step"),
     (LESSON, "    rng = np", "    yield State(0, np.ones((2, 2)), np.ones(3))\n    return\n    rng = np", "has 1 step"),
     (LESSON, "order=900", "order=900, first_step=70", "lesson circle opens at step 70, but its run has 5 steps"),
-    (LESSON, "default_rng(params.seed)", "default_rng()", "step 0 shows something else at 'points'; take all chance"),
+    (LESSON, "default_rng(params.seed)", "default_rng()", "; take all chance from np.random.default_rng(params.seed)"),
     (LESSON, "run=run,", "run=lambda params, **slots: [1],", "run returned a list; it is a generator"),
     (LESSON, "run=run,", "run=lambda params, **slots: None,", "run returned None; it is a generator"),
     (LESSON, "(params: Params, *, fit", "(params: Params, points, *, fit", "line N: run(params: "),
