@@ -45,7 +45,7 @@ BROKEN = [
     (LESSON, "    rng = np", "    return\n    rng = np", "circle/lesson.py, line N: run ended without a step"),
     (LESSON, "    rng = np", "    yield State(0, np.ones((2, 2)), np.ones(3))\n    return\n    rng = np", "has 1 step"),
     (LESSON, "order=900", "order=900, first_step=70", "lesson circle opens at step 70, but its run has 5 steps"),
-    (LESSON, "default_rng(params.seed)", "default_rng()", "step 0 shows something else at 'points'; take all chance"),
+    (LESSON, "default_rng(params.seed)", "default_rng()", "; take all chance from np.random.default_rng(params.seed)"),
     (LESSON, "run=run,", "run=lambda params, **slots: [1],", "run returned a list; it is a generator"),
     (LESSON, "run=run,", "run=lambda params, **slots: None,", "run returned None; it is a generator"),
     (LESSON, "(params: Params, *, fit", "(params: Params, points, *, fit", "line N: run(params: "),
@@ -91,6 +91,32 @@ BROKEN = [
         'Caption(f"{said};',
         "Caption('Short.') if state.k == 1 else Caption(f\"{said};",
         "step 1: the caption 'Short.' has 6",
+    ),
+    (
+        DRAW,
+        '"rms": Scalar(',
+        '"c": Curve(np.arange(3.0), np.arange(4.0), "a", "b", "c"), "rms": Scalar(',
+        "Curve.x and y",
+    ),
+    (
+        DRAW,
+        '"rms": Scalar(',
+        '"t": Table("Map", ("a",), ((0.5,),)), "rms": Scalar(',
+        "each cell of the Table 'Map' is a text",
+    ),
+    (
+        DRAW,
+        "    return {",
+        '    return {"caption": Caption("A long caption")}\n    return {',
+        "step 0 shows nothing in space",
+    ),
+    (DRAW, "    return {", '    return {"points": Points(in_space(state.p))}\n    return {', "needs a Caption"),
+    (DRAW, 'Caption(f"{said};', 'Caption("Something") or Caption(f"{said};', "every step has the caption 'Something'"),
+    (
+        LESSON,
+        "run=run,",
+        "run=lambda params, *, fit_circle=fit_circle: iter([State(k, np.eye(2), TRUE) for k in (0, 1)]),",
+        "step 0 has no line to show",
     ),
     # knobs, presets, questions
     (
@@ -170,6 +196,18 @@ BROKEN = [
         "yield from refine(p, TRUE)",
         "calls its keyword 'fit_circle'",
     ),
+    (
+        TASK,
+        "    return refused(",
+        "    return full('It is a line.')\n    return refused(",
+        "returns nothing earns points: points_on_a_line",
+    ),
+    (TASK, '"""Write the', '"""Fit."""\n"""Write the', "the task (the file's docstring) has 4 characters"),
+    (TASK, "** np.array([1, 1, 2])", "", "the mistake 'squared radius' gets full marks"),
+    (TASK, "if rank < 3:", "if rank < 2:", "our own function loses points: points_on_a_line"),
+    (TASK, 'what="Six points on a line"', "what=''", None),
+    (TASK, "    return band(", "    return fail('No.') if off > 1 else band(", "says only 'No.'"),
+    (TASK, '"[1, 1, 1.4142]"', '"[1, 1, 1.4142" + 130 * "0" + "]"', "a line of the starter has 1"),
 ]
 
 
@@ -178,7 +216,15 @@ def test_what_does_not_hold_is_told_by_its_place(folder, file, old, new, said):
     text = (folder / file).read_text(encoding="utf-8")
     assert old in text
     text = text.replace(old, new)
-    for name, module in (("Axes", "scene"), ("Pick", "knobs"), ("Gizmo", "knobs")):
+    for name, module in (
+        ("Axes", "scene"),
+        ("Curve", "scene"),
+        ("Table", "scene"),
+        ("full", "exercise"),
+        ("fail", "exercise"),
+        ("Pick", "knobs"),
+        ("Gizmo", "knobs"),
+    ):
         if f"{name}(" in new:
             text = text.replace(
                 "import numpy as np\n", f"import numpy as np\nfrom workbench.{module} import {name}\n", 1
