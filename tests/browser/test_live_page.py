@@ -119,7 +119,7 @@ def test_play_step_back_knob_preset_question_link_code_theme_and_reload(student,
     assert moment is not None
     me.page.wait_for_selector(f'img[data-line="{moment.line}"]', state="attached")
     lines, first = moment.source
-    marked = me.page.locator(f"#wb-line-{moment.line - first}")
+    marked = me.page.locator(f'.wb-code [data-line="{moment.line - first}"]')
     assert lines[moment.line - first].strip() in marked.inner_text()
     assert "rgba(204, 121, 167" in marked.evaluate("e => getComputedStyle(e).backgroundColor")
 

@@ -40,7 +40,7 @@ class CodeTab:
         self._mark.content = (
             f"<style>.wb-code [data-line='{at}']{{background:rgba(204,121,167,.32);box-shadow:inset 3px 0 #cc79a7}}</style>"
             f'<img src="data:,x" alt="" hidden data-line="{moment.line}" onerror="'
-            f"const l=document.querySelector('.wb-code [data-line='{at}']'),b=l?.closest('.wb-code');"
+            f"const l=document.querySelector('.wb-code [data-line=&quot;{at}&quot;]'),b=l?.closest('.wb-code');"
             'if(b)b.scrollTop=l.offsetTop-b.offsetTop-0.6*b.clientHeight">'
         )
         rows = "".join(
