@@ -13,6 +13,7 @@ VERBS = ("Return", "Yield", "Raise", "Write")  # what a function can do for its 
 
 NO_PAPER = {
     "algorithms.models": "a table of functions that name their sources themselves",
+    "geometry.polylines": "points in a row, found in no paper",
     "geometry.repair": "bookkeeping on faces, found in no paper",
 }
 

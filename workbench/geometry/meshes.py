@@ -168,7 +168,13 @@ def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.n
 
 
 def vertices_within(edges: Int[np.ndarray, "e 2"], vertex: int, steps: int) -> Int[np.ndarray, " n"]:
-    """Return the vertices that are at most so many edges away from one, itself included, in ascending order."""
+    """Return the vertices that are at most so many edges away from one, itself included, in ascending order.
+
+    Args:
+        edges: Pairs of vertices, in either direction.
+        vertex: Where to start.
+        steps: How many edges away is still near; 0 gives the vertex alone.
+    """
     a, b = edges.T
     near = np.zeros(max(int(edges.max(initial=-1)), vertex) + 1, dtype=bool)
     near[vertex] = True
