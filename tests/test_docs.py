@@ -105,10 +105,12 @@ def test_a_command_has_a_name_and_flags_that_exist(page, line, capsys):
     about = [word for word in given[:1] if word in catalog()]  # a lesson has flags of its own
     assert cli.main([name, *about, "--help"]) == 0
     known = capsys.readouterr().out
-    if any(word.endswith(".py") or "/" in word for word in given[:1]):
-        return  # a lesson of the reader's own, with flags of its own
+    own = any(
+        word.endswith(".py") or "/" in word for word in given[:1]
+    )  # a lesson of the reader's, with fields of its own
     for flag in (word.partition("=")[0] for word in words if word.startswith("-")):
-        assert re.search(rf"{re.escape(flag)}\b", known), f"{short(page)}: {name} has no flag {flag}"
+        field = own and re.search(rf"^    {re.escape(flag[2:].replace('-', '_'))}: Annotated", read(page), re.MULTILINE)
+        assert field or re.search(rf"{re.escape(flag)}\b", known), f"{short(page)}: {name} has no flag {flag}"
 
 
 # modules and files -------------------------------------------------------------------------------------------------

@@ -101,6 +101,8 @@ def test_a_knob_a_question_and_the_code(visit):
     assert me.page.locator("#large .here").count() == 1
     me.page.keyboard.press("Escape")
     me.page.locator("#large").wait_for(state="hidden")
+    me.page.keyboard.press("?")
+    me.page.locator("#large").get_by_text("play or pause").wait_for()
 
 
 def test_the_scene_is_large_and_the_controls_do_not_move(visit):
@@ -110,9 +112,9 @@ def test_the_scene_is_large_and_the_controls_do_not_move(visit):
     assert view is not None
     assert view["width"] * view["height"] >= 0.55 * 1440 * 900
     places = set()
-    for _ in range(8):
+    for k in range(1, 9):
         me.act("next")
-        me.page.wait_for_timeout(50)
+        me.page.locator("#count").get_by_text(f"{k} /").wait_for()
         places.add(str([me.page.locator(f"[data-act={verb}]").bounding_box() for verb in ("first", "play", "last")]))
     assert len(places) == 1
     frame = me.page.frame_locator("#scene iframe")

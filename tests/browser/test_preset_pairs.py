@@ -14,7 +14,7 @@ MOST = 200  # pictures
 APART = 25  # of 255
 ALIKE = 6  # pictures in a row that are the same: surfaces are decoded beside the frames
 TRANSFORMS = catalog()["transforms"]
-FIRST, *OTHERS = ("conventions", "mirror", "perspective")
+FIRST, *OTHERS = ("conventions", "mirror", "perspective", "inverse")
 
 
 def opened(chromium, app):

@@ -9,7 +9,7 @@ from tests.runs import finished
 from workbench.errors import AuthorError
 from workbench.lesson import catalog
 from workbench.page.article import PLACE, article_html
-from workbench.page.document import lesson_document, script
+from workbench.page.document import in_script, lesson_document
 from workbench.page.lessons import lesson_data
 
 
@@ -56,11 +56,11 @@ def test_the_document_of_every_lesson_has_its_text_and_no_answer(lesson):
     page = lesson_document(lesson, article_html(lesson, address), home="live", root="page/", source="live.js")
     assert page.count("<form") == len(lesson.questions)
     assert all(f'data-run="{preset.name}"' in page for preset in lesson.presets)
-    said = script(lesson_data(lesson))
+    said = in_script(lesson_data(lesson))
     for question in lesson.questions:
         why = str(question.why(finished(lesson.name, question.params).states()))
         assert why not in page
-        assert script(why)[1:-1] not in said
+        assert in_script(why)[1:-1] not in said
 
 
 def test_what_a_lesson_says_cannot_end_the_script_or_an_attribute():

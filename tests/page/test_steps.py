@@ -31,7 +31,8 @@ def test_the_code_of_a_step_is_its_moment():
     steps = Steps(timeline)
     for k, step in enumerate(timeline.known()):
         assert step.moment is not None
-        code = steps.step(k)["code"]
+        code = steps.code(k)
+        assert code is not None
         _, first = step.moment.source
         assert first + code["line"] == step.moment.line
         assert [row[0] for row in code["locals"]] == [one.name for one in step.moment.variables]

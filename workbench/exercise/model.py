@@ -217,7 +217,7 @@ def exercise_in(module: ModuleType, lesson: str) -> Exercise:
     Raises:
         InputError: If it has no docstring, contract or check, or two of them have one name; names the file.
     """
-    own = [item for item in vars(module).values() if getattr(item, "__module__", "").startswith("workbench.")]
+    own = list(vars(module).values())
     contracts = [item for item in own if isinstance(item, Contract) and _is_of(item.function, module)]
     checks = tuple(item for item in own if isinstance(item, Check) and _is_of(item.judge, module))
     name, task = module.__name__.rpartition(".")[2], " ".join((module.__doc__ or "").split())

@@ -53,5 +53,5 @@ def _term(path: str, words: str) -> str:
 def _around_predict(html: str) -> tuple[str, str]:
     """Split an article where its questions belong: behind the section that asks to predict, else at the end."""
     start = html.find('<section class="s-predict')
-    end = html.find("</section>", start) if start >= 0 else len(html)
+    end = html.find("</section>", start) + len("</section>") if start >= 0 else len(html)
     return html[:end], html[end:]

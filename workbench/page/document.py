@@ -49,13 +49,13 @@ def lesson_document(lesson: Lesson, article: str, *, home: str, root: str, sourc
         '<button type="button" id="theme" title="Light or dark (T)">◐</button>'
         '<button type="button" id="help" title="Keys (?)">?</button></nav>'
         f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}</article>{_stage(home, data)}</main>'
-        f"<script>const LESSON = {script(data)};</script>"
+        f"<script>const LESSON = {in_script(data)};</script>"
         + "".join(f'<script src="{root}{name}"></script>' for name in (source, *SCRIPTS))
         + "</body></html>\n"
     )
 
 
-def script(value: Any) -> str:
+def in_script(value: Any) -> str:
     """Return JSON that may stand in a script."""
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")

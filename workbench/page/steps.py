@@ -29,11 +29,21 @@ class Steps:
         self._lock = threading.Lock()
 
     def step(self, k: int) -> dict[str, Any]:
-        """Return a known step: caption and tone, the numbers of what is `shown`, of the legend and of the source."""
+        """Return a known step: caption and tone, and the numbers of what is `shown` and of the legend."""
         with self._lock:
             if k not in self._steps:
                 self._steps[k] = self._made(self.timeline[k])
             return self._steps[k]
+
+    def code(self, k: int) -> dict[str, Any] | None:
+        """Return where the code stood at a known step, with the number of its source; None where nobody was asked."""
+        moment = self.timeline[k].moment
+        if moment is None:
+            return None
+        name = f"{moment.function.__module__}.{moment.function.__qualname__}"
+        with self._lock:
+            source = self._number({"kind": "source", "name": name, "html": source_html(moment.function)}, name)
+        return {"source": source, **moment_data(moment)}
 
     def series(self) -> dict[str, Any]:
         """Return every scalar over the steps that are known, and the axes of their charts."""
@@ -47,18 +57,12 @@ class Steps:
 
     def _made(self, step: Step) -> dict[str, Any]:
         legend = legend_html(step.scene, self.timeline.lesson.view.grid)
-        made = {
+        return {
             "caption": step.caption.text,
             "tone": step.caption.tone,
             "shown": [self._number(thing, key) for thing, key in things_of(step.scene)],
             "legend": self._number(legend, legend),
         }
-        if step.moment is not None:
-            function = step.moment.function
-            name = f"{function.__module__}.{function.__qualname__}"
-            source = {"kind": "source", "name": name, "html": source_html(function)}
-            made["code"] = {"source": self._number(source, name), **moment_data(step.moment)}
-        return made
 
     def _number(self, thing: Any, key: Any) -> int:
         if key not in self._numbers:

@@ -5,12 +5,13 @@ from collections.abc import Mapping
 from html import escape
 
 from workbench.lesson import Lesson, Question
+from workbench.page.article import PLACE, article_html
 from workbench.publish.ledger import Listed
 from workbench.questions import answer
 from workbench.recording import file_name
 from workbench.session import SPEEDS
 from workbench.timeline import Timelines
-from workbench.typeset import inline_html, page_of
+from workbench.typeset import inline_html
 
 HEAD = """<!doctype html>
 <html lang="en">
@@ -56,8 +57,7 @@ def lesson_page(lesson: Lesson, runs: Mapping[str, tuple[str, str]], timelines: 
         timelines: Where the runs that answer the questions are kept.
         extra: More for the head, such as a canonical address.
     """
-    text = page_of(lesson.text(), lesson.page)
-    before, after = _around_predict(text.replace('<div class="math block">', '<div class="math block" tabindex="0">'))
+    text = article_html(lesson, lambda run, step: f"runs/{run or 'default'}.html")
     questions = "".join(_question(lesson, question, timelines) for question in lesson.questions)
     buttons = "".join(
         f'<li><button type="button" data-run="{escape(name)}" aria-pressed="false">{escape(title)}'
@@ -68,7 +68,7 @@ def lesson_page(lesson: Lesson, runs: Mapping[str, tuple[str, str]], timelines: 
     player = _player("default", root="../", runs="runs/", recording=file_name(lesson, None))
     return (
         f"{head}<body>{TOP.format(root='../', here=f'<span>{escape(lesson.title)}</span>')}"
-        f'<main id="main"><div class="wb">{before}{questions}{after}</div>'
+        f'<main id="main"><div class="wb">{text.replace(PLACE, questions)}</div>'
         f'<div id="stage"><section aria-label="Replay">{player}</section>'
         f'<h2>Runs</h2><ul class="runs">{buttons}</ul></div></main>'
         '<script src="../player.js"></script></body></html>\n'
@@ -147,10 +147,3 @@ def question_run(lesson: Lesson, question: Question) -> str:
     if preset is not None:
         return preset.name
     return next(other.name for other in lesson.questions if other.params == question.params)
-
-
-def _around_predict(html: str) -> tuple[str, str]:
-    """Split a page where its questions belong: behind the section that asks to predict, else at the end."""
-    start = html.find('<section class="s-predict')
-    end = html.find("</section>", start) + len("</section>") if start >= 0 else len(html)
-    return html[:end], html[end:]

@@ -2,7 +2,6 @@
 
 import functools
 import hashlib
-import json
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from workbench import knobs
 from workbench.errors import InputError
 from workbench.flags import show_command
 from workbench.lesson import Lesson, catalog
+from workbench.page.document import in_script
 from workbench.page.steps import Steps
 from workbench.publish.pages import embed_page, question_run
 from workbench.publish.replay import Renderer
@@ -106,12 +106,14 @@ def render(lesson: Lesson, run: Run, renderer: Renderer) -> dict[str, bytes]:
         raise InputError(f"{lesson.name}, {run.title}: {timeline.stopped}")
     page, data = renderer.scene(timeline)
     head, tail = page.split('window.__VISER_EMBED_DATA__=""')
-    viser_page = f"viserPage({_script(head + 'window.__VISER_EMBED_DATA__=' + chr(34))}, {_script(chr(34) + tail)});\n"
+    viser_page = (
+        f"viserPage({in_script(head + 'window.__VISER_EMBED_DATA__=' + chr(34))}, {in_script(chr(34) + tail)});\n"
+    )
     preset = run.name if any(preset.name == run.name for preset in lesson.presets) else None
-    script, alone, recording = files_of(lesson, run)
+    script_file, alone, recording = files_of(lesson, run)
     return {
         VISER_PAGE: viser_page.encode(),
-        script: run_script(lesson, run, timeline, data).encode(),
+        script_file: run_script(lesson, run, timeline, data).encode(),
         alone: embed_page(lesson, run.name, run.title, recording_of(lesson, run)).encode(),
         recording: record_bytes(timeline, preset=preset),
     }
@@ -126,7 +128,7 @@ def run_script(lesson: Lesson, run: Run, timeline: Timeline, scene: str) -> str:
         "reopen": show_command(lesson, run.params),
         "recording": recording_of(lesson, run),
     }
-    return f"replay({_script(run.name)}, {_script(data)});\n"
+    return f"replay({in_script(run.name)}, {in_script(data)});\n"
 
 
 def digest_of(lesson: Lesson, run: Run) -> str:
@@ -143,9 +145,3 @@ def page_digest(lesson: Lesson, address: str) -> str:
     ]
     said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{questions}\0{address}\0{sources_digest(lesson)}"
     return hashlib.sha256(said.encode()).hexdigest()
-
-
-def _script(value: Any) -> str:
-    """Return JSON that may stand in a script."""
-    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
-    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")

@@ -6,6 +6,7 @@ handed through. The token ties a scene to the page that shows it; it is made her
 
 import asyncio
 import contextlib
+import functools
 import io
 import secrets
 import threading
@@ -117,7 +118,7 @@ class Server:
             return
         await socket.accept()
         token = socket.query_params.get("token", "")
-        student = Student(self.lessons, self.timelines, socket.send_text)
+        student = Student(self.lessons, self.timelines, functools.partial(_send, socket))
         if not token or token in self.students:
             await socket.close(4409)
             return
@@ -177,6 +178,11 @@ class Server:
     async def _left(self, client: viser.ClientHandle) -> None:
         for token in [token for token, other in self._scenes.items() if other is client]:
             del self._scenes[token]
+
+
+async def _send(socket: WebSocket, text: str) -> None:
+    with contextlib.suppress(WebSocketDisconnect, RuntimeError):  # it has left
+        await socket.send_text(text)
 
 
 async def _pass_on(inner: Any, socket: WebSocket) -> None:

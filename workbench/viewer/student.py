@@ -40,11 +40,12 @@ class Student:
     Args:
         lessons: All lessons that are served, by name.
         timelines: The runs kept for everybody.
-        send: Sends a text to the page.
+        send: Sends a text to the page; says nothing where the page has left.
     """
 
     def __init__(self, lessons: Mapping[str, Lesson], timelines: Timelines, send: Callable[[str], Awaitable[None]]):
         self.lessons, self.timelines, self._send = lessons, timelines, send
+        self._loop = asyncio.get_running_loop()
         self.session: Session | None = None
         self._wake = asyncio.Event()
         self._client: viser.ClientHandle | None = None
@@ -60,7 +61,10 @@ class Student:
         self._wants_handles = False
 
     def join(self, client: viser.ClientHandle) -> None:
-        """Take the scene of this page, which has come up."""
+        """Take the scene of this page, which has come up; may be called in viser's thread."""
+        self._loop.call_soon_threadsafe(self._join, client)
+
+    def _join(self, client: viser.ClientHandle) -> None:
         self._client, self._sink, self._staged, self._handles = client, ViserSink(client.scene), None, None
         client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=self._dark)
         self._told = None
@@ -72,7 +76,7 @@ class Student:
             message = json.loads(text)
         except (ValueError, RecursionError):
             return
-        if isinstance(message, dict) and message.get("verb") in VERBS:
+        if isinstance(message, dict) and isinstance(message.get("verb"), str) and message["verb"] in VERBS:
             self._waiting.append(message)
             del self._waiting[:-200]
             self._wake.set()
@@ -85,8 +89,6 @@ class Student:
             try:
                 await self._do_what_is_wished()
             except Exception as error:  # a defect of ours: it is told, and the page goes on
-                if isinstance(error, RuntimeError) and "websocket" in str(error).lower():
-                    return  # the page has left
                 tell_terminal(AuthorError(f"a wish could not be fulfilled: {error!r}", traceback.format_exc()))
                 await self._tell(tell="trouble", text="Something went wrong; the terminal of the server says what.")
 
@@ -228,7 +230,11 @@ class Student:
         step = dict(self._steps.step(look.k))
         if look.caption.text != step["caption"] or trouble:
             step |= {"caption": trouble or look.caption.text, "tone": "wrong" if trouble else look.caption.tone}
-        wanted = [*step["shown"], step["legend"], *([step["code"]["source"]] if "code" in step else [])]
+        wanted = [*step["shown"], step["legend"]]
+        code = self._steps.code(look.k)
+        if code is not None:
+            step["code"] = code
+            wanted.append(code["source"])
         new = {n: self._steps.things[n] for n in wanted if n not in self._sent}
         self._sent |= set(new)
         return {"tell": "step", "run": self._run, "k": look.k, "step": step, "things": new}
@@ -243,7 +249,7 @@ class Student:
                     self._set_up(look.lesson)
                 self._sink.show(look.scene)
                 if self._wants_handles and self._handles is None:
-                    self._handles = Handles(self._client.scene, look.lesson.params, self._wish)
+                    self._handles = Handles(self._client.scene, look.lesson.params, self._moved)
                 if self._handles is not None:
                     self._handles.show(look.params)
         except InputError as error:
@@ -264,16 +270,24 @@ class Student:
             self._handles.close()
             self._handles = None
         can_be_picked = any(isinstance(field.knob.by, Pick) for field in fields_of(lesson.params))
-        listen_for_clicks(self._client.scene, self._clicked if can_be_picked else None)
+        listen_for_clicks(self._client.scene, self._clicks if can_be_picked else None)
         self._staged = lesson
+
+    def _clicks(self, p_origin: np.ndarray, v_ray: np.ndarray) -> None:
+        """Note a click in the scene; called in viser's thread."""
+        self._loop.call_soon_threadsafe(self._clicked, p_origin, v_ray)
+
+    def _moved(self, **values: Any) -> None:
+        """Note that a handle was moved; called in viser's thread."""
+        self._loop.call_soon_threadsafe(self._change, values)
 
     def _clicked(self, p_origin: np.ndarray, v_ray: np.ndarray) -> None:
         look = None if self.session is None else self.session.look()
         values = {} if look is None else picked_params(look.params, look.scene, p_origin, v_ray)
         if values:
-            self._wish(**values)
+            self._change(values)
 
-    def _wish(self, **values: Any) -> None:
+    def _change(self, values: Mapping[str, Any]) -> None:
         if self.session is not None:
             self.session.change(**values)
             self._wake.set()

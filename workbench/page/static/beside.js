@@ -83,6 +83,16 @@ const beside = {
     return button;
   },
 
+  // shows something that belongs to no step, until it is closed
+  lay(title, body) {
+    this.large = null;
+    this.show();
+    const close = element("button", { type: "button", className: "close", textContent: "×", ariaLabel: "Close", onclick: () => this.enlarge(null) });
+    $("#large").replaceChildren(close, element("div", { className: "body", tabIndex: 0 }, element("h2", { textContent: title }), body));
+    $("#large").hidden = false;
+    close.focus();
+  },
+
   enlarge(key) {
     this.large = key;
     this.show();

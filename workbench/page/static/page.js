@@ -86,6 +86,7 @@ document.addEventListener("DOMContentLoaded", () => {
   const dark = () => document.documentElement.dataset.theme === "dark";
   const wanted = kept.get("dark") ?? matchMedia("(prefers-color-scheme: dark)").matches;
   const switched = () => { page.theme(!dark()); kept.set("dark", dark()); };
+  $("#help").onclick = keys.others["?"] = () => beside.lay("Keys", keys.told());
   $("#theme").onclick = keys.others.t = switched;
   keys.others.i = () => source.pin?.();
   keys.others.r = () => source.reset?.();

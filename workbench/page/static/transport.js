@@ -59,6 +59,15 @@ const keys = {
   verbs: { n: "next", ArrowRight: "next", p: "back", ArrowLeft: "back", " ": "play", k: "play", Home: "first", End: "last" },
   others: {},  // key -> function: what the other parts of the page add
 
+  // what every key does, as rows of a table; those of what this home cannot do are not in it
+  told() {
+    const rows = [["N, →", "next step"], ["P, ←", "step back"], ["K, space", "play or pause"], ["Home, End", "first, last step"],
+      ["T", "light or dark"], ["Esc", "close what is enlarged"], ["?", "these keys"]];
+    if (source.reset) rows.push(["R", "back to the default run"], ["I", "keep this run behind the next, or let it go"]);
+    if (this.others.h) rows.push(["H", "handles in the scene"]);
+    return element("table", {}, ...rows.map(([key, what]) => element("tr", {}, element("th", { textContent: key }), element("td", { textContent: what }))));
+  },
+
   pressed(event) {
     const typing = event.target.closest("input:not([type=range]), select, textarea, pre");
     const chosen = event.key === " " && event.target.closest("button, a, summary");
