@@ -3,6 +3,7 @@
 import asyncio
 import json
 import threading
+from concurrent.futures import ThreadPoolExecutor
 
 from tests import fake
 from workbench.timeline import Timeline, Timelines
@@ -41,10 +42,13 @@ class Talk:
 
 
 def talk(script) -> None:
+    """Run the script in a thread of its own: a browser test before may have left its loop running in this one."""
+
     async def run() -> None:
         await script(Talk())
 
-    asyncio.run(run())
+    with ThreadPoolExecutor(1) as threads:
+        threads.submit(lambda: asyncio.run(run())).result()
 
 
 def test_steps_are_those_of_the_timeline():
