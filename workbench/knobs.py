@@ -57,6 +57,8 @@ class Knob:
         label: The words on the control; None makes them from the field's name.
         parts: What the entries of a tuple are called, where x, y, z would mislead.
         by: A Gizmo or a Pick where the scene sets it too.
+        needs: Other params and the values they need for this one to have an effect, as {"metric": ("plane",)}; a page greys
+            it out while they have others, and says so. Changing it then changes nothing in the run.
         of_files: It says how to read a person's own files (their unit, which axis is up), and is kept as long as they are.
     """
 
@@ -68,6 +70,7 @@ class Knob:
     label: str | None = None
     parts: tuple[str, ...] = ()
     by: Gizmo | Pick | None = None
+    needs: Mapping[str, tuple[Any, ...]] = dataclasses.field(default_factory=dict, hash=False)
     of_files: bool = False
 
 

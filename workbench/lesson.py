@@ -8,7 +8,7 @@ import inspect
 import pkgutil
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar
@@ -68,6 +68,7 @@ class Preset(Generic[P]):
     """A named set of params: what to look for, and why it happens, in one line.
 
     `step` is where it opens: an index, negative counts from the end; None opens at the lesson's first step worth seeing.
+    `view` is its own camera, where the lesson's does not show what it is about.
     """
 
     name: str
@@ -75,6 +76,18 @@ class Preset(Generic[P]):
     line: str
     params: P
     step: int | None = None
+    view: View | None = None
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """One param of the default run at several values: a knob on pages that cannot compute too.
+
+    `knob` is the name of a field of Params, `values` what it takes, in the order in which they are shown.
+    """
+
+    knob: str
+    values: tuple[Any, ...]
 
 
 @dataclass(frozen=True)
@@ -117,7 +130,12 @@ class Lesson(Generic[P, S]):
         run: Yields states; takes params and, by keyword, the functions an exercise may replace.
         draw: What one state looks like.
         order: The place in the course.
+        view: How the scene is first seen.
+        presets: Named runs worth seeing.
+        questions: What a student predicts before looking.
         first_step: Where the default run opens (negative counts from the end).
+        sweeps: Params whose runs are published at several values.
+        telling: The chart or title of what tells most beside the scene: it is shown first.
     """
 
     name: str
@@ -132,6 +150,8 @@ class Lesson(Generic[P, S]):
     presets: tuple[Preset[P], ...] = ()
     questions: tuple[Question[P, S], ...] = ()
     first_step: int = 0
+    sweeps: tuple[Sweep, ...] = ()
+    telling: str = ""
 
     def __post_init__(self) -> None:
         try:
@@ -159,6 +179,23 @@ class Lesson(Generic[P, S]):
                 self.validated(one.params)
             except InputError as error:
                 yield f", {what} {one.name!r}: {error}"
+
+        for i, sweep in enumerate(self.sweeps, 1):
+            if not sweep.values:
+                yield f", sweep {i}: has no values"
+            try:
+                self.swept(sweep)
+            except (InputError, TypeError) as error:
+                yield f", sweep {i} of {sweep.knob!r}: {error}"
+
+    def swept(self, sweep: Sweep) -> tuple[P, ...]:
+        """Return the params of a sweep's runs: the default's, with its knob at each of its values."""
+        return tuple(self.validated(replace(self.params(), **{sweep.knob: value})) for value in sweep.values)  # type: ignore[type-var]
+
+    def view_of(self, params: P) -> View:
+        """Return how the run of these params is first seen: by its preset's camera where it has one."""
+        preset = self.preset_of(params)
+        return self.view if preset is None or preset.view is None else preset.view
 
     def text(self) -> str:
         """Return the page, Markdown; title and summary where the lesson has none.
