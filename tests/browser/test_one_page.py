@@ -85,7 +85,7 @@ def test_a_knob_a_question_and_the_code(visit):
     turned = Timeline(lesson, lesson.params(start_angle=90.0)).complete()
     me = visit("?lesson=icp")
     me.page.get_by_role("button", name="Knobs").click()
-    me.page.get_by_label("Start angle (deg)").fill("90")
+    me.page.get_by_label("Start angle (deg)", exact=True).fill("90")
     me.says(turned[0].caption.text)
     question = lesson.questions[0]
     found = answer(lesson, question, None, Timelines())

@@ -13,11 +13,11 @@ from workbench.session import SPEEDS
 STATIC = Path(__file__).with_name("static")
 SCRIPTS = ("tools.js", "curves.js", "stage.js", "transport.js", "beside.js", "article.js", "knobs.js", "page.js")
 VERBS = (
-    ("first", "First step (Home)", "M4 3h2v10H4zM14 3v10L6.5 8z"),
-    ("back", "Step back (P)", "M12 3v10L4 8z"),
+    ("first", "First step (Home)", "M1 3h2v10H1zM9 3v10L3.5 8zM15 3v10L9.5 8z"),
+    ("back", "Step back (P)", "M10 3v10L3 8zM11.5 3h2v10h-2z"),
     ("play", "Play (K)", "M4 2.5v11L13.5 8z"),
-    ("next", "Next step (N)", "M4 3v10l8-5z"),
-    ("last", "Last step (End)", "M10 3h2v10h-2zM2 3v10l7.5-5z"),
+    ("next", "Next step (N)", "M2.5 3h2v10h-2zM6 3v10l7-5z"),
+    ("last", "Last step (End)", "M1 3v10l5.5-5zM7 3v10l5.5-5zM13 3h2v10h-2z"),
 )
 """Verb, what it is called, and its sign as the path of a 16 x 16 picture."""
 
@@ -48,7 +48,7 @@ def lesson_document(lesson: Lesson, article: str, *, home: str, root: str, sourc
         f'<main><article id="article"><nav class="top"><a href="{_course(home)}">Geometry workbench</a>'
         '<button type="button" id="theme" title="Light or dark (T)">◐</button>'
         '<button type="button" id="help" title="Keys (?)">?</button></nav>'
-        f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}</article>{_stage(home, data)}</main>'
+        f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}</article><div id="side">{_stage()}</div></main>'
         f"<script>const LESSON = {in_script(data)};</script>"
         + "".join(f'<script src="{root}{name}"></script>' for name in (source, *SCRIPTS))
         + "</body></html>\n"
@@ -75,35 +75,35 @@ def _course(home: str) -> str:
     return "?" if home == "live" else "../index.html"
 
 
-def _stage(home: str, data: dict[str, Any]) -> str:
+def _stage() -> str:
+    """Return the stage. What a home may lack has `data-needs`, the verb of its source that it is shown with."""
     buttons = "".join(
-        f'<button type="button" data-act="{verb}" title="{title}" aria-label="{title}">'
-        f'<svg viewBox="0 0 16 16" aria-hidden="true"><path d="{sign}"/></svg></button>'
+        f'<button type="button" data-act="{verb}" title="{title}" aria-label="{title}">{_sign(sign)}</button>'
         for verb, title, sign in VERBS
     )
-    speeds = "".join(f'<option value="{s:g}"{" selected" if s == 1 else ""}>{s:g}×</option>' for s in SPEEDS)
-    moved = (
-        '<button type="button" id="move" aria-pressed="false" title="Handles in the scene (H)">Move it yourself</button>'
-        if any(knob["by"] == "gizmo" for knob in data["knobs"])
-        else ""
-    )
-    live = (
-        moved + '<button type="button" id="set" aria-expanded="false" aria-controls="drawer">Knobs</button>'
-        '<button type="button" id="pin" aria-pressed="false" title="Keep this run behind the next (I)">Pin</button>'
-        if home == "live"
-        else ""
-    )
-    drawer = '<aside id="drawer" aria-label="Knobs" hidden></aside>' if home == "live" else ""
+    speeds = "".join(f'<option value="{speed:g}">{speed:g}×</option>' for speed in SPEEDS)
     return (
         '<section id="stage" aria-label="Stage"><div id="view"><div id="scene" aria-busy="true"></div>'
-        f'<div id="legend"></div>{drawer}</div>'
+        '<div id="legend"></div><div id="tools" role="group" aria-label="Tools">'
+        '<button type="button" id="move" data-needs="handles" aria-pressed="false" title="Handles in the scene (H)" hidden>'
+        "Move it yourself</button>"
+        '<button type="button" id="pin" data-needs="pin" aria-pressed="false" title="Keep this run behind the next (I)" '
+        "hidden>Pin</button>"
+        '<button type="button" id="set" data-needs="change" aria-expanded="false" aria-controls="drawer" '
+        'title="What this run is made with (S)" hidden>Knobs</button></div>'
+        '<aside id="drawer" aria-label="Knobs" hidden></aside></div>'
         f'<div id="bar" role="group" aria-label="Steps">{buttons}'
         '<input id="step" type="range" min="0" max="0" value="0" aria-label="Step"><output id="count"></output>'
-        f'<select id="speed" aria-label="Speed">{speeds}</select>{live}</div>'
-        '<p id="caption" role="status" aria-live="polite"></p>'
+        '<select id="speed" aria-label="Speed" title="Steps per second"><option value="">Speed</option>'
+        f"{speeds}</select></div>"
+        '<p id="caption" role="status" aria-live="polite"></p></section>'
         '<div id="tiles" role="group" aria-label="Curves, pictures and code of this step"></div>'
-        '<div id="large" role="dialog" aria-label="Enlarged" hidden></div></section>'
+        '<div id="large" role="dialog" aria-label="Enlarged" hidden></div>'
     )
+
+
+def _sign(path: str) -> str:
+    return f'<svg viewBox="0 0 16 16" aria-hidden="true"><path d="{path}"/></svg>'
 
 
 def _question(question: dict[str, Any]) -> str:

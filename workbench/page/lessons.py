@@ -28,6 +28,7 @@ def knob_data(field: Field) -> dict[str, Any]:
         "unit": knob.unit,
         "kind": field.kind,
         "by": "gizmo" if isinstance(knob.by, Gizmo) else "pick" if isinstance(knob.by, Pick) else "slider",
+        "needs": {name: list(wanted) for name, wanted in knob.needs.items()},
         "default": list(field.default) if isinstance(field.default, tuple) else field.default,
     }
     if field.kind == "choice":

@@ -1,14 +1,13 @@
-// Knobs in a drawer over the scene: made from the lesson's params, where a home can change them.
+// Knobs in a drawer beside the scene: made from the lesson's params, where a home can change them.
 "use strict";
 
 const knobs = {
-  inputs: {},  // name -> [input, ...], one for each entry of a vector
+  inputs: {},  // name -> [[slider, number] or [input], ...], one for each entry of a vector
 
   start() {
-    const drawer = $("#drawer");
-    if (!drawer) return;
-    const reset = element("button", { type: "button", textContent: "Reset", onclick: () => source.reset() });
-    drawer.replaceChildren(...LESSON.knobs.map((knob) => this.row(knob)), reset);
+    if (!source.change) return;
+    const reset = element("button", { type: "button", textContent: "Reset", title: "Back to the default run (R)", onclick: () => source.reset() });
+    $("#drawer").replaceChildren(...LESSON.knobs.map((knob) => this.row(knob)), reset);
     $("#set").onclick = () => this.toggle();
   },
 
@@ -16,46 +15,87 @@ const knobs = {
     const drawer = $("#drawer");
     drawer.hidden = !drawer.hidden;
     $("#set").setAttribute("aria-expanded", String(!drawer.hidden));
+    if (!drawer.hidden) $("input, select, button", drawer).focus({ preventScroll: true });
   },
 
   row(knob) {
-    const unit = knob.unit ? ` (${knob.unit})` : "";
-    const box = element("fieldset", { className: "knob" }, element("legend", { textContent: `${knob.label}${unit}`, title: knob.hint }));
-    const parts = knob.kind === "bool" || knob.kind === "choice" ? [""] : knob.parts;
+    const range = knob.low === undefined ? "" : `${number(knob.low)} to ${number(knob.high)}${knob.unit ? ` ${this.unit(knob)}` : ""}`;
+    const box = element("fieldset", { className: "knob" }, element("legend", {}, `${knob.label} `, element("small", { textContent: range })));
+    const hint = element("p", { className: "hint", id: `hint-${knob.name}`, textContent: knob.hint });
+    const parts = knob.parts ?? [""];
     this.inputs[knob.name] = parts.map((part, i) => {
-      const input = this.input(knob, part);
-      const change = () => source.change({ [knob.name]: this.value(knob) });
-      input.addEventListener(knob.kind === "choice" || knob.kind === "bool" ? "change" : "input", change);
-      const shown = element("output");
-      const label = element("label", { title: knob.hint }, element("span", { textContent: part }), input, shown);
-      input.setAttribute("aria-label", `${knob.label} ${part}${unit}`.trim());
-      box.append(label);
-      return input;
+      const inputs = this.made(knob, i);
+      const whole = inputs.length === 1 ? "whole" : "";
+      for (const input of inputs) {
+        input.setAttribute("aria-label", [knob.label, part, knob.unit && `(${knob.unit})`].filter(Boolean).join(" "));
+        input.setAttribute("aria-describedby", hint.id);
+      }
+      if (inputs[1]) inputs[1].setAttribute("aria-label", `${inputs[0].getAttribute("aria-label")}, as a number`);
+      box.append(element("label", { className: whole }, element("span", { textContent: part }), ...inputs));
+      return inputs;
     });
+    box.append(hint, element("p", { className: "why" }));
+    box.dataset.knob = knob.name;
     return box;
   },
 
-  input(knob) {
-    if (knob.kind === "choice") return element("select", {}, ...knob.choices.map((c) => element("option", { value: c, textContent: c })));
-    if (knob.kind === "bool") return element("input", { type: "checkbox" });
-    return element("input", { type: "range", min: knob.low, max: knob.high, step: knob.step });
+  unit: (knob) => (knob.unit === "deg" ? "°" : knob.unit),
+
+  made(knob, i) {
+    if (knob.kind === "choice") {
+      const select = element("select", {}, ...knob.choices.map((c) => element("option", { value: c, textContent: c.replaceAll("_", " ") })));
+      select.addEventListener("change", () => this.wish(knob));
+      return [select];
+    }
+    if (knob.kind === "bool") {
+      const box = element("input", { type: "checkbox" });
+      box.addEventListener("change", () => this.wish(knob));
+      return [box];
+    }
+    const limits = { min: knob.low, max: knob.high, step: knob.step };
+    const slider = element("input", { type: "range", ...limits }), typed = element("input", { type: "number", ...limits, step: "any" });
+    slider.addEventListener("input", () => { typed.value = this.shown(slider.value); this.wish(knob); });
+    typed.addEventListener("change", () => {
+      const value = Math.min(knob.high, Math.max(knob.low, Number(typed.value)));
+      if (typed.value === "" || !Number.isFinite(value)) return void (typed.value = this.shown(slider.value));
+      typed.value = this.shown(value);
+      slider.value = value;
+      this.wish(knob, i, value);
+    });
+    return [slider, typed];
   },
 
-  value(knob) {
-    const values = this.inputs[knob.name].map((input) => input.type === "checkbox" ? input.checked : input.tagName === "SELECT" ? input.value : Number(input.value));
-    return knob.kind === "floats" || knob.kind === "ints" ? values : values[0];
+  // tells what is wanted; a typed number is not rounded to the slider's step
+  wish(knob, typedAt, typed) {
+    const values = this.inputs[knob.name].map(([input], i) =>
+      i === typedAt ? typed : input.type === "checkbox" ? input.checked : input.tagName === "SELECT" ? input.value : Number(input.value));
+    source.change({ [knob.name]: knob.kind === "floats" || knob.kind === "ints" ? values : values[0] });
   },
+
+  shown: (value) => String(Number(Number(value).toPrecision(5))),
 
   // sets every knob to the params of the run, without that being a wish; one that a hand is on leads
   show(params) {
     for (const knob of LESSON.knobs) {
       const values = [params[knob.name]].flat();
-      (this.inputs[knob.name] ?? []).forEach((input, i) => {
-        const said = input.parentElement.querySelector("output");
+      (this.inputs[knob.name] ?? []).forEach((inputs, i) => inputs.forEach((input) => {
         if (input.type === "checkbox") input.checked = values[i];
-        else if (input !== document.activeElement || input.tagName === "SELECT") input.value = values[i];
-        if (input.type === "range") said.textContent = number(values[i]);
-      });
+        else if (input !== document.activeElement || input.tagName === "SELECT") input.value = input.type === "number" ? this.shown(values[i]) : values[i];
+      }));
+      this.ground(knob, params);
     }
+  },
+
+  // greys a knob out that has no effect under what the others say, and says why
+  ground(knob, params) {
+    const box = $(`[data-knob="${CSS.escape(knob.name)}"]`);
+    if (!box) return;
+    const missing = Object.entries(knob.needs ?? {}).filter(([name, wanted]) => !wanted.includes(params[name]));
+    const said = ([name, wanted]) => {
+      const label = LESSON.knobs.find((one) => one.name === name)?.label ?? name;
+      return `${label} is ${wanted.map((value) => value === true ? "on" : value === false ? "off" : value).join(" or ")}`;
+    };
+    box.disabled = missing.length > 0;
+    $(".why", box).textContent = missing.length ? `Has an effect only where ${missing.map(said).join(" and ")}.` : "";
   },
 };

@@ -5,6 +5,9 @@ const page = {
   run: null,  // {id, name, steps, things, series, charts, known, finished, played, seen, pinned}
   k: 0,
 
+  // whether this lesson has what a tool is for
+  can: (tool) => (tool === "move" ? LESSON.knobs.some((knob) => knob.by === "gizmo") : tool === "set" ? LESSON.knobs.length > 0 : true),
+
   known() { return this.run ? this.run.known : 0; },
   step() { return this.run ? this.run.steps[this.k] : undefined; },
 
@@ -29,7 +32,7 @@ const page = {
     } else Object.assign(this.run, data);
     if (data.params) knobs.show(data.params);
     article.show(this.run.name);
-    $("#pin")?.setAttribute("aria-pressed", String(Boolean(this.run.pinned)));
+    $("#pin").setAttribute("aria-pressed", String(Boolean(this.run.pinned)));
     this.draw();
   },
 
@@ -78,6 +81,7 @@ const page = {
 };
 
 document.addEventListener("DOMContentLoaded", () => {
+  for (const tool of $$("[data-needs]")) tool.hidden = !source[tool.dataset.needs] || !page.can(tool.id);
   article.start();
   knobs.start();
   for (const button of $$("[data-act]")) button.addEventListener("click", () => transport.act(button.dataset.act));
@@ -91,12 +95,13 @@ document.addEventListener("DOMContentLoaded", () => {
   keys.others.i = () => source.pin?.();
   keys.others.r = () => source.reset?.();
   keys.others.escape = () => beside.enlarge(null);
-  if ($("#move")) $("#move").onclick = keys.others.h = () => {
+  if (!$("#move").hidden) $("#move").onclick = keys.others.h = () => {
     const on = $("#move").getAttribute("aria-pressed") !== "true";
     $("#move").setAttribute("aria-pressed", String(on));
     source.handles(on);
   };
-  if ($("#pin")) $("#pin").onclick = keys.others.i;
+  $("#pin").onclick = keys.others.i;
+  if (!$("#set").hidden) keys.others.s = () => knobs.toggle();
   source.start();
   page.theme(wanted);
 });

@@ -46,7 +46,11 @@ const transport = {
     else this.again(0.05); // the next step is still being computed
   },
 
-  speed: () => Number($("#speed").value),
+  // steps per second: what was chosen, else what plays the run in about 25 s
+  speed() {
+    const chosen = Number($("#speed").value);
+    return chosen || Math.min(8, Math.max(0.5, page.known() / 25));
+  },
 
   sign() {
     const button = $('[data-act="play"]');
@@ -65,6 +69,7 @@ const keys = {
       ["T", "light or dark"], ["Esc", "close what is enlarged"], ["?", "these keys"]];
     if (source.reset) rows.push(["R", "back to the default run"], ["I", "keep this run behind the next, or let it go"]);
     if (this.others.h) rows.push(["H", "handles in the scene"]);
+    if (this.others.s) rows.push(["S", "knobs"]);
     return element("table", {}, ...rows.map(([key, what]) => element("tr", {}, element("th", { textContent: key }), element("td", { textContent: what }))));
   },
 
