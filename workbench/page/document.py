@@ -84,7 +84,8 @@ def _stage() -> str:
     speeds = "".join(f'<option value="{speed:g}">{speed:g}×</option>' for speed in SPEEDS)
     return (
         '<section id="stage" aria-label="Stage"><div id="view"><div id="scene" aria-busy="true"></div>'
-        '<div id="legend"></div><div id="tools" role="group" aria-label="Tools">'
+        '<div id="legend" role="group" aria-label="Legend" tabindex="0"></div>'
+        '<div id="tools" role="group" aria-label="Tools">'
         '<button type="button" id="move" data-needs="handles" aria-pressed="false" title="Handles in the scene (H)" hidden>'
         "Move it yourself</button>"
         '<button type="button" id="pin" data-needs="pin" aria-pressed="false" title="Keep this run behind the next (I)" '

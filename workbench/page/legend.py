@@ -17,14 +17,18 @@ def css_color(rgb: tuple[int, int, int]) -> str:
 
 
 def legend_html(scene: Scene, grid: float | None) -> str:
-    """Return the legend of a scene: every named thing with its colour, every colour map with its bar and unit."""
-    rows: dict[str, None] = {}
-    for primitive in scene.values():
+    """Return the legend of a scene: every named thing with its colour, every colour map with its bar and unit.
+
+    Each row names the paths of what it is about, so that a page can tell which thing is meant.
+    """
+    rows: dict[str, list[str]] = {}
+    for path, primitive in scene.items():
         for row in _legend_rows(primitive):
-            rows.setdefault(row)
+            rows.setdefault(row, []).append(path)
+    found = [f'<span data-things="{escape("|".join(paths))}">{row}</span>' for row, paths in rows.items()]
     if grid is not None:
-        rows.setdefault(f"<span>grid {grid:g} m</span>")
-    return f'<div class="wb-legend">{"".join(rows)}</div>' if rows else ""
+        found.append(f"<span>grid {grid:g} m</span>")
+    return f'<div class="wb-legend">{"".join(found)}</div>' if found else ""
 
 
 def _legend_rows(primitive: Primitive) -> list[str]:
@@ -45,10 +49,10 @@ def bar_html(field: Field) -> str:
     stops = ",".join(css_color(tuple(color_map(field.map, i / 8).tolist())) for i in range(9))  # type: ignore[arg-type]
     unit = f" {escape(field.unit)}" if field.unit else ""
     return (
-        f'<span>{escape(field.title)}: {field.low:.3g}<b style="background:linear-gradient(90deg,{stops})"></b>'
-        f"{field.high:.3g}{unit}</span>"
+        f'{escape(field.title)}: {field.low:.3g}<b style="background:linear-gradient(90deg,{stops})"></b>'
+        f"{field.high:.3g}{unit}"
     )
 
 
 def _dot(rgb: tuple[int, int, int], label: str) -> str:
-    return f'<span><i style="background:{css_color(rgb)}"></i>{escape(label)}</span>'
+    return f'<i style="background:{css_color(rgb)}"></i>{escape(label)}'

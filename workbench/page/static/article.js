@@ -9,7 +9,7 @@ const article = {
       event.preventDefault();
       const step = link.dataset.step === undefined ? null : Number(link.dataset.step);
       page.open(link.dataset.run, step);
-      if (matchMedia("(max-width: 1099px)").matches) $("#stage").scrollIntoView();
+      if (getComputedStyle($("#stage")).position === "static") $("#stage").scrollIntoView();  // elsewhere it is in view
     });
     document.addEventListener("submit", (event) => {
       const form = event.target.closest("form.question");
@@ -17,6 +17,14 @@ const article = {
       event.preventDefault();
       this.answer(form, event.submitter && event.submitter.value === "skip");
     });
+    const light = (kind, on) => document.addEventListener(kind, ({ target }) => {
+      const term = target.closest(".term, [data-things]");
+      if (term) stage.light(on ? term.dataset.thing ?? term.dataset.things.split("|")[0] : "");
+    });
+    light("pointerover", true);
+    light("focusin", true);
+    light("pointerout", false);
+    light("focusout", false);
     const before = kept.get(`answers ${LESSON.name}`) ?? {};
     for (const form of $$("form.question")) {
       const said = before[form.dataset.question];
@@ -46,7 +54,13 @@ const article = {
     $("output", form).textContent = said;
   },
 
-  show(name) {
-    for (const button of $$("button[data-run]")) button.setAttribute("aria-pressed", String(button.dataset.run === name));
+  // marks the experiment that is open, and the links to the step that is seen
+  show(run, k) {
+    for (const button of $$("button[data-run]")) button.setAttribute("aria-pressed", String(button.dataset.run === run.name));
+    for (const link of $$("a[data-run]")) {
+      const step = Number(link.dataset.step), at = step < 0 ? run.known + step : step;
+      const here = (!link.dataset.run || link.dataset.run === run.name) && link.dataset.step !== undefined && at === k && (step >= 0 || run.finished);
+      link.setAttribute("aria-current", String(here));
+    }
   },
 };

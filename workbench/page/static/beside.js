@@ -28,12 +28,12 @@ const beside = {
     for (const [chart, lines] of charts) found.push(this.series(run, chart, lines));
     step.shown.map((n) => run.things[n]).filter(Boolean).forEach((thing, i) => found.push(this.thing(thing, i)));
     if (step.code && run.things[step.code.source]) found.push(this.code(run.things[step.code.source], step.code));
-    return found;
+    return found.sort((a, b) => Boolean(b.telling) - Boolean(a.telling));
   },
 
   series(run, chart, lines) {
     const axes = run.charts[chart], upto = run.seen ? Infinity : run.played, log = lines[0].log;
-    const said = lines.filter((l) => (l.values[page.k] ?? null) !== null).map((l) => `${l.name} ${number(l.values[page.k])} ${l.unit}`.trim());
+    const said = lines.filter((l) => (l.values[page.k] ?? null) !== null).map((l) => `${l.name} ${measured(l.values[page.k], l.unit)}`);
     const curve = (l, kind, name) => ({
       name, kind, color: l.color, marks: [], x: l.values.map((_, i) => i),
       y: l.values.map((v) => (v !== null && log ? (v > 0 ? Math.log10(v) : null) : v)),
@@ -43,25 +43,26 @@ const beside = {
     const data = { ...axes, title: [axes.head, said.join(" · ")].filter(Boolean).join(": ") || chart, xLabel: "step", curves };
     const whole = () => { // what is pinned is shown to its end: it has been seen
       const drawn = plot({ ...data, curves: [...pinned, ...curves.map((c) => cut(c, upto))] }, [page.k]);
-      return drawn;
+      const more = element("button", { type: "button", textContent: "Show the whole run", onclick: () => { run.seen = true; this.show(); } });
+      return element("div", {}, drawn, ...(run.seen || upto >= page.known() - 1 ? [] : [more]));
     };
-    return { key: `series ${chart}`, title: said.join(" · ") || chart, small: sparkline(data, [page.k], upto), whole };
+    return { key: `series ${chart}`, telling: chart === LESSON.telling, title: said.join(" · ") || chart, small: sparkline(data, [page.k], upto), whole };
   },
 
   thing(thing, i) {
     if (thing.kind === "html") {
       const made = element("div", { innerHTML: thing.html });
       const title = $("strong", made)?.textContent ?? "Table";
-      return { key: `table ${title}`, title, small: `<span class="sign">▤</span>`, whole: () => made };
+      return { key: `table ${title}`, telling: title === LESSON.telling, title, small: `<span class="sign">▤</span>`, whole: () => made };
     }
     if (thing.kind === "curves") {
       const marks = thing.curves.flatMap((c) => c.marks);
-      return { key: `curves ${thing.title}`, title: thing.title, small: sparkline(thing, marks), whole: () => plot(thing, marks) };
+      return { key: `curves ${thing.title}`, telling: thing.title.startsWith(LESSON.telling || "-"), title: thing.title, small: sparkline(thing, marks), whole: () => plot(thing, marks) };
     }
     const whole = () => element("figure", {}, element("figcaption", { textContent: thing.title }),
       element("img", { src: thing.url, alt: thing.title, className: thing.width < 200 ? "pixels" : "" }),
       element("div", { className: "wb-legend", innerHTML: thing.bar }));
-    return { key: `picture ${i}`, title: thing.title, small: `<img src="${thing.url}" alt="">`, whole };
+    return { key: `picture ${i}`, telling: thing.title === LESSON.telling, title: thing.title, small: `<img src="${thing.url}" alt="">`, whole };
   },
 
   code(source, at) {

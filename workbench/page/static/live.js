@@ -38,7 +38,8 @@ const source = {
   reset() { this.send({ verb: "reset" }); },
   pin() { this.send({ verb: "pin" }); },
   handles(on) { this.send({ verb: "handles", on }); },
-  theme(dark) { this.send({ verb: "theme", dark }); },
+  light(path) { this.send({ verb: "light", path }); },
+  theme(dark) { this.send({ verb: "theme", dark, still: matchMedia("(prefers-reduced-motion: reduce)").matches }); },
   predict(question, given) {
     this.given[question] = given;
     this.send({ verb: "predict", question, given });

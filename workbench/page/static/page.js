@@ -31,7 +31,6 @@ const page = {
       this.k = 0;
     } else Object.assign(this.run, data);
     if (data.params) knobs.show(data.params);
-    article.show(this.run.name);
     $("#pin").setAttribute("aria-pressed", String(Boolean(this.run.pinned)));
     this.draw();
   },
@@ -55,6 +54,7 @@ const page = {
 
   draw() {
     transport.show();
+    if (this.run) article.show(this.run, this.k);
     const step = this.step();
     if (!step) return;
     this.say(step.caption, step.tone);

@@ -25,5 +25,12 @@ const stage = {
     $("#scene").removeAttribute("aria-busy");
   },
 
-  legend(html) { $("#legend").innerHTML = html; },
+  legend(html) { if ($("#legend").innerHTML !== html) $("#legend").innerHTML = html; },
+
+  // makes what is at a path, or under it, stand out: in the legend, and in the scene where the home can; "" ends it
+  light(path) {
+    const meant = (one) => path && (one === path || one.startsWith(`${path}/`));
+    for (const row of $$("#legend [data-things]")) row.classList.toggle("lit", row.dataset.things.split("|").some(meant));
+    source.light?.(path);
+  },
 };

@@ -22,6 +22,11 @@ function number(value) {
   return text.replaceAll("-", "−");
 }
 
+// a value with its unit, as a sentence writes it
+function measured(value, unit) {
+  return unit === "deg" || unit === "°" ? `${number(value)}°` : `${number(value)} ${unit ?? ""}`.trim();
+}
+
 // what this browser keeps: `kept.get(key)` is null where nothing is, or where nothing may be kept
 const kept = {
   get(key) { try { return JSON.parse(localStorage.getItem(`workbench ${key}`)); } catch { return null; } },
