@@ -17,7 +17,7 @@ const beside = {
     box.replaceChildren(close, body);
     body.scrollTop = top;
     const line = $(".here", body);
-    if (line) body.scrollTop = line.offsetTop - body.offsetTop - 0.5 * body.clientHeight;
+    if (line && !exercise.scrolled(body)) body.scrollTop = line.offsetTop - body.offsetTop - 0.5 * body.clientHeight;
   },
 
   // {key, title, small: HTML, whole(): element} of everything that can be shown
@@ -41,12 +41,13 @@ const beside = {
     const pinned = (run.pinned ?? []).filter((l) => l.chart === chart).map((l) => curve(l, "pinned", `${l.name}, pinned`));
     const curves = lines.map((l) => curve(l, "line", l.name));
     const data = { ...axes, title: [axes.head, said.join(" · ")].filter(Boolean).join(": ") || chart, xLabel: "step", curves };
+    const marks = [page.k, ...exercise.marks(run)];
     const whole = () => { // what is pinned is shown to its end: it has been seen
-      const drawn = plot({ ...data, curves: [...pinned, ...curves.map((c) => cut(c, upto))] }, [page.k]);
+      const drawn = plot({ ...data, curves: [...pinned, ...curves.map((c) => cut(c, upto))] }, marks);
       const more = element("button", { type: "button", textContent: "Show the whole run", onclick: () => { run.seen = true; this.show(); } });
       return element("div", {}, drawn, ...(run.seen || upto >= page.known() - 1 ? [] : [more]));
     };
-    return { key: `series ${chart}`, telling: chart === LESSON.telling, title: said.join(" · ") || chart, small: sparkline(data, [page.k], upto), whole };
+    return { key: `series ${chart}`, telling: chart === LESSON.telling, title: said.join(" · ") || chart, small: sparkline(data, marks, upto), whole };
   },
 
   thing(thing, i) {
@@ -61,7 +62,7 @@ const beside = {
     }
     const whole = () => element("figure", {}, element("figcaption", { textContent: thing.title }),
       element("img", { src: thing.url, alt: thing.title, className: thing.width < 200 ? "pixels" : "" }),
-      element("div", { className: "wb-legend", innerHTML: thing.bar }));
+      element("div", { className: "wb-legend", innerHTML: `<span>${thing.bar}</span>` }));
     return { key: `picture ${i}`, telling: thing.title === LESSON.telling, title: thing.title, small: `<img src="${thing.url}" alt="">`, whole };
   },
 
@@ -72,6 +73,7 @@ const beside = {
         `<table><thead><tr><th>Variable</th><th>Shape or type</th><th>Value or range</th></tr></thead><tbody>${
           at.locals.map((row) => `<tr>${row.map((cell, i) => `<td>${i ? escape(cell) : `<code>${escape(cell)}</code>`}</td>`).join("")}</tr>`).join("")}</tbody></table>`;
       $(`[data-line="${at.line}"]`, box)?.classList.add("here");
+      exercise.source(box, at);
       return box;
     };
     return { key: "code", title: "Code", small: `<span class="sign">{ }</span>`, whole };

@@ -7,7 +7,7 @@ const knobs = {
   start() {
     if (!source.change) return;
     const reset = element("button", { type: "button", textContent: "Reset", title: "Back to the default run (R)", onclick: () => source.reset() });
-    $("#drawer").replaceChildren(...LESSON.knobs.map((knob) => this.row(knob)), reset);
+    $("#drawer").replaceChildren(...LESSON.knobs.map((knob) => this.row(knob)), ...files.rows(), reset);
     $("#set").onclick = () => this.toggle();
   },
 

@@ -32,6 +32,7 @@ const page = {
     } else Object.assign(this.run, data);
     if (data.params) knobs.show(data.params);
     $("#pin").setAttribute("aria-pressed", String(Boolean(this.run.pinned)));
+    if (data.files) files.show(data.files);
     this.draw();
   },
 
@@ -55,6 +56,7 @@ const page = {
   draw() {
     transport.show();
     if (this.run) article.show(this.run, this.k);
+    exercise.show(this.run);
     const step = this.step();
     if (!step) return;
     this.say(step.caption, step.tone);
@@ -84,6 +86,7 @@ document.addEventListener("DOMContentLoaded", () => {
   for (const tool of $$("[data-needs]")) tool.hidden = !source[tool.dataset.needs] || !page.can(tool.id);
   article.start();
   knobs.start();
+  for (const part of [exercise, thisRun, edited]) part.start();
   for (const button of $$("[data-act]")) button.addEventListener("click", () => transport.act(button.dataset.act));
   $("#step").addEventListener("input", (event) => { transport.pause(); page.seek(Number(event.target.value)); });
   document.addEventListener("keydown", (event) => keys.pressed(event));
