@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tests.browser.chrome import started
 from workbench.lesson import catalog
-from workbench.viewer.app import App
+from workbench.viewer.server import Server
 
 HERE = Path(__file__).parent / "pictures"
 HIDE = ".mantine-Notifications-root{display:none!important}"

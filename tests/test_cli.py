@@ -301,7 +301,7 @@ class TestReplay:
 def opened(monkeypatch) -> list[tuple]:
     """What the live page is opened at, instead of opening it."""
     calls: list[tuple] = []
-    monkeypatch.setattr("workbench.viewer.app.serve", lambda *place, **server: calls.append((*place, server)))
+    monkeypatch.setattr("workbench.viewer.serving.serve", lambda *place, **server: calls.append((*place, server)))
     return calls
 
 

@@ -46,7 +46,8 @@ ALLOWED = {
     "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
                                      "workbench.images", "workbench.progress", "workbench.atomic"},
     "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic"},
-    "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset", "workbench.session"},
+    "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset"},
+    "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.page", "workbench.recording", "workbench.viewer", "workbench.typeset",
         "workbench.session",

@@ -100,7 +100,7 @@ def test_a_lesson_of_the_course_by_its_path_is_loaded_anew_with_all_its_modules(
 
 def test_a_folder_is_shown_recorded_and_opened_again(folder, tmp_path, monkeypatch, capsys):
     opened: list[tuple] = []
-    monkeypatch.setattr("workbench.viewer.app.serve", lambda *place, **_: opened.append(place))
+    monkeypatch.setattr("workbench.viewer.serving.serve", lambda *place, **_: opened.append(place))
     monkeypatch.chdir(tmp_path)
     assert main(["record", "circle", "--preset", "arc", "-o", "arc.rrd"]) == 0
     assert open_recording(tmp_path / "arc.rrd").lesson == "circle"
@@ -114,7 +114,7 @@ def test_a_folder_is_shown_recorded_and_opened_again(folder, tmp_path, monkeypat
 
 def test_a_folder_s_exercise_is_handed_out_watched_checked_and_graded(folder, tmp_path, monkeypatch, capsys):
     watched = []
-    monkeypatch.setattr("workbench.viewer.app.serve", lambda *place, **more: watched.append(more["watched"]))
+    monkeypatch.setattr("workbench.viewer.serving.serve", lambda *place, **more: watched.append(more["watched"]))
     monkeypatch.chdir(tmp_path)
     assert main(["exercise", "--lesson", "circle"]) == 0
     assert capsys.readouterr().out.startswith("circle       fit_circle ")

@@ -10,7 +10,7 @@ from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import catalog
 from workbench.scene import Points, same
-from workbench.session import SPEEDS, Look, Session
+from workbench.session import Look, Session
 from workbench.timeline import Timelines
 
 
@@ -54,19 +54,11 @@ def test_forward_back_and_scrub_show_the_very_same_scene_without_recomputing():
 
 
 @settings(max_examples=40)
-@given(
-    verbs=st.lists(
-        st.sampled_from(["forward", "back", "first", "last", "play", "pause", "tick", "seek", "compute", "change"]),
-        max_size=30,
-    )
-)
+@given(verbs=st.lists(st.sampled_from(["forward", "back", "first", "last", "seek", "compute", "change"]), max_size=30))
 def test_the_step_shown_is_always_one_that_is_known(verbs):
-    session, now = Session(lesson), 0.0
+    session = Session(lesson)
     for i, verb in enumerate(verbs):
-        now += 0.4
-        if verb in ("play", "tick"):
-            getattr(session, verb)(now)
-        elif verb == "seek":
+        if verb == "seek":
             session.seek(i)
         elif verb == "compute":
             session.compute(0.0)
@@ -159,43 +151,21 @@ def test_a_run_without_a_first_step_shows_its_reason():
     assert "not a .npy file" in look.caption.text
 
 
-def test_playing_follows_deadlines_and_stops_at_the_end():
-    session = settled(Params(steps=4))
-    session.set_speed(2.0, 0.0)
-    session.first()
-    session.play(10.0)
-    assert session.tick(10.1) == pytest.approx(10.5)
-    assert session.step == 0
-    assert session.tick(10.52) == pytest.approx(11.0)  # the deadline is kept although the call was late
-    assert session.step == 1
-    session.tick(11.0)
-    session.tick(11.5)
-    assert session.step == 3
-    assert session.tick(12.1) is None
-    assert not session.playing
-    session.play(20.0)
-    assert session.step == 0
-
-
-def test_playing_waits_for_steps_that_are_still_computed():
-    session = Session(lesson)
-    session.compute(0.0)
-    session.first()
-    session.play(0.0)
-    session.tick(1.0)
-    assert session.playing
-    assert session.step == 0
+def test_another_version_of_the_lesson_goes_on_where_one_is_and_keeps_what_is_pinned():
+    session = settled(Params(angle=30.0))
+    session.seek(3)
+    session.pin()
+    session.go_on(dataclasses.replace(lesson), session.params)
+    assert session.timeline.lesson is not lesson
+    session.go_on(dataclasses.replace(lesson), session.params)  # saved again before a step was known
     finish(session)
-    session.tick(2.0)
-    assert session.step == 1
-
-
-@pytest.mark.parametrize("speed", [None, 0, 3.0, "fast", float("nan")])
-def test_an_unknown_speed_is_ignored(speed):
-    session = settled()
-    session.set_speed(speed, 0.0)
-    assert session.speed == 1.0
-    assert session.speed in SPEEDS
+    look = seen(session)
+    assert (look.k, look.params) == (3, Params(angle=30.0))
+    assert look.pinned
+    session.last()
+    session.go_on(lesson, Params(steps=9))
+    finish(session)
+    assert session.step == 8
 
 
 def test_a_pinned_run_stays_as_ghost_and_curve():

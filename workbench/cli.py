@@ -33,7 +33,7 @@ def command(function: Command) -> Command:
 
 def serve(serving: Serving) -> None:
     """Serve all lessons and open the course page."""
-    from workbench.viewer.app import serve as serve_page
+    from workbench.viewer.serving import serve as serve_page
 
     serve_page(host=serving.host, port=serving.port, browser=serving.browser)
 
@@ -56,7 +56,7 @@ def show(
     ] = None,
 ) -> None:
     """Open one lesson in the browser, at these params; one given by its path is loaded again when its files are saved."""
-    from workbench.viewer.app import serve as serve_page
+    from workbench.viewer.serving import serve as serve_page
 
     _try_first_step(run.lesson, run.params)
     if step is None and run.preset is not None:
@@ -111,7 +111,7 @@ def reopen(
 ) -> None:
     """Open the live lesson at the params of a recording."""
     from workbench.recording.read import reopening
-    from workbench.viewer.app import serve as serve_page
+    from workbench.viewer.serving import serve as serve_page
 
     given = None if lesson is None else lesson_given(lesson)
     found, params, warnings = reopening(file, given, files=files)

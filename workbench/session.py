@@ -1,6 +1,6 @@
-"""One person's place in the course: which lesson, which params, which step, playing or not. Knows no viewer.
+"""One person's place in the course: which lesson, which params, which step. Knows no viewer; playing is the page's own.
 
-A viewer calls the verbs (`seek`, `change`, `play`, ...), lets `compute` run somewhere off its event loop while `pending`,
+A viewer calls the verbs (`seek`, `change`, `pin`, ...), lets `compute` run somewhere off its event loop while `pending`,
 and shows what `look` returns. The latest wish wins: `compute` gives up a run as soon as another one is wanted.
 """
 
@@ -16,8 +16,6 @@ from workbench.scene import Caption, Scene, ghost
 from workbench.timeline import Series, Timeline, Timelines
 from workbench.tracing import Moment
 
-SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Look:
@@ -31,7 +29,7 @@ class Look:
         caption: The step's caption, or what went wrong.
         moment: Where the algorithm stood.
         series, pinned_series: Every scalar over the steps, of this run and of the pinned one.
-        playing, speed, pinned: As they are.
+        pinned: Whether a run is pinned.
     """
 
     lesson: Lesson
@@ -45,8 +43,6 @@ class Look:
     moment: Moment | None
     series: Mapping[str, Series]
     pinned_series: Mapping[str, Series]
-    playing: bool
-    speed: float
     pinned: bool
 
 
@@ -62,7 +58,6 @@ class Session:
         params: What is wanted.
         timeline: The run of these params.
         message: What the person gave that could not be used, or None.
-        playing, speed: As they are; steps per second.
     """
 
     def __init__(
@@ -73,9 +68,7 @@ class Session:
     ):
         self.lesson, self.slots = lesson, dict(slots or {})
         self.timelines = Timelines() if timelines is None else timelines
-        self.playing, self.speed = False, 1.0
         self.message: str | None = None
-        self._due = 0.0
         self._pinned: tuple[Timeline, int] | None = None
         self._shown: Timeline | None = None  # the run whose picture stays until the wanted one has a first step
         self._last_k = 0
@@ -93,7 +86,7 @@ class Session:
         """
         params = lesson.validated(params if params is not None else lesson.params())
         other = lesson is not self.lesson
-        self.lesson, self.playing, self.message = lesson, False, None
+        self.lesson, self.message = lesson, None
         if other:
             self._pinned, self._shown, self.slots = None, None, {}
         self._go(params)
@@ -101,6 +94,17 @@ class Session:
             self._start(f"lesson {lesson.name}", lesson.first_step)
         else:
             self._want(lesson.first_step if step is None else step)
+
+    def go_on(self, lesson: Lesson, params: Any) -> None:
+        """Go on in another version of the lesson, at the step that is wanted; what is pinned stays.
+
+        Raises:
+            InputError: If the params are not the lesson's; nothing has changed then.
+        """
+        pinned, wanted = self._pinned, self._wanted
+        self.open(lesson, params)
+        self._pinned = pinned
+        self._want(wanted)
 
     def change(self, **values: Any) -> None:
         """Set params; numbers out of range go to the nearer end. What cannot be used becomes the caption, no more."""
@@ -162,54 +166,15 @@ class Session:
 
     def back(self) -> None:
         """Go one step back: a look-up."""
-        self.playing = False
         self.seek(self.step - 1)
 
     def first(self) -> None:
         """Go to the first step."""
-        self.playing = False
         self.seek(0)
 
     def last(self) -> None:
         """Go to the last step, as soon as it is known."""
-        self.playing = False
         self._want(-1)
-
-    def play(self, now: float) -> None:
-        """Start playing, from the start when at the end; the next step is due one period from now (seconds)."""
-        if self.timeline.finished and self.step >= len(self.timeline) - 1:
-            self.seek(0)
-        else:
-            self.seek(self.step)
-        self.playing, self._due = True, now + 1.0 / self.speed
-
-    def pause(self) -> None:
-        """Stop playing."""
-        self.playing = False
-
-    def set_speed(self, speed: Any, now: float) -> None:
-        """Set the steps per second to one of SPEEDS; anything else is ignored."""
-        if speed in SPEEDS:
-            self.speed = float(speed)
-            self._due = min(self._due, now + 1.0 / self.speed)
-
-    def tick(self, now: float) -> float | None:
-        """Take the step that is due, if any; return when the next one is due, None when not playing.
-
-        Steps follow deadlines, so a late call does not slow the playing down; steps are never skipped.
-        """
-        if not self.playing:
-            return None
-        if now >= self._due:
-            if self.step + 1 < len(self.timeline):
-                self._want(self.step + 1)
-                self._due = max(self._due + 1.0 / self.speed, now)
-            elif self.timeline.finished:
-                self.playing = False
-                return None
-            else:
-                self._due = now + 0.02  # the next step is still being computed
-        return self._due
 
     # computing and looking ------------------------------------------------------------------------------------------
 
@@ -253,8 +218,6 @@ class Session:
             moment=step.moment,
             series=timeline.series(),
             pinned_series=pinned_series,
-            playing=self.playing,
-            speed=self.speed,
             pinned=self.pinned,
         )
 
@@ -298,7 +261,5 @@ class Session:
             moment=None,
             series={},
             pinned_series={},
-            playing=False,
-            speed=self.speed,
             pinned=self.pinned,
         )

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from workbench.viewer.app import App
+from workbench.viewer.server import Server
 
 
 @pytest.fixture(scope="session")

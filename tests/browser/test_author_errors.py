@@ -12,7 +12,7 @@ from workbench import links
 from workbench.knobs import Knob
 from workbench.lesson import Lesson, Preset, Question
 from workbench.scene import Caption, Mesh, Points, Scene
-from workbench.viewer.app import App
+from workbench.viewer.server import Server
 from workbench.viewer.sink import ViserSink
 
 pytestmark = pytest.mark.browser

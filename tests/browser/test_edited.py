@@ -9,7 +9,7 @@ from workbench import links
 from workbench.authoring.reloading import Edited
 from workbench.lesson import catalog
 from workbench.loading import load
-from workbench.viewer.app import App
+from workbench.viewer.server import Server
 
 pytestmark = pytest.mark.browser
 CIRCLE = Path(__file__).resolve().parents[1] / "authors" / "circle"

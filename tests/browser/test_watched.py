@@ -5,7 +5,7 @@ import pytest
 from workbench import links
 from workbench.exercise.watching import Watched
 from workbench.lesson import catalog
-from workbench.viewer.app import App
+from workbench.viewer.server import Server
 
 pytestmark = pytest.mark.browser
 TRANSPOSED = """import numpy as np

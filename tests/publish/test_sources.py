@@ -94,7 +94,7 @@ def test_a_lesson_depends_on_what_runs_draws_records_and_renders_it(name):
         "workbench/publish/replay.py",
     } <= found
     others = tuple(f"lessons/{other}/" for other in catalog() if other != name)
-    beside = ("workbench/cli.py", "workbench/exercise/", "workbench/viewer/page.py", "workbench/publish/site.py")
+    beside = ("workbench/cli.py", "workbench/exercise/", "workbench/viewer/server.py", "workbench/publish/site.py")
     assert not [file for file in found if file.startswith((*others, *beside))]
 
 

@@ -26,7 +26,9 @@ def recorded(folder: Path, name: str, **params) -> Path:
 def opened(monkeypatch) -> list[tuple[Lesson, object]]:
     """What the live page is opened at, instead of opening it."""
     calls: list[tuple[Lesson, object]] = []
-    monkeypatch.setattr("workbench.viewer.app.serve", lambda lesson, params, step, **_: calls.append((lesson, params)))
+    monkeypatch.setattr(
+        "workbench.viewer.serving.serve", lambda lesson, params, step, **_: calls.append((lesson, params))
+    )
     return calls
 
 

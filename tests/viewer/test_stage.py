@@ -4,22 +4,19 @@ import viser
 
 from workbench.lesson import View, catalog
 from workbench.recording.layout import scene_view
-from workbench.viewer.stage import add_floor, framed
+from workbench.viewer.stage import NARROWEST, add_floor, eye_of
 
 
 @pytest.mark.parametrize("name", list(catalog()))
-def test_a_framed_view_has_the_target_farther_away_and_higher_up(name):
+def test_a_narrow_picture_shows_as_much_in_its_width_as_a_wide_one(name):
     view = catalog()[name].view
-    eye, target = framed(view, 1.8, 0.58)
-    forward = (target - eye) / np.linalg.norm(target - eye)
-    right = np.cross(forward, view.up)
-    right /= np.linalg.norm(right)
-    p = np.array(view.target) - eye
-    height = np.tan(np.radians(view.fov_degrees) / 2)
-    assert p @ right / (p @ forward) == pytest.approx(0, abs=1e-9)
-    assert p @ np.cross(right, forward) / (p @ forward) == pytest.approx(0.58 * height)
-    assert p @ forward == pytest.approx(1.8 * np.linalg.norm(np.array(view.eye) - view.target))
-    np.testing.assert_allclose(framed(view, 1.0, 0.0), (view.eye, view.target), atol=1e-12)
+    away = view.seen_from() - np.array(view.target)
+    for aspect in (1.6, NARROWEST):
+        np.testing.assert_allclose(eye_of(view, aspect), view.seen_from())
+    narrow = eye_of(view, 0.6) - np.array(view.target)
+    assert np.linalg.norm(narrow) * 0.6 == pytest.approx(np.linalg.norm(away) * NARROWEST)
+    np.testing.assert_allclose(np.cross(narrow, away), 0, atol=1e-9)
+    assert np.isfinite(eye_of(view, 0.0)).all()  # a picture that has no size yet
 
 
 DOWN = View(eye=(0.0, 0.0, 4.0))
@@ -36,9 +33,9 @@ DOWN = View(eye=(0.0, 0.0, 4.0))
     ],
 )
 def test_a_view_along_its_up_is_one_picture_with_a_right_and_an_up(view, right, upwards):
-    for back, raised in ((1.0, 0.0), (1.8, 0.58)):
-        eye, target = framed(view, back, raised)
-        assert np.isfinite([eye, target]).all()
+    for aspect in (1.6, 0.6):
+        eye, target = eye_of(view, aspect), np.array(view.target)
+        assert np.isfinite(eye).all()
         v_ahead = (target - eye) / np.linalg.norm(target - eye)
         v_right = np.cross(v_ahead, view.up) / np.linalg.norm(np.cross(v_ahead, view.up))
         np.testing.assert_allclose(v_right, right, atol=1e-6)

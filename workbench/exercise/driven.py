@@ -29,6 +29,7 @@ class Pair:
         ours: The reference's state.
         theirs: The state of the student's run.
         trouble: Why there is none.
+        line: The student's own line where it went wrong, 0 where it did not or the line is not known.
         difference: How far the two scenes are apart.
         first: Whether this is the first step at which they differ.
         scene: The student's scene; ours where there is none.
@@ -38,6 +39,7 @@ class Pair:
     ours: Any
     theirs: Any
     trouble: str
+    line: int
     difference: float
     first: bool
     scene: Scene
@@ -60,12 +62,13 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             except StopIteration:
                 return
             except Exception as error:
-                yield Pair(state_ours, None, _trouble(error, exercise), float("nan"), not differed, scene_ours, {})
+                trouble, line = _trouble(error, exercise)
+                yield Pair(state_ours, None, trouble, line, float("nan"), not differed, scene_ours, {})
                 return
             difference = gap(scene_ours, scene)
             differs = not difference <= TOLERANCE
             behind = ghost(scene_ours, scene) if differs else {}
-            yield Pair(state_ours, state, "", difference, differs and not differed, scene, behind)
+            yield Pair(state_ours, state, "", 0, difference, differs and not differed, scene, behind)
             differed = differed or differs
 
     def draw(pair: Pair) -> Scene:
@@ -82,12 +85,12 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
     return replace(lesson, run=run, draw=draw, questions=())
 
 
-def _trouble(error: Exception, exercise: Exercise) -> str:
-    """Say what went wrong: the student's own error, or that the lesson cannot use what came back."""
+def _trouble(error: Exception, exercise: Exercise) -> tuple[str, int]:
+    """Say what went wrong, and in which line: the student's own error, or that the lesson cannot use what came back."""
     if isinstance(error, StudentError):
-        return str(error)
+        return str(error), error.line
     said = " ".join(str(error).split())[:200]
-    return f"The lesson cannot go on with what {exercise.name} returned ({type(error).__name__}: {said})."
+    return f"The lesson cannot go on with what {exercise.name} returned ({type(error).__name__}: {said}).", 0
 
 
 def _difference(value: float) -> Scalar:

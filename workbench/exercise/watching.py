@@ -37,6 +37,11 @@ class Watched:
         self.lesson = driven(lesson, self.exercise, self._student)
         self.said: Report | str = RUNNING
 
+    @property
+    def source(self) -> str:
+        """The file's text as it drives the lesson."""
+        return self._student.source
+
     def changed(self) -> bool:
         """Load the file again if it was saved since; tell whether it was."""
         stamp = self._stamp_now()

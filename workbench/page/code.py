@@ -20,13 +20,22 @@ def moment_data(moment: Moment) -> dict[str, Any]:
 def source_html(function: Callable[..., Any]) -> str:
     """Return a function's source as HTML, every line with its number in the file and `data-line`, from 0."""
     lines, first = source_of(function)
-    rows = [
-        f'<div data-line="{i}"><span class="n">{first + i}</span>{line or " "}</div>'
-        for i, line in enumerate(_highlighted("\n".join(lines)))
-    ]
+    rows = _rows("\n".join(lines), first)
     start, end = _long_docstring("\n".join(lines))
     folded = f"<details><summary>{rows[start]}</summary>{''.join(rows[start + 1 : end])}</details>" if end else ""
     return f"{''.join(rows[:start])}{folded}{''.join(rows[end:])}"
+
+
+def text_html(source: str) -> str:
+    """Return any Python as HTML, such as a student's file, every line with its number and `data-line`, from 1."""
+    return "".join(_rows(source.rstrip(), 1, 1))
+
+
+def _rows(source: str, first: int, start: int = 0) -> list[str]:
+    return [
+        f'<div data-line="{i + start}"><span class="n">{first + i}</span>{line or " "}</div>'
+        for i, line in enumerate(_highlighted(source))
+    ]
 
 
 def _long_docstring(source: str) -> tuple[int, int]:

@@ -8,10 +8,14 @@ from typing import Any
 from workbench.lesson import Lesson
 from workbench.page.article import PLACE
 from workbench.page.lessons import lesson_data
-from workbench.session import SPEEDS
 
 STATIC = Path(__file__).with_name("static")
-SCRIPTS = ("tools.js", "curves.js", "stage.js", "transport.js", "beside.js", "article.js", "knobs.js", "page.js")
+SCRIPTS = (
+    "tools.js", "curves.js", "stage.js", "transport.js", "beside.js", "article.js", "knobs.js", "files.js", "exercise.js",
+    "run.js", "edited.js", "progress.js", "page.js",
+)  # fmt: skip
+SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
+"""Steps a second of Play, as a page offers them."""
 VERBS = (
     ("first", "First step (Home)", "M4 3h2v10H4zM14 3v10L6.5 8z"),
     ("back", "Step back (P)", "M12 3v10L4 8z"),
@@ -22,7 +26,9 @@ VERBS = (
 """Verb, what it is called, and its sign as the path of a 16 x 16 picture."""
 
 
-def lesson_document(lesson: Lesson, article: str, *, home: str, root: str, source: str, head: str = "") -> str:
+def lesson_document(
+    lesson: Lesson, article: str, *, home: str, root: str, source: str, head: str = "", ending: str = ""
+) -> str:
     """Return the document of a lesson.
 
     Args:
@@ -32,6 +38,7 @@ def lesson_document(lesson: Lesson, article: str, *, home: str, root: str, sourc
         root: The relative address of the folder with the page's own files.
         source: The file name of the script that feeds the page in this home.
         head: More HTML for the head.
+        ending: What stands behind the text and its experiments, as HTML.
     """
     data = lesson_data(lesson)
     questions = "".join(_question(question) for question in data["questions"])
@@ -48,7 +55,7 @@ def lesson_document(lesson: Lesson, article: str, *, home: str, root: str, sourc
         f'<main><article id="article"><nav class="top"><a href="{_course(home)}">Geometry workbench</a>'
         '<button type="button" id="theme" title="Light or dark (T)">◐</button>'
         '<button type="button" id="help" title="Keys (?)">?</button></nav>'
-        f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}</article>{_stage(home, data)}</main>'
+        f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}{ending}</article>{_stage(home, data)}</main>'
         f"<script>const LESSON = {in_script(data)};</script>"
         + "".join(f'<script src="{root}{name}"></script>' for name in (source, *SCRIPTS))
         + "</body></html>\n"
@@ -72,7 +79,7 @@ def _head(title: str, summary: str, root: str, more: str) -> str:
 
 
 def _course(home: str) -> str:
-    return "?" if home == "live" else "../index.html"
+    return "?course" if home == "live" else "../index.html"
 
 
 def _stage(home: str, data: dict[str, Any]) -> str:
@@ -115,7 +122,7 @@ def _question(question: dict[str, Any]) -> str:
         )
     else:
         unit = escape(f" ({question['unit']})") if question["unit"] else ""
-        inputs = f'<label>Your prediction{unit} <input type="number" step="any" name="given"></label>'
+        inputs = f'<label>Your prediction{unit} <input inputmode="decimal" autocomplete="off" name="given"></label>'
     return (
         f'<form class="question" data-question="{name}"><fieldset><legend>{question["html"]}</legend>{inputs}</fieldset>'
         '<button type="submit" value="answer">Answer</button> '

@@ -13,6 +13,11 @@ def lesson_data(lesson: Lesson) -> dict[str, Any]:
         "name": lesson.name,
         "title": lesson.title,
         "knobs": [knob_data(field) for field in fields_of(lesson.params) if field.kind != "path"],
+        "files": [
+            {"name": field.name, "label": field.label, "hint": field.knob.hint}
+            for field in fields_of(lesson.params)
+            if field.kind == "path"
+        ],
         "presets": [preset_data(lesson, preset) for preset in lesson.presets],
         "questions": [question_data(question) for question in lesson.questions],
     }

@@ -6,10 +6,10 @@ from html import escape
 
 from workbench.lesson import Lesson, Question
 from workbench.page.article import PLACE, article_html
+from workbench.page.document import SPEEDS
 from workbench.publish.ledger import Listed
 from workbench.questions import answer
 from workbench.recording import file_name
-from workbench.session import SPEEDS
 from workbench.timeline import Timelines
 from workbench.typeset import inline_html
 

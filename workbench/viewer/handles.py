@@ -1,4 +1,4 @@
-"""Handles in the scene that set a lesson's params: a person drags them, and they follow what is set elsewhere."""
+"""What in the scene sets a lesson's params: handles that a person drags, and that follow what is set elsewhere; clicks."""
 
 import itertools
 from collections.abc import Callable
@@ -65,3 +65,14 @@ class Handles:
             self._change(**{field.name: values})
 
         return handle
+
+
+def listen_for_clicks(scene: viser.SceneApi, clicked: Callable[[np.ndarray, np.ndarray], None] | None) -> None:
+    """Call `clicked` with the eye and the direction of every click in the scene; None listens no more."""
+    scene.remove_click_callback()
+    if clicked is None:
+        return
+
+    @scene.on_click()  # type: ignore[arg-type]
+    async def _(event: Any) -> None:
+        clicked(np.array(event.ray_origin), np.array(event.ray_direction))

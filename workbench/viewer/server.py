@@ -10,7 +10,7 @@ import functools
 import io
 import secrets
 import threading
-from collections.abc import AsyncIterator, Mapping
+from collections.abc import AsyncIterator
 from typing import Any
 
 import httpx
@@ -19,20 +19,25 @@ import viser
 import websockets
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import FileResponse, HTMLResponse, PlainTextResponse, Response
+from starlette.responses import FileResponse, HTMLResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from workbench import links
+from workbench.authoring.reloading import Edited, carried
 from workbench.errors import InputError
+from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson, catalog
-from workbench.page.article import article_html
-from workbench.page.document import SCRIPTS, STATIC, lesson_document
+from workbench.page.document import SCRIPTS, STATIC
 from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
+from workbench.viewer.documents import course_page, lesson_page, start_address
+from workbench.viewer.following import Following
 from workbench.viewer.student import Student
+from workbench.viewer.transfers import receive, recording
 
-FILES = ("page.css", "live.js", *SCRIPTS)
+FILES = ("page.css", "ending.css", "course.css", "live.js", *SCRIPTS)
+FRESH = {"cache-control": "no-store"}  # every page has a token of its own
 LONGEST = 20_000  # characters of a message from a browser
 
 
@@ -40,12 +45,22 @@ class Server:
     """A running server.
 
     Args:
-        start: Where browsers begin whose address names no lesson; None is the first lesson.
+        start: Where browsers begin whose address names no lesson; None is the course page.
         host, port: Where it listens; port 0 picks a free one.
+        watched: A student's file that drives the lesson of `start`; loaded again whenever it is saved.
+        edited: The lesson of `start` where it was given by its path; loaded again whenever one of its files is saved.
     """
 
-    def __init__(self, start: links.Place | None = None, *, host: str = "127.0.0.1", port: int = 0):
-        self.lessons: Mapping[str, Lesson] = dict(catalog()) | ({start.lesson.name: start.lesson} if start else {})
+    def __init__(
+        self,
+        start: links.Place | None = None,
+        *,
+        host: str = "127.0.0.1",
+        port: int = 0,
+        watched: Watched | None = None,
+        edited: Edited | None = None,
+    ):
+        self.lessons: dict[str, Lesson] = dict(catalog()) | ({start.lesson.name: start.lesson} if start else {})
         self.timelines, self._start = Timelines(), start
         self.students: dict[str, Student] = {}
         self._scenes: dict[str, viser.ClientHandle] = {}
@@ -66,8 +81,14 @@ class Server:
         self.port = self._uvicorn.servers[0].sockets[0].getsockname()[1]
         self.address = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::', '') else host}:{self.port}"
 
+        self.following = start and Following(
+            start.lesson, watched, edited, self._replace, lambda: list(self.students.values())
+        )
+
     def stop(self) -> None:
         """Stop listening and end all pages."""
+        if self.following is not None:
+            self.following.close()
         self._uvicorn.should_exit = True
         self._thread.join()
         with contextlib.redirect_stdout(io.StringIO()):
@@ -82,6 +103,8 @@ class Server:
                 Route("/page/math.css", self._math),
                 Route("/page/{file}", self._file),
                 WebSocketRoute("/live", self._live),
+                Route("/recording/{token}", self._recording),
+                Route("/files/{token}/{field}", self._receive, methods=["POST"]),
                 Route("/scene/{token}/", self._scene),
                 WebSocketRoute("/scene/{token}", self._scene_socket),
                 WebSocketRoute("/scene/{token}/", self._scene_socket),
@@ -95,15 +118,38 @@ class Server:
             yield
 
     async def _page(self, request: Request) -> Response:
+        named, trouble = request.query_params.get("lesson"), None
+        if named is None and self._start is not None and "course" not in request.query_params:
+            return RedirectResponse(start_address(self._start, request.url.query), headers=FRESH)
+        lesson = self.lessons.get(named or "")
         try:
-            place = links.read(request.url.query, here=self._start.lesson if self._start else None) or self._start
-        except InputError:
-            place = None  # the page's websocket tells what is wrong
-        name = request.query_params.get("lesson", "")
-        lesson = place.lesson if place else self.lessons.get(name) or next(iter(self.lessons.values()))
-        article = await asyncio.to_thread(article_html, lesson, lambda run, step: _address(lesson, run, step))
-        page = lesson_document(lesson, article, home="live", root="page/", source="live.js")
-        return HTMLResponse(page.replace("<body ", f'<body data-token="{secrets.token_hex(12)}" ', 1))
+            place = links.read(request.url.query, here=lesson)
+            lesson = place.lesson if place else None
+        except InputError as error:
+            trouble = str(error)  # of a lesson that is here, the page's websocket tells it
+        if lesson is None:
+            return HTMLResponse(await asyncio.to_thread(course_page, self.lessons, trouble), headers=FRESH)
+        watched = self.following.watched if self.following else None
+        page = await asyncio.to_thread(lesson_page, lesson, self.lessons, watched)
+        token = f'<body data-token="{secrets.token_hex(12)}" '
+        return HTMLResponse(page.replace("<body ", token, 1), headers=FRESH)
+
+    def _pages(self) -> list[Student]:
+        return list(self.students.values())
+
+    def _replace(self, before: Lesson, after: Lesson) -> None:
+        """Serve another version of the lesson of `start`."""
+        assert self._start is not None, "a lesson is followed where browsers begin"
+        if after.name != before.name:
+            del self.lessons[before.name]
+        self.lessons[after.name] = after
+        self._start = links.Place(after, carried(self._start.params, after), self._start.step)
+
+    async def _recording(self, request: Request) -> Response:
+        return await recording(self.students.get(request.path_params["token"]))
+
+    async def _receive(self, request: Request) -> Response:
+        return await receive(request, self.students.get(request.path_params["token"]))
 
     async def _math(self, request: Request) -> Response:
         return PlainTextResponse(await asyncio.to_thread(math_font_css), media_type="text/css")
@@ -119,6 +165,7 @@ class Server:
         await socket.accept()
         token = socket.query_params.get("token", "")
         student = Student(self.lessons, self.timelines, functools.partial(_send, socket))
+        student.start, student.following = self._start, self.following
         if not token or token in self.students:
             await socket.close(4409)
             return
@@ -135,6 +182,7 @@ class Server:
         finally:
             working.cancel()
             self.students.pop(token, None)
+            student.close()
 
     # the scene ------------------------------------------------------------------------------------------------------
 
@@ -194,8 +242,3 @@ async def _pass_on(inner: Any, socket: WebSocket) -> None:
 def _same_origin(socket: WebSocket) -> bool:
     origin = socket.headers.get("origin")
     return origin is not None and origin.partition("//")[2] == socket.headers.get("host")
-
-
-def _address(lesson: Lesson, run: str, step: int | None) -> str:
-    preset = f"&preset={run}" if run not in ("", "default") else ""
-    return f"?lesson={lesson.name}{preset}" + ("" if step is None else f"&step={step}")

@@ -9,31 +9,24 @@ BACKDROPS = {False: (255, 255, 255), True: (20, 21, 23)}  # viser's canvas in th
 _PLANES = ("yz", "xz", "xy")
 
 
-def set_stage(client: viser.ClientHandle, view: View, framing: tuple[float, float] = (1.0, 0.0)) -> None:
-    """Put a client's camera, grid and axes where a lesson wants them, framed for the client's screen."""
+NARROWEST = 1.2  # width of a picture by its height; in a narrower one a lesson is seen from farther away
+
+
+def set_stage(client: viser.ClientHandle, view: View) -> None:
+    """Put a client's camera, grid and axes where a lesson wants them, fitted to the width of its picture."""
     add_floor(client.scene, view)
-    eye, target = framed(view, *framing)
+    aspect = client.camera.image_width / max(client.camera.image_height, 1)
     with client.atomic():
         client.camera.up_direction = np.array(view.up)
-        client.camera.position = eye
-        client.camera.look_at = target
+        client.camera.position = eye_of(view, aspect)
+        client.camera.look_at = np.array(view.target)
         client.camera.fov = float(np.radians(view.fov_degrees))
 
 
-def framed(view: View, back: float, raised: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return eye and target from which a lesson's own target is seen `back` times as far away and higher up.
-
-    Args:
-        view: What the lesson asks for.
-        back: How many times as far away.
-        raised: How far above the middle the lesson's target stands, in half heights of the picture.
-    """
+def eye_of(view: View, aspect: float) -> np.ndarray:
+    """Return the eye from which as much is seen in the width of a picture as in one of NARROWEST."""
     target = np.array(view.target)
-    ahead = back * (target - view.seen_from())
-    right = np.cross(ahead, view.up)
-    up = np.cross(right, ahead)
-    shift = raised * np.tan(np.radians(view.fov_degrees) / 2) * np.linalg.norm(ahead) * up / np.linalg.norm(up)
-    return target - ahead - shift, target - shift
+    return target + max(1.0, NARROWEST / max(aspect, 0.1)) * (view.seen_from() - target)
 
 
 def add_floor(scene: viser.SceneApi, view: View) -> None:

@@ -5,28 +5,32 @@ Messages are JSON. From the page: {"verb": ..., ...} with the verbs of VERBS. To
 """
 
 import asyncio
+import contextlib
 import json
 import traceback
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from typing import Any
 
 import numpy as np
 import viser
 
 from workbench import links
+from workbench.authoring.reloading import carried
 from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
+from workbench.exercise.driven import Pair, first_difference
 from workbench.flags import show_command
-from workbench.knobs import Pick, fields_of
-from workbench.lesson import Lesson
+from workbench.knobs import Pick, fields_of, with_own_files
+from workbench.lesson import Lesson, View
 from workbench.page.charts import series_of
 from workbench.page.steps import Steps
 from workbench.picking import picked_params
 from workbench.questions import answer
 from workbench.session import Look, Session
 from workbench.timeline import Timelines
-from workbench.viewer.controls import listen_for_clicks
-from workbench.viewer.handles import Handles
+from workbench.viewer.following import Following
+from workbench.viewer.handles import Handles, listen_for_clicks
+from workbench.viewer.own_files import OwnFiles
 from workbench.viewer.sink import ViserSink
 from workbench.viewer.stage import BACKDROPS, set_stage
 from workbench.viewer.terminal import tell_terminal
@@ -46,11 +50,17 @@ class Student:
     def __init__(self, lessons: Mapping[str, Lesson], timelines: Timelines, send: Callable[[str], Awaitable[None]]):
         self.lessons, self.timelines, self._send = lessons, timelines, send
         self._loop = asyncio.get_running_loop()
+        self.start: links.Place | None = None  # where browsers begin; its own files are kept
+        self.following: Following | None = None
+        self.files = OwnFiles()
+        self._news: list[Mapping[str, Any]] = []  # what the page is told next, of the files behind its lesson
         self.session: Session | None = None
         self._wake = asyncio.Event()
         self._client: viser.ClientHandle | None = None
         self._sink: ViserSink | None = None
         self._staged: Lesson | None = None
+        self._view: View | None = None  # wanted; a camera that a person turned stays as long as this does
+        self._aimed: tuple[str, View] | None = None
         self._steps: Steps | None = None
         self._sent: set[int] = set()  # numbers of things of this run that the page has
         self._told: Any = None  # what was last said of the run
@@ -66,6 +76,7 @@ class Student:
 
     def _join(self, client: viser.ClientHandle) -> None:
         self._client, self._sink, self._staged, self._handles = client, ViserSink(client.scene), None, None
+        self._aimed = None
         client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=self._dark)
         self._told = None
         self._wake.set()
@@ -80,6 +91,10 @@ class Student:
             self._waiting.append(message)
             del self._waiting[:-200]
             self._wake.set()
+
+    def close(self) -> None:
+        """Remove what is kept for this page alone."""
+        self.files.close()
 
     async def work(self) -> None:
         """Do what is wished for, as long as the page is open."""
@@ -98,7 +113,11 @@ class Student:
             try:
                 await VERBS[message["verb"]](self, message)
             except InputError as error:
+                tell_terminal(error)
                 await self._tell(tell="trouble", text=str(error))
+        news, self._news = self._news, []
+        for told in news:
+            await self._tell(**told)
         session = self.session
         if session is None:
             return
@@ -121,10 +140,17 @@ class Student:
             trouble = str(error)
         if place is None and lesson is not None:
             place = links.Place(lesson, lesson.params())
-        if place is not None:
-            session = self.session or Session(place.lesson, self.timelines)
-            session.open(place.lesson, place.params, place.step)
-            session.message, self.session = trouble, session
+        if place is None:
+            return
+        params, start = place.params, self.start
+        if start is not None and start.lesson is place.lesson:
+            params = with_own_files(params, start.params)
+        session = self.session or Session(place.lesson, self.timelines)
+        session.open(place.lesson, params, place.step)
+        session.message, self.session = trouble, session
+        self._look_anew()
+        if self.following is not None:
+            self._news += self.following.news(place.lesson)
 
     async def seek(self, message: Mapping[str, Any]) -> None:
         """Go to a step; negative counts from the end."""
@@ -143,6 +169,7 @@ class Student:
             session.use_preset(name)
         if isinstance(step, int):
             session.open(session.lesson, session.params, step)
+        self._look_anew()
 
     async def change(self, message: Mapping[str, Any]) -> None:
         """Set params; files are not set from a browser."""
@@ -155,6 +182,15 @@ class Student:
         """Go back to the default run."""
         if self.session is not None:
             self.session.reset()
+            self._look_anew()
+
+    async def forget(self, message: Mapping[str, Any]) -> None:
+        """Go on without a file of one's own."""
+        session, name = self.session, message.get("field")
+        if session is not None and name in {
+            field.name for field in fields_of(session.lesson.params) if field.sensitive
+        }:
+            session.change(**{str(name): None})
 
     async def pin(self, message: Mapping[str, Any]) -> None:
         """Keep the run that is shown behind the next ones, or let it go."""
@@ -170,9 +206,16 @@ class Student:
         question = next((one for one in lesson.questions if one.name == message.get("question")), None)
         if question is None:
             return
-        found = await asyncio.to_thread(answer, lesson, question, message.get("given"), self.timelines)
+        try:
+            with Blaming(f"lesson {lesson.name}, question {question.name!r}", question.answer):
+                found = await asyncio.to_thread(answer, lesson, question, message.get("given"), self.timelines)
+        except InputError as error:
+            tell_terminal(error)
+            await self._tell(tell="answer", question=question.name, trouble=str(error))
+            return
         await self._tell(tell="answer", question=question.name, right=found.right, truth=found.truth, why=found.why)
         session.open(lesson, question.params, found.step)
+        self._look_anew()
 
     async def handles(self, message: Mapping[str, Any]) -> None:
         """Show the handles in the scene, or hide them."""
@@ -187,6 +230,52 @@ class Student:
         if self._client is not None and self._sink is not None:
             self._client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=self._dark)
             self._sink.repaint(BACKDROPS[self._dark])
+
+    # what comes from elsewhere ---------------------------------------------------------------------------------------
+
+    async def take_file(self, field: str, name: str, parts: AsyncIterator[bytes]) -> None:
+        """Set a field of Params to a person's own file; the folder it is in goes with this page.
+
+        Raises:
+            InputError: If the lesson takes no such file, or it cannot be kept.
+        """
+        session = self.session
+        if session is None or field not in {one.name for one in fields_of(session.lesson.params) if one.sensitive}:
+            raise InputError("this lesson takes no such file")
+        path = await self.files.keep(field, name, parts)
+        self._change({field: path})
+
+    def go_on(self, before: Lesson, after: Lesson, news: Mapping[str, Any] | None) -> None:
+        """Go on in another version of a lesson, at the same params and step, where it is open; called in another thread."""
+        self._soon(self._go_on, before, after, news)
+
+    def tell_where(self, lesson: Lesson, news: Mapping[str, Any]) -> None:
+        """Tell the page something, where that lesson is open; called in another thread."""
+        self._soon(self._tell_where, lesson, news)
+
+    def _soon(self, act: Callable[..., None], *args: Any) -> None:
+        with contextlib.suppress(RuntimeError):  # the server has stopped
+            self._loop.call_soon_threadsafe(act, *args)
+
+    def _go_on(self, before: Lesson, after: Lesson, news: Mapping[str, Any] | None) -> None:
+        session = self.session
+        if session is None or session.lesson is not before:
+            return
+        view = before.view_of(session.params)
+        session.go_on(after, carried(session.params, after))
+        if view != after.view_of(session.params):
+            self._look_anew()
+        self._tell_where(after, news or {"tell": "notice", "text": ""})
+
+    def _tell_where(self, lesson: Lesson, news: Mapping[str, Any]) -> None:
+        if self.session is not None and self.session.lesson is lesson:
+            self._news.append(news)
+            self._wake.set()
+
+    def _look_anew(self) -> None:
+        """Take the camera of the run that was opened."""
+        if self.session is not None:
+            self._view = self.session.lesson.view_of(self.session.params)
 
     # telling --------------------------------------------------------------------------------------------------------
 
@@ -220,6 +309,12 @@ class Student:
             "known": look.known,
             "finished": look.finished,
             "pinned": series_of(look.pinned_series) if look.pinned else None,
+            "mark": first_difference(look.timeline.known()),
+            "files": {
+                field.name: value.name
+                for field in fields_of(type(params))
+                if field.sensitive and (value := getattr(params, field.name)) is not None
+            },
             "command": show_command(lesson, params),
             "query": links.write(links.Place(lesson, params)),
             **self._steps.series(),
@@ -233,7 +328,8 @@ class Student:
         wanted = [*step["shown"], step["legend"]]
         code = self._steps.code(look.k)
         if code is not None:
-            step["code"] = code
+            state = look.timeline[look.k].state
+            step["code"] = code | ({"wrong": state.line} if isinstance(state, Pair) and state.line else {})
             wanted.append(code["source"])
         new = {n: self._steps.things[n] for n in wanted if n not in self._sent}
         self._sent |= set(new)
@@ -247,6 +343,7 @@ class Student:
             with Blaming(f"lesson {look.lesson.name}", look.lesson.draw), self._client.atomic():
                 if self._staged is not look.lesson:
                     self._set_up(look.lesson)
+                self._aim(look)
                 self._sink.show(look.scene)
                 if self._wants_handles and self._handles is None:
                     self._handles = Handles(self._client.scene, look.lesson.params, self._moved)
@@ -260,18 +357,30 @@ class Student:
         return None
 
     def _set_up(self, lesson: Lesson) -> None:
-        """Empty the stage, and make it the lesson's: camera, grid, and clicks that set its params."""
+        """Make the stage a lesson's: its handles, and clicks that set its params."""
         assert self._client is not None
         assert self._sink is not None
-        self._sink.show({})
-        set_stage(self._client, lesson.view)
-        self._sink.repaint(BACKDROPS[self._dark])
+        if self._staged is None:
+            self._sink.repaint(BACKDROPS[self._dark])
         if self._handles is not None:
             self._handles.close()
             self._handles = None
         can_be_picked = any(isinstance(field.knob.by, Pick) for field in fields_of(lesson.params))
         listen_for_clicks(self._client.scene, self._clicks if can_be_picked else None)
         self._staged = lesson
+
+    def _aim(self, look: Look) -> None:
+        """Set camera and grid where a run with another view was opened; a knob keeps the camera as long as the grid fits."""
+        assert self._client is not None
+        assert self.session is not None
+        if self._aimed is not None and look.timeline is not self.session.timeline:
+            return  # the picture is of the run before
+        own = look.timeline.lesson.view_of(look.timeline.params)
+        if self._view is None or (self._view.grid, self._view.grid_height) != (own.grid, own.grid_height):
+            self._view = own
+        if self._aimed != (look.lesson.name, self._view):
+            set_stage(self._client, self._view)
+            self._aimed = (look.lesson.name, self._view)
 
     def _clicks(self, p_origin: np.ndarray, v_ray: np.ndarray) -> None:
         """Note a click in the scene; called in viser's thread."""
@@ -302,6 +411,7 @@ VERBS: Mapping[str, Callable[[Student, Mapping[str, Any]], Awaitable[None]]] = {
     "run": Student.run,
     "change": Student.change,
     "reset": Student.reset,
+    "forget": Student.forget,
     "pin": Student.pin,
     "predict": Student.predict,
     "handles": Student.handles,

@@ -17,6 +17,11 @@ const article = {
       event.preventDefault();
       this.answer(form, event.submitter && event.submitter.value === "skip");
     });
+    this.recall();
+  },
+
+  // shows what was answered in this browser before
+  recall() {
     const before = kept.get(`answers ${LESSON.name}`) ?? {};
     for (const form of $$("form.question")) {
       const said = before[form.dataset.question];
@@ -25,17 +30,18 @@ const article = {
   },
 
   answer(form, skip) {
-    const chosen = $("input[type=radio]:checked", form), typed = $("input[type=number]", form);
-    const given = skip ? null : chosen ? chosen.value : typed && typed.value !== "" ? Number(typed.value) : undefined;
-    if (given === undefined) $("output", form).textContent = "Choose or type an answer first, or skip.";
+    const chosen = $("input[type=radio]:checked", form), typed = $("input:not([type])", form);
+    const given = skip ? null : chosen ? chosen.value : typed ? numberIn(typed.value) : undefined;
+    if (given === undefined) $("output", form).textContent = `${typed ? "Type a number" : "Choose an answer"} first, or skip.`;
     else source.predict(form.dataset.question, given);
   },
 
   // what came of a prediction; it stays answered in this browser
-  answered({ question, given, right, truth, why }) {
+  answered({ question, given, right, truth, why, trouble }) {
     const said = `${given === null ? `The answer: ${truth}.` : right ? `Right: ${truth}.` : `You said ${given}; the run says ${truth}.`} ${why}`;
     const form = $(`form.question[data-question="${CSS.escape(question)}"]`);
     if (!form) return;
+    if (trouble) return void ($("output", form).textContent = trouble);
     this.tell(form, { said, right, skipped: given === null });
     kept.set(`answers ${LESSON.name}`, { ...kept.get(`answers ${LESSON.name}`), [question]: { said, right, skipped: given === null } });
   },

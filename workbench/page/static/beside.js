@@ -17,7 +17,7 @@ const beside = {
     box.replaceChildren(close, body);
     body.scrollTop = top;
     const line = $(".here", body);
-    if (line) body.scrollTop = line.offsetTop - body.offsetTop - 0.5 * body.clientHeight;
+    if (line && !exercise.scrolled(body)) body.scrollTop = line.offsetTop - body.offsetTop - 0.5 * body.clientHeight;
   },
 
   // {key, title, small: HTML, whole(): element} of everything that can be shown
@@ -41,11 +41,12 @@ const beside = {
     const pinned = (run.pinned ?? []).filter((l) => l.chart === chart).map((l) => curve(l, "pinned", `${l.name}, pinned`));
     const curves = lines.map((l) => curve(l, "line", l.name));
     const data = { ...axes, title: [axes.head, said.join(" · ")].filter(Boolean).join(": ") || chart, xLabel: "step", curves };
+    const marks = [page.k, ...exercise.marks(run)];
     const whole = () => { // what is pinned is shown to its end: it has been seen
-      const drawn = plot({ ...data, curves: [...pinned, ...curves.map((c) => cut(c, upto))] }, [page.k]);
+      const drawn = plot({ ...data, curves: [...pinned, ...curves.map((c) => cut(c, upto))] }, marks);
       return drawn;
     };
-    return { key: `series ${chart}`, title: said.join(" · ") || chart, small: sparkline(data, [page.k], upto), whole };
+    return { key: `series ${chart}`, title: said.join(" · ") || chart, small: sparkline(data, marks, upto), whole };
   },
 
   thing(thing, i) {
@@ -71,6 +72,7 @@ const beside = {
         `<table><thead><tr><th>Variable</th><th>Shape or type</th><th>Value or range</th></tr></thead><tbody>${
           at.locals.map((row) => `<tr>${row.map((cell, i) => `<td>${i ? escape(cell) : `<code>${escape(cell)}</code>`}</td>`).join("")}</tr>`).join("")}</tbody></table>`;
       $(`[data-line="${at.line}"]`, box)?.classList.add("here");
+      exercise.source(box, at);
       return box;
     };
     return { key: "code", title: "Code", small: `<span class="sign">{ }</span>`, whole };

@@ -15,9 +15,7 @@ function plot({ title, xLabel, yLabel, curves, x: across, y: up }, marks, upto =
   across.ticks.forEach((x, i) => parts.push(
     `<text x="${px(x)}" y="${height - bottom + 14}" text-anchor="middle">${escape(across.words[i])}</text>`));
   for (const curve of curves) parts.push(...drawn(cut(curve, upto), px, py));
-  for (const mark of marks) {
-    parts.push(`<line class="mark" x1="${px(mark)}" x2="${px(mark)}" y1="${top}" y2="${height - bottom}"/>`);
-  }
+  for (const mark of marks) parts.push(stroke(mark, px, top, height - bottom));
   parts.push(`<text x="${(left + width) / 2}" y="${height - 4}" text-anchor="middle">${escape(xLabel)}</text>`,
     `<text transform="translate(11 ${(height - bottom) / 2}) rotate(-90)" text-anchor="middle">${escape(yLabel)}</text>`);
   const key = curves.length > 1
@@ -34,8 +32,15 @@ function sparkline({ curves, x: across, y: up }, marks, upto = Infinity) {
   const px = (x) => 2 + ((x - across.low) / (across.high - across.low)) * 116;
   const py = (y) => 46 - ((y - up.low) / (up.high - up.low)) * 44;
   const parts = curves.flatMap((curve) => drawn(cut(curve, upto), px, py));
-  for (const mark of marks) parts.push(`<line class="mark" x1="${px(mark)}" x2="${px(mark)}" y1="1" y2="47"/>`);
+  for (const mark of marks) parts.push(stroke(mark, px, 1, 47));
   return `<svg viewBox="0 0 120 48" aria-hidden="true" preserveAspectRatio="none">${parts.join("")}</svg>`;
+}
+
+// a vertical line: where one is, or, given as {at, title}, what is worth a look
+function stroke(mark, px, top, bottom) {
+  const { at, title } = mark.title ? mark : { at: mark };
+  return `<line class="${title ? "mark noted" : "mark"}" x1="${px(at)}" x2="${px(at)}" y1="${top}" y2="${bottom}">${
+    title ? `<title>${escape(title)}</title>` : ""}</line>`;
 }
 
 function cut(curve, upto) {

@@ -8,7 +8,7 @@ const knobs = {
     const drawer = $("#drawer");
     if (!drawer) return;
     const reset = element("button", { type: "button", textContent: "Reset", onclick: () => source.reset() });
-    drawer.replaceChildren(...LESSON.knobs.map((knob) => this.row(knob)), reset);
+    drawer.replaceChildren(...LESSON.knobs.map((knob) => this.row(knob)), ...files.rows(), reset);
     $("#set").onclick = () => this.toggle();
   },
 

@@ -3,6 +3,7 @@
 
 const source = {
   socket: null, waiting: [], given: {},
+  tells: {},  // what is told -> function: what the other parts of the page hear
 
   start() {
     const { token } = document.body.dataset;
@@ -24,6 +25,7 @@ const source = {
     else if (tell === "step") page.came(run, more.k, more.step, more.things);
     else if (tell === "answer") article.answered({ ...more, given: this.given[more.question] ?? null });
     else if (tell === "trouble") page.say(more.text, "wrong");
+    else this.tells[tell]?.(more);
   },
 
   send(message) {
@@ -39,6 +41,12 @@ const source = {
   pin() { this.send({ verb: "pin" }); },
   handles(on) { this.send({ verb: "handles", on }); },
   theme(dark) { this.send({ verb: "theme", dark }); },
+  forget(field) { this.send({ verb: "forget", field }); },
+  recording() { return fetch(`recording/${document.body.dataset.token}`); },
+  upload(field, file) {
+    const address = `files/${document.body.dataset.token}/${encodeURIComponent(field)}?name=${encodeURIComponent(file.name)}`;
+    return fetch(address, { method: "POST", body: file });
+  },
   predict(question, given) {
     this.given[question] = given;
     this.send({ verb: "predict", question, given });

@@ -28,6 +28,7 @@ const page = {
       this.k = 0;
     } else Object.assign(this.run, data);
     if (data.params) knobs.show(data.params);
+    if (data.files) files.show(data.files);
     article.show(this.run.name);
     $("#pin")?.setAttribute("aria-pressed", String(Boolean(this.run.pinned)));
     this.draw();
@@ -52,6 +53,7 @@ const page = {
 
   draw() {
     transport.show();
+    exercise.show(this.run);
     const step = this.step();
     if (!step) return;
     this.say(step.caption, step.tone);
@@ -80,6 +82,7 @@ const page = {
 document.addEventListener("DOMContentLoaded", () => {
   article.start();
   knobs.start();
+  for (const part of [exercise, thisRun, edited]) part.start();
   for (const button of $$("[data-act]")) button.addEventListener("click", () => transport.act(button.dataset.act));
   $("#step").addEventListener("input", (event) => { transport.pause(); page.seek(Number(event.target.value)); });
   document.addEventListener("keydown", (event) => keys.pressed(event));

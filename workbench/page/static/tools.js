@@ -22,6 +22,12 @@ function number(value) {
   return text.replaceAll("-", "−");
 }
 
+// the number that a person typed, with a point or a comma before its decimals; undefined where it is none
+function numberIn(text) {
+  const said = text.trim().replace("−", "-").replace(",", ".");
+  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(said) && Number.isFinite(Number(said)) ? Number(said) : undefined;
+}
+
 // what this browser keeps: `kept.get(key)` is null where nothing is, or where nothing may be kept
 const kept = {
   get(key) { try { return JSON.parse(localStorage.getItem(`workbench ${key}`)); } catch { return null; } },

@@ -57,6 +57,7 @@ const transport = {
 
 const keys = {
   verbs: { n: "next", ArrowRight: "next", p: "back", ArrowLeft: "back", " ": "play", k: "play", Home: "first", End: "last" },
+  more: [],  // [key, what it does]: those that other parts of the page add
   others: {},  // key -> function: what the other parts of the page add
 
   // what every key does, as rows of a table; those of what this home cannot do are not in it
@@ -65,7 +66,7 @@ const keys = {
       ["T", "light or dark"], ["Esc", "close what is enlarged"], ["?", "these keys"]];
     if (source.reset) rows.push(["R", "back to the default run"], ["I", "keep this run behind the next, or let it go"]);
     if (this.others.h) rows.push(["H", "handles in the scene"]);
-    return element("table", {}, ...rows.map(([key, what]) => element("tr", {}, element("th", { textContent: key }), element("td", { textContent: what }))));
+    return element("table", {}, ...rows.concat(this.more).map(([key, what]) => element("tr", {}, element("th", { textContent: key }), element("td", { textContent: what }))));
   },
 
   pressed(event) {

@@ -7,33 +7,22 @@ import numpy as np
 import pytest
 
 from tests import fake
-from workbench.page.charts import outline
+from workbench.page.charts import chart_of, outline
 from workbench.page.steps import Steps
 from workbench.scene import Caption, Curve, Scalar
 from workbench.timeline import Timeline
-from workbench.viewer.charts import joined
 
 
 def curve(x, y, kind: Any = "line") -> Curve:
     return Curve(np.array(x, float), np.array(y, float), "a", "chart", "x", "y", kind=kind)
 
 
-@pytest.mark.parametrize("kinds", [("line", "line"), ("bars", "line"), ("bars", "bars")])
-def test_two_curves_of_a_chart_keep_their_own_points(kinds):
-    drawn = [outline(curve([3, 0, 1], [1, 2, 5], kinds[0])), outline(curve([0.5, 2.5], [4, 3], kinds[1]))]
-    x, *columns = joined(drawn)
-    assert (np.diff(x) >= 0).all()
-    for (own_x, own_y), column in zip(drawn, columns, strict=True):
-        known = np.isfinite(column)
-        np.testing.assert_array_equal(x[known], own_x)
-        np.testing.assert_array_equal(column[known], own_y)
-
-
-def test_curves_over_one_x_keep_it():
-    x, first, second = joined([(np.arange(3.0), np.arange(3.0)), (np.arange(3.0), np.array([1.0, np.nan, 3.0]))])
-    np.testing.assert_array_equal(x, [0, 1, 2])
-    np.testing.assert_array_equal(first, [0, 1, 2])
-    np.testing.assert_array_equal(second, [1, np.nan, 3])
+@pytest.mark.parametrize("kinds", [("line", "line"), ("bars", "line"), ("bars", "bars"), ("dots", "line")])
+def test_two_curves_of_a_chart_keep_their_own_points_and_gaps(kinds):
+    given = [([3, 0, 1], [1, 2, float("nan")], kinds[0]), ([0.5, 2.5], [4, 3], kinds[1])]
+    first, second = chart_of([curve(*one) for one in given])["curves"]
+    assert (first["x"], first["y"], first["kind"]) == ([0, 1, 3], [2, None, 1], kinds[0])
+    assert (second["x"], second["y"], second["kind"]) == ([0.5, 2.5], [4, 3], kinds[1])
 
 
 def test_bars_stand_on_zero_at_their_own_x_with_their_own_heights():

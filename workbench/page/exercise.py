@@ -1,0 +1,63 @@
+"""A lesson's exercises on its page: the task and the contract as HTML, and what the checks found as plain data."""
+
+from collections.abc import Iterable
+from html import escape
+from typing import Any
+
+from workbench.exercise.grading import Report
+from workbench.exercise.model import Exercise
+from workbench.exercise.reports import MARKS, counted
+from workbench.exercise.starter import commands, starter
+
+
+def exercises_html(exercises: Iterable[Exercise]) -> str:
+    """Return the section of a lesson's exercises; nothing where it has none."""
+    tasks = "".join(_task(exercise) for exercise in exercises)
+    return f'<section class="s-exercise" id="exercise"><h2>Exercise</h2>{tasks}</section>' if tasks else ""
+
+
+def watched_html(exercise: Exercise, file: str) -> str:
+    """Return the section of the exercise whose function, in a student's file, drives the lesson."""
+    return (
+        f'<section class="s-exercise" id="exercise"><h2>Your {escape(exercise.name)}</h2>'
+        f"<p><code>{escape(file)}</code> drives this lesson; save it, and the run is new. Where the two differ, the run of "
+        'the reference is the faint ghost.</p><p><button type="button" id="difference" disabled>Go to the first difference'
+        '</button></p><div class="report" role="status"></div>'
+        f"{_task(exercise, alone=True)}</section>"
+    )
+
+
+def report_data(said: Report | str) -> dict[str, Any]:
+    """Return what the checks found of a student's file, in the words of the terminal; text where they found nothing."""
+    if isinstance(said, str):
+        return {"said": said}
+    return {
+        "said": counted(said),
+        "mistake": "" if said.mistake is None else said.mistake.sentence,
+        "checks": [
+            {
+                "mark": MARKS[outcome.verdict.word],
+                "word": outcome.verdict.word,
+                "promise": outcome.check.promise,
+                "points": f"{outcome.points:g}/{outcome.check.points:g}",
+                "message": outcome.verdict.message,
+            }
+            for outcome in said.outcomes
+        ],
+        "printed": said.printed.strip()[-400:],
+    }
+
+
+def _task(exercise: Exercise, *, alone: bool = False) -> str:
+    promises = "".join(
+        f"<li>{escape(check.promise)} ({check.points:g})</li>" for check in exercise.checks if check.public
+    )
+    hidden = sum(not check.public for check in exercise.checks)
+    more = f"<li>{hidden} more that are run where a class is graded</li>" if hidden else ""
+    begin = "" if alone else f"<pre>{escape(chr(10).join(commands(exercise)))}</pre>"
+    title = "The task" if alone else escape(exercise.name)
+    return (
+        f'<div class="task"><h3>{title}</h3><p>{escape(exercise.task)}</p>{begin}'
+        f"<details><summary>The contract</summary><pre>{escape(starter(exercise))}</pre></details>"
+        f"<details><summary>What is checked</summary><ul>{promises}{more}</ul></details></div>"
+    )

@@ -1,0 +1,41 @@
+// Own files: fields of Params that name a file are set by handing one over, where a home takes files.
+"use strict";
+
+const files = {
+  boxes: {},  // name -> {said, forget, shown} of each field
+
+  rows() {
+    this.boxes = {};
+    return source.upload ? LESSON.files.map((field) => this.row(field)) : [];
+  },
+
+  row(field) {
+    const said = element("output"), input = element("input", { type: "file", ariaLabel: `${field.label}: a file of your own` });
+    const forget = element("button", { type: "button", textContent: "Remove", ariaLabel: `Go on without ${field.label}`, hidden: true,
+      onclick: () => { input.value = ""; source.forget(field.name); } });
+    input.addEventListener("change", () => input.files.length && this.hand(field, input, said));
+    this.boxes[field.name] = { said, forget, input };
+    return element("fieldset", { className: "knob file", title: field.hint }, element("legend", { textContent: field.label }), input,
+      element("div", {}, said, forget));
+  },
+
+  async hand(field, input, said) {
+    said.textContent = "Handing it over …";
+    try {
+      const answer = await source.upload(field.name, input.files[0]);
+      said.textContent = answer.ok ? "" : await answer.text();
+      if (!answer.ok) input.value = "";
+    } catch {
+      said.textContent = "The file could not be handed over.";
+    }
+  },
+
+  // names of the files that are open, by field: of one that came from the command line the page has no input
+  show(open) {
+    for (const [name, { said, forget, input }] of Object.entries(this.boxes)) {
+      forget.hidden = !(name in open);
+      if (name in open) said.textContent = input.files.length ? "" : open[name];
+      else if (!input.files.length) said.textContent = "";
+    }
+  },
+};

@@ -1,0 +1,52 @@
+// What can be done with the run that is open: a recording of it, a link to it, the command that opens it.
+"use strict";
+
+const thisRun = {
+  start() {
+    const section = $("#this-run");
+    if (!section) return;
+    const said = element("output", { ariaLive: "polite" });
+    const button = (textContent, act) => element("button", { type: "button", textContent, onclick: (event) => act(event.target, said) });
+    const buttons = [button("Copy link", () => this.copy(this.link(), "The link to this step is copied.", said)),
+      button("Copy command", () => this.copy(page.run?.command, "The command is copied.", said))];
+    if (source.recording) buttons.push(button("Download recording", (own) => this.record(own, said)));
+    section.replaceChildren($("h2", section), element("div", { className: "acts" }, ...buttons), said);
+    section.hidden = false;
+    keys.others.c = () => buttons[0].click();
+    LESSON.presets.slice(0, 9).forEach((preset, i) => { keys.others[i + 1] = () => page.open(preset.name, null); });
+    keys.more = [["C", "copy a link to this step"], ...(LESSON.presets.length ? [[`1–${Math.min(9, LESSON.presets.length)}`, "experiments"]] : [])];
+  },
+
+  link() { return page.run && `${location.origin}${location.pathname}${page.run.query}&step=${page.k}`; },
+
+  // copies a text; where the browser forbids that, it is there to be copied by hand
+  async copy(text, words, said) {
+    if (!text) return;
+    try {
+      await navigator.clipboard.writeText(text);
+      said.replaceChildren(words);
+    } catch {
+      const field = element("input", { value: text, readOnly: true, ariaLabel: "To be copied" });
+      said.replaceChildren(field);
+      field.select();
+    }
+  },
+
+  async record(button, said) {
+    button.disabled = true;
+    said.replaceChildren("Writing the run …");
+    try {
+      const answer = await source.recording();
+      if (!answer.ok) throw new Error(await answer.text());
+      const name = decodeURIComponent(/filename\*=utf-8''([^;]+)/.exec(answer.headers.get("content-disposition"))[1]);
+      const link = element("a", { href: URL.createObjectURL(await answer.blob()), download: name });
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+      said.replaceChildren(`${name} is in your downloads; open it with `, element("code", { textContent: `workbench replay ${name}` }), ".");
+    } catch (error) {
+      said.replaceChildren(error.message);
+    } finally {
+      button.disabled = false;
+    }
+  },
+};

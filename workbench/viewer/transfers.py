@@ -1,0 +1,52 @@
+"""What goes over HTTP beside a page: the recording of its run, and a file of its own. Both are asked for by its token."""
+
+import asyncio
+from concurrent.futures import ThreadPoolExecutor
+from urllib.parse import quote
+
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import PlainTextResponse, Response
+
+from workbench.errors import InputError
+from workbench.timeline import Timeline
+from workbench.viewer.student import Student
+from workbench.viewer.terminal import tell_terminal
+
+_recorders = ThreadPoolExecutor(1, "recording")  # many recordings at once wait for each other, and nobody else for them
+
+
+async def recording(student: Student | None) -> Response:
+    """Return the run that a page shows as a recording."""
+    if student is None or student.session is None:
+        return PlainTextResponse("This page is not open any more; reload it.", 404)
+    timeline = student.session.timeline
+    try:
+        name, content = await asyncio.get_running_loop().run_in_executor(_recorders, _recorded, timeline)
+    except InputError as error:
+        tell_terminal(error)
+        return PlainTextResponse(str(error), 422)
+    headers = {"content-disposition": f"attachment; filename*=utf-8''{quote(name)}", "cache-control": "no-store"}
+    return Response(content, media_type="application/octet-stream", headers=headers)
+
+
+def _recorded(timeline: Timeline) -> tuple[str, bytes]:
+    from workbench.recording import file_name, record_bytes
+
+    preset = timeline.lesson.preset_of(timeline.params)
+    name = None if preset is None else preset.name
+    return file_name(timeline.lesson, name), record_bytes(timeline.complete(), preset=name)
+
+
+async def receive(request: Request, student: Student | None) -> Response:
+    """Take a person's own file for a field of Params of the lesson that their page shows."""
+    origin = request.headers.get("origin")
+    if student is None or origin is None or origin.partition("//")[2] != request.headers.get("host"):
+        return PlainTextResponse("This page is not open any more; reload it.", 404)
+    try:
+        name = request.query_params.get("name", "")
+        await student.take_file(request.path_params["field"], name, request.stream())
+    except InputError as error:
+        return PlainTextResponse(str(error), 422)
+    except ClientDisconnect:
+        return Response(status_code=400)
+    return Response(status_code=204)
