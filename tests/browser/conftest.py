@@ -1,15 +1,32 @@
-"""A running workbench for the tests in this folder."""
+"""A running workbench for the tests in this folder, and visits to it."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
 
+from tests.browser.visits import Visit
 from workbench.viewer.server import Server
 
 
 @pytest.fixture(scope="session")
-def app() -> Iterator[App]:
+def server() -> Iterator[Server]:
     """The workbench, serving all lessons."""
-    app = App(port=0)
-    yield app
-    app.stop()
+    server = Server()
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def visit(chromium, server) -> Iterator[Callable[..., Visit]]:
+    """visit(query): a page that is open until the test ends; errors in its console fail the test."""
+    visits: list[Visit] = []
+
+    def opened(query: str = "", at: Server = server, **size: int) -> Visit:
+        visits.append(Visit(chromium, at, query, **size))
+        return visits[-1]
+
+    yield opened
+    errors = [error for one in visits for error in one.errors]
+    for one in visits:
+        one.page.context.close()
+    assert errors == []

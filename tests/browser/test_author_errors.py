@@ -62,27 +62,28 @@ def test_the_page_says_where_a_lesson_fails_and_goes_on(chromium, monkeypatch, c
         shown(self, scene)
 
     monkeypatch.setattr(ViserSink, "show", refuse)
-    app = App(links.Place(lesson(__file__), Params(), None), port=0)
+    server = Server(links.Place(lesson(__file__), Params(), None))
     page = chromium.new_page(viewport={"width": 1100, "height": 640})
     try:
-        page.goto(app.address)
-        caption = page.locator(".wb-caption")
+        page.goto(server.address)
+        page.frame_locator("#scene iframe").locator("canvas").first.wait_for()
+        caption = page.locator("#caption")
         caption.get_by_text("It fails nowhere.").wait_for()
         for where, words in (
             ("in run", "KeyError: 'points' in `raise KeyError"),
             ("in draw", "Points.p is (n, 3), not (3, 2)"),
             ("in the sink", "TypeError: a Mesh of one face"),
         ):
-            page.get_by_role("button", name=f"Fails {where}", exact=True).click()
+            page.get_by_role("button", name=f"Fails {where}").click()
             caption.get_by_text(words).wait_for()
             assert HERE in caption.get_by_text(words).inner_text()
-            page.get_by_role("button", name="Fails nowhere", exact=True).click()
+            page.get_by_role("button", name="Fails nowhere").click()
             caption.get_by_text("It fails nowhere.").wait_for()
         page.get_by_role("button", name="Skip and show me").click()
-        page.locator(".wb-result").get_by_text(f"question 'ratio': {HERE}").wait_for()
+        page.locator("form.question output").get_by_text(f"question 'ratio': {HERE}").wait_for()
     finally:
         page.close()
-        app.stop()
+        server.stop()
     said = capsys.readouterr().err
     assert said.count("workbench: lesson broken") == 4
     assert said.count("KeyError: 'points'") >= 2  # the traceback, and the line
@@ -92,14 +93,14 @@ def test_the_page_says_where_a_lesson_fails_and_goes_on(chromium, monkeypatch, c
 def test_a_page_that_cannot_be_read_is_said_in_its_place_and_the_run_plays(chromium, capsys, tmp_path):
     file = tmp_path / "page.md"
     file.write_text("# Broken")
-    app = App(links.Place(lesson(str(file)), Params(), None), port=0)
+    server = Server(links.Place(lesson(str(file)), Params(), None))
     file.unlink()
     page = chromium.new_page(viewport={"width": 1100, "height": 640})
     try:
-        page.goto(app.address)
-        page.locator(".wb-caption").get_by_text("It fails nowhere.").wait_for()
-        page.locator(".wb-result").get_by_text(f"lesson broken: its page {file}: No such file").first.wait_for()
+        page.goto(server.address)
+        page.locator("#caption").get_by_text("It fails nowhere.").wait_for()
+        page.locator("article .trouble").get_by_text(f"lesson broken: its page {file}: No such file").first.wait_for()
     finally:
         page.close()
-        app.stop()
+        server.stop()
     assert f"its page {file}" in capsys.readouterr().err

@@ -7,48 +7,8 @@ import pytest
 from workbench.lesson import catalog
 from workbench.questions import answer
 from workbench.timeline import Timeline, Timelines
-from workbench.viewer.server import Server
 
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture(scope="module")
-def server():
-    server = Server()
-    yield server
-    server.stop()
-
-
-class Visit:
-    """A page that is open, and what it says; errors of its console are kept."""
-
-    def __init__(self, chromium, server, query: str, width: int = 1440, height: int = 900):
-        self.errors: list[str] = []
-        self.page = chromium.new_page(viewport={"width": width, "height": height})
-        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-        self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
-        self.page.goto(f"{server.address}/{query}")
-
-    def says(self, caption: str) -> None:
-        self.page.locator("#caption").get_by_text(caption, exact=True).wait_for()
-
-    def act(self, verb: str) -> None:
-        self.page.locator(f"[data-act={verb}]").click()
-
-
-@pytest.fixture
-def visit(chromium, server):
-    visits: list[Visit] = []
-
-    def opened(query: str, **size: int) -> Visit:
-        visits.append(Visit(chromium, server, query, **size))
-        return visits[-1]
-
-    yield opened
-    errors = [error for one in visits for error in one.errors]
-    for one in visits:
-        one.page.close()
-    assert errors == []
 
 
 def test_a_lesson_plays_steps_back_runs_a_preset_and_comes_back_by_its_address(visit):

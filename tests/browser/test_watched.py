@@ -23,41 +23,60 @@ RIGHT = TRANSPOSED.replace("R = U @ Vt", "R = Vt.T @ np.diag([1, 1, np.sign(np.l
 BROKEN = TRANSPOSED.replace("q, p =", "q, p = 1 / 0,")
 
 
-def test_a_student_s_file_is_watched(chromium, tmp_path):
+PRINTING = RIGHT.replace("    q, p =", "    print('pairs:', len(p_source))\n    q, p =")
+
+
+def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
     file = tmp_path / "my_align_rigid.py"
     file.write_text(TRANSPOSED)
     lesson = catalog()["icp"]
     watched = Watched(lesson, file)
-    app = App(links.Place(watched.lesson, lesson.params(), None), port=0, watched=watched)
-    errors: list[str] = []
-    page = chromium.new_page(viewport={"width": 1100, "height": 640})
-    page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
-    page.on("pageerror", lambda error: errors.append(str(error)))
+    server = Server(links.Place(watched.lesson, lesson.params(), None), watched=watched)
     try:
-        page.goto(app.address)
-        page.get_by_role("tab", name="Exercise").click()
-        report, caption = page.locator(".wb-report"), page.locator(".wb-caption")
+        me = visit(at=server)
+        report = me.page.locator("#exercise .report")
         report.get_by_text("public 0/3 · hidden 4 not run here").wait_for()
         report.get_by_text("Your R equals the transpose of the right one").wait_for()
-        page.get_by_role("button", name="Go to the first difference").click()
-        caption.get_by_text("Here your run first differs from the reference").wait_for()
-        page.get_by_text("first difference", exact=True).wait_for()
+        me.page.locator("#bar .flag").wait_for()
+        first = me.page.evaluate("page.run.mark")
+        me.button("Go to the first difference").click()
+        me.says("Here your run first differs from the reference")
+        assert me.page.evaluate("page.k") == first
+        assert me.page.locator(".tile .noted").count() >= 1
+        me.act("first")
+        me.page.locator("#bar .flag").click()
+        me.says("Here your run first differs from the reference")
+        me.page.locator(".tile", has_text="Code").click()
+        assert "R = U @ Vt" in me.page.locator("#large .lines").first.inner_text()
+        assert me.page.locator("#large .lines .here").count() == 1  # of the algorithm
+        me.scene()
+        assert any(path.startswith("ghost/") for student in server.students.values() for path in shown(student))
 
-        file.write_text(RIGHT)
+        file.write_text(PRINTING)
         report.get_by_text("public 3/3 · hidden 4 not run here").wait_for()
-        page.get_by_text("first difference", exact=True).wait_for(state="detached")
+        report.get_by_text("pairs: ").wait_for()
+        me.page.locator("#bar .flag").wait_for(state="detached")
+        assert me.button("Go to the first difference").is_disabled()
+        assert me.page.evaluate("page.k") == first  # where it was before the file was saved
+        assert "print(" in me.page.locator("#large .lines").first.inner_text()
 
-        late = chromium.new_page()
-        late.goto(app.address)
-        late.get_by_role("tab", name="Exercise").click()
-        late.locator(".wb-report").get_by_text("public 3/3").wait_for()
-        late.close()
+        late = visit("?lesson=icp&step=2", at=server)
+        late.page.locator("#exercise .report").get_by_text("public 3/3").wait_for()
 
         file.write_text(BROKEN)
-        caption.get_by_text("my_align_rigid.py, line 5: align_rigid raised ZeroDivisionError").wait_for()
+        me.says("my_align_rigid.py, line 5: align_rigid raised ZeroDivisionError")
+        assert "1 / 0" in me.page.locator("#large .here.wrong").inner_text()
         file.write_text("def align_rigid(p_target, p_source:\n")
         report.get_by_text("line 1").first.wait_for()
-        assert errors == []
+
+        me.page.locator("nav.top a").first.click()
+        me.page.locator("li[data-lesson=transforms] a").click()
+        me.page.locator("#exercise").get_by_text("workbench exercise").first.wait_for()
+        assert me.page.locator("#exercise .report").count() == 0
     finally:
-        page.close()
-        app.stop()
+        server.stop()
+
+
+def shown(student) -> list[str]:
+    look = student.session.look() if student.session else None
+    return list(look.scene) if look else []

@@ -97,6 +97,7 @@ class Student:
             sys.executable,
             "-I",
             "-B",
+            "-u",  # what was printed can be read while the process lives
             "-W",
             "ignore::RuntimeWarning",
         ]  # numpy's are not what the student printed
