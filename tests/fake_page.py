@@ -1,4 +1,4 @@
-"""A page and its scene without a browser: what a browser would say to the live server, and what comes back, with its time."""
+"""A page and its scene without a browser: what one would say to the live server, and what comes back, with its time."""
 
 import asyncio
 import contextlib

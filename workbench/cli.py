@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 from workbench import __version__
 from workbench.errors import InputError, one_line
-from workbench.flags import Chosen, Option, Serving, command_line, is_path, lesson_given, parse
+from workbench.flags import Chosen, Option, Serving, ServingLive, command_line, is_path, lesson_given, parse
 from workbench.lesson import catalog
 
 Command = Callable[..., int | None]
@@ -31,7 +31,7 @@ def command(function: Command) -> Command:
     return function
 
 
-def serve(serving: Serving) -> None:
+def serve(serving: ServingLive) -> None:
     """Serve all lessons and open the course page."""
     from workbench.viewer.app import serve as serve_page
 
@@ -49,7 +49,7 @@ def list_() -> None:
 @command
 def show(
     run: Chosen,
-    serving: Serving,
+    serving: ServingLive,
     step: Annotated[int | None, Option("Step to open at; negative counts from the end.", "K")] = None,
     with_: Annotated[
         Path | None, Option("Your own function, loaded again whenever the file is saved.", "FILE.py")
@@ -105,7 +105,7 @@ def replay(file: Recording, /, serving: Serving, native: Native = False) -> None
 def reopen(
     file: Recording,
     /,
-    serving: Serving,
+    serving: ServingLive,
     lesson: OwnLesson = None,
     files: Annotated[bool, Option("Open the files that the recording names as its input.")] = False,
 ) -> None:
