@@ -22,7 +22,7 @@ MOMENTS = {
 def main(names: list[str]) -> None:
     """Take a picture of one whole page, and of every lesson's scene at a step worth seeing."""
     HERE.mkdir(exist_ok=True)
-    app = App(port=0)
+    app = Server()
     with started() as browser:
         page = browser.new_page(viewport={"width": 1440, "height": 900})
         for name in names or ["page", *catalog()]:

@@ -103,7 +103,7 @@ def test_a_student_s_file_behind_a_flag_is_not_taken_for_the_lesson(tmp_path):
 
 
 def test_every_switch_of_a_command_that_takes_a_lesson_is_known():
-    switches = {"--no-browser"}  # of Serving
+    switches = {"--no-browser", "--open"}  # of ServingLive
     for command in COMMANDS.values():
         parameters = inspect.signature(command).parameters.values()
         if any(parameter.annotation is Chosen for parameter in parameters):

@@ -1,4 +1,5 @@
 import threading
+import weakref
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -157,7 +158,28 @@ def test_runs_are_shared_and_the_least_recently_used_is_dropped():
     assert kept.get(lesson, Params()) is one
     kept.get(lesson, Params(angle=20))
     assert kept.get(lesson, Params()) is one
-    assert kept.get(lesson, Params(angle=10)) is not two
+    assert len(kept) == 2
+    assert kept.get(lesson, Params(angle=10)) is two, "who holds a run shares it, kept or not"
+    gone = weakref.ref(two)
+    del two
+    kept.get(lesson, Params(angle=30))
+    kept.get(lesson, Params(angle=40))
+    assert gone() is None
+
+
+def test_runs_that_somebody_holds_count():
+    kept = Timelines(most_runs=1)
+    held = [kept.get(lesson, Params(angle=angle)).complete() for angle in (10, 20, 30)]
+    assert len(kept) == 1
+    assert kept.bytes == sum(timeline.bytes for timeline in held) > 0
+
+
+def test_a_run_that_is_given_up_says_why_and_keeps_its_steps():
+    timeline = Timeline(lesson, Params())
+    timeline.extend()
+    timeline.give_up("no time")
+    timeline.give_up("later")
+    assert (len(timeline), timeline.finished, timeline.stopped, timeline.extend()) == (1, True, "no time", False)
 
 
 def test_runs_are_dropped_by_size():

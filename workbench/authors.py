@@ -15,7 +15,8 @@ _OURS = (str(Path(workbench.__file__).parent), sysconfig.get_path("stdlib"), sys
 class Blaming:
     """A block of somebody's code: what it raises becomes an AuthorError that names the file and line.
 
-    What is an InputError already goes through, and so does the end of an iterator.
+    What is an InputError already goes through, and so does the end of an iterator. Code that wants to end the program
+    (`sys.exit()`) does not: it ends its own run.
 
     Args:
         who: Whose code it is, in words that begin the line: "lesson icp".
@@ -29,7 +30,7 @@ class Blaming:
         pass
 
     def __exit__(self, kind: object, error: BaseException | None, trace: TracebackType | None) -> None:
-        if isinstance(error, Exception) and not isinstance(error, (InputError, StopIteration)):
+        if isinstance(error, Exception | SystemExit) and not isinstance(error, InputError | StopIteration):
             told = "".join(traceback.format_exception(error))
             raise AuthorError(f"{self._who}: {described(error, self._function)}", told) from error
 

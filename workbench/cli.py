@@ -6,12 +6,13 @@ at once. Every InputError becomes one line on stderr and exit code 2.
 
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
 from workbench import __version__
 from workbench.errors import InputError, one_line
-from workbench.flags import Chosen, Option, Serving, command_line, is_path, lesson_given, parse
+from workbench.flags import Chosen, Option, Serving, ServingLive, command_line, is_path, lesson_given, parse
 from workbench.lesson import catalog
 
 Command = Callable[..., int | None]
@@ -31,11 +32,11 @@ def command(function: Command) -> Command:
     return function
 
 
-def serve(serving: Serving) -> None:
+def serve(serving: ServingLive) -> None:
     """Serve all lessons and open the course page."""
     from workbench.viewer.serving import serve as serve_page
 
-    serve_page(host=serving.host, port=serving.port, browser=serving.browser)
+    serve_page(**asdict(serving))
 
 
 @command
@@ -49,7 +50,7 @@ def list_() -> None:
 @command
 def show(
     run: Chosen,
-    serving: Serving,
+    serving: ServingLive,
     step: Annotated[int | None, Option("Step to open at; negative counts from the end.", "K")] = None,
     with_: Annotated[
         Path | None, Option("Your own function, loaded again whenever the file is saved.", "FILE.py")
@@ -71,8 +72,7 @@ def show(
 
         edited = Edited(run.path, run.lesson)
     lesson = run.lesson if watched is None else watched.lesson
-    where = {"host": serving.host, "port": serving.port, "browser": serving.browser}
-    serve_page(lesson, run.params, step, **where, watched=watched, edited=edited)
+    serve_page(lesson, run.params, step, **asdict(serving), watched=watched, edited=edited)
 
 
 @command
@@ -105,7 +105,7 @@ def replay(file: Recording, /, serving: Serving, native: Native = False) -> None
 def reopen(
     file: Recording,
     /,
-    serving: Serving,
+    serving: ServingLive,
     lesson: OwnLesson = None,
     files: Annotated[bool, Option("Open the files that the recording names as its input.")] = False,
 ) -> None:
@@ -118,7 +118,7 @@ def reopen(
     for warning in warnings:
         _complain(warning)
     _try_first_step(found, params)
-    serve_page(found, params, None, host=serving.host, port=serving.port, browser=serving.browser)
+    serve_page(found, params, None, **asdict(serving))
 
 
 @command

@@ -2,7 +2,8 @@
 
 A command is a function whose parameters are `Annotated[type, Option(...)]`, positional on the command line where they are
 positional-only. A parameter of type `Chosen` becomes LESSON, --preset and one flag per Params field; one of type
-`Serving` becomes --host, --port and --no-browser. Whatever cannot be used raises InputError with one line.
+`Serving` becomes --host, --port and --no-browser, and `ServingLive` --open and --behind too. Whatever cannot be used
+raises InputError with one line.
 """
 
 import argparse
@@ -22,21 +23,25 @@ from workbench.lesson import Lesson, catalog, find
 from workbench.loading import load, taken_by, word_for
 
 RESERVED = frozenset(
-    {"lesson", "preset", "step", "out", "force", "host", "port", "browser", "with", "native", "help", "params"}
+    {
+        *("lesson", "preset", "step", "out", "force", "host", "port", "browser", "with", "native", "help", "params"),
+        *("open", "behind", "key"),
+    }
 )
 """Flags of the commands, words of links, keywords of `record`: no Params field may have one of these names."""
 
-SWITCHES = frozenset({"--no-browser", "--force"})
+SWITCHES = frozenset({"--no-browser", "--open", "--force"})
 """Flags without a value, of the commands that take a lesson."""
 
 
 @dataclass(frozen=True)
 class Option:
-    """What `--help` says of an option, the placeholder of its value, and a short form such as `-o`."""
+    """What `--help` says of an option, its value's placeholder, a short form such as `-o`, and its flag if not its name."""
 
     help: str
     placeholder: str | None = None
     short: str | None = None
+    flag: str | None = None
 
 
 @dataclass(frozen=True)
@@ -50,6 +55,18 @@ class Serving:
     def __post_init__(self) -> None:
         if not 0 <= self.port <= 65535:
             raise InputError(f"--port {self.port}: a port is a number from 0 to 65535")
+
+
+@dataclass(frozen=True)
+class ServingLive(Serving):
+    """Where a command serves live pages, and who is let in."""
+
+    open_to_all: Annotated[
+        bool, Option("With --host: let everybody in who reaches it, without a token.", flag="--open")
+    ] = False
+    behind: Annotated[
+        str | None, Option("Name under which browsers find it, where it stands behind a proxy.", "NAME")
+    ] = None
 
 
 @dataclass(frozen=True)
@@ -164,10 +181,10 @@ def _reader(parser: _Parser, parameter: inspect.Parameter, left: list[str]) -> R
     """Add a parameter of a command to the parser, and return how its value is read."""
     if parameter.annotation is Chosen:
         return _lesson_reader(parser, left)
-    if parameter.annotation is Serving:
-        group = parser.add_argument_group("serving options")
-        parts = {field.name: _option(group, field.name, field.type, field.default) for field in fields(Serving)}
-        return lambda values: Serving(**{name: read(values) for name, read in parts.items()})
+    if parameter.annotation in (Serving, ServingLive):
+        group, made = parser.add_argument_group("serving options"), parameter.annotation
+        parts = {field.name: _option(group, field.name, field.type, field.default) for field in fields(made)}
+        return lambda values: made(**{name: read(values) for name, read in parts.items()})
     positional = parameter.kind is parameter.POSITIONAL_ONLY
     return _option(parser, parameter.name, parameter.annotation, parameter.default, positional=positional)
 
@@ -176,7 +193,7 @@ def _option(group: Any, name: str, annotation: Any, default: Any, *, positional:
     """Add an option of the command itself; a default of `Parameter.empty` means that it must be given."""
     kind, option = get_args(annotation)
     required = default is inspect.Parameter.empty
-    flag = "--" + name.rstrip("_").replace("_", "-")
+    flag = option.flag or "--" + name.rstrip("_").replace("_", "-")
     many = get_origin(kind) is tuple
     about = option.help.replace("%", "%%") + (" (required)" if required else "")
     if kind is bool:

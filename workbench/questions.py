@@ -63,7 +63,7 @@ def _predicted(question: Question, given: Any) -> float:
         return float(question.choices.index(given))
     try:
         return float(given)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError("a number is asked for") from None
 
 

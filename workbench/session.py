@@ -106,7 +106,7 @@ class Session:
         self._pinned = pinned
         self._want(wanted)
 
-    def change(self, **values: Any) -> None:
+    def change(self, /, **values: Any) -> None:
         """Set params; numbers out of range go to the nearer end. What cannot be used becomes the caption, no more."""
         try:
             params = knobs.make(self.lesson.params, values, base=self.params, clamp=True)
@@ -144,6 +144,19 @@ class Session:
         """Whether a run is pinned."""
         return self._pinned is not None
 
+    @property
+    def pinned_run(self) -> Timeline | None:
+        """The run that is pinned."""
+        return None if self._pinned is None else self._pinned[0]
+
+    def let_go(self) -> None:
+        """Hold the run no longer, to make room; what is shown stays until `take_up` or another wish."""
+        self.timeline, self._shown, self._pinned = Timeline(self.lesson, self.params, self.slots), None, None
+
+    def take_up(self) -> None:
+        """Hold the run of the wanted params again, after `let_go`; its steps may have to be computed anew."""
+        self.timeline = self._run(self.params)
+
     # moving in time -------------------------------------------------------------------------------------------------
 
     @property
@@ -175,6 +188,16 @@ class Session:
     def last(self) -> None:
         """Go to the last step, as soon as it is known."""
         self._want(-1)
+
+    @property
+    def wanted(self) -> int:
+        """The step that is wanted, known or not; negative counts from the end."""
+        return self._wanted
+
+    @property
+    def waits(self) -> bool:
+        """Whether the step that is wanted is still to be computed."""
+        return self.pending and not 0 <= self._wanted < len(self.timeline)
 
     # computing and looking ------------------------------------------------------------------------------------------
 

@@ -1,6 +1,7 @@
 """One run as random access: its states, scenes and moments, computed when first asked for, kept, read-only, shared."""
 
 import threading
+import weakref
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -128,6 +129,17 @@ class Timeline:
                 progress(len(self))
         return self
 
+    def give_up(self, why: str, failure: str | None = None) -> None:
+        """End the run at the steps that are known, and say why; nothing happens where it has ended already."""
+        with self._lock:
+            if not self.finished:
+                self.failure = failure
+                self._end(why)
+
+    def owned(self) -> dict[int, int]:
+        """Return the bytes of every array that the run holds, by the array's id."""
+        return {key: array.nbytes for key, array in tuple(self._owners.items())}
+
     def states(self) -> tuple[Any, ...]:
         """Return all states, computing what is missing.
 
@@ -154,9 +166,9 @@ class Timeline:
             raise AuthorError(f"{who} opens at step {step}, but its run has {n} steps: 0 to {n - 1}, or -1 to -{n}")
         return step if step >= 0 else max(0, n + step)
 
-    def series(self) -> dict[str, Series]:
-        """Return every scalar of the steps known so far, by path, in order of appearance; costs no look at the steps."""
-        return self._series.until(len(self._steps))
+    def series(self, steps: int | None = None) -> dict[str, Series]:
+        """Return every scalar of the first known steps, by path, in order of appearance; costs no look at the steps."""
+        return self._series.until(len(self._steps) if steps is None else steps)
 
     def _next(self) -> tuple[Any, Moment | None]:
         run = self.lesson.run
@@ -282,33 +294,47 @@ def plotted_values(scalar: Scalar, values: np.ndarray) -> np.ndarray:
 
 
 class Timelines:
-    """Runs kept for whoever wants them again: by lesson and params, least recently used ones dropped."""
+    """Runs kept for whoever wants them again: by lesson and params, least recently used ones dropped.
+
+    A run that is dropped while somebody still holds it is found again as long as they do, and counts as long.
+    """
 
     def __init__(self, most_bytes: int = 2 * 2**30, most_runs: int = 256):
         self._kept: OrderedDict[Hashable, Timeline] = OrderedDict()
+        self._alive: weakref.WeakValueDictionary[Hashable, Timeline] = weakref.WeakValueDictionary()
         self._lock = threading.Lock()
         self._most_bytes, self._most_runs = most_bytes, most_runs
 
     def get(self, lesson: Lesson, params: Any) -> Timeline:
-        """Return the run of a lesson at these params, made when it is not kept.
+        """Return the run of a lesson at these params, made when there is none.
 
         Raises:
             InputError: If the params are not the lesson's or out of range.
         """
         key = (lesson.name, id(lesson), params)
         with self._lock:
-            timeline = self._kept.get(key)
+            timeline = self._alive.get(key)
             if timeline is None:
-                timeline = self._kept[key] = Timeline(lesson, params)
+                timeline = self._alive[key] = Timeline(lesson, params)
+            self._kept[key] = timeline
             self._kept.move_to_end(key)
             while len(self._kept) > 1 and (len(self._kept) > self._most_runs or self.bytes > self._most_bytes):
                 self._kept.popitem(last=False)
             return timeline
 
+    def drop(self) -> bool:
+        """Keep the least recently used run no longer; False when none is kept."""
+        with self._lock:
+            return bool(self._kept) and bool(self._kept.popitem(last=False))
+
+    def alive(self) -> list[Timeline]:
+        """Return every run that is kept here or held by somebody."""
+        return list(self._alive.values())
+
     @property
     def bytes(self) -> int:
-        """What all kept runs hold, arrays that two runs share counted twice."""
-        return sum(timeline.bytes for timeline in self._kept.values())
+        """What all runs hold that are kept here or held by somebody, arrays that two runs share counted twice."""
+        return sum(timeline.bytes for timeline in self.alive())
 
     def __len__(self) -> int:
         """Return how many runs are kept."""

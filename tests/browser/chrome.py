@@ -36,20 +36,23 @@ def find_chromium() -> str | None:
 
 
 class Chrome:
-    """A running browser; whatever its pages wait for, they wait for as long as a slow machine needs."""
+    """A running browser; whatever its pages wait for, they wait for as long as a slow machine needs.
+
+    Tests ask pages by expressions, which a page's own policy would refuse; `bypass_csp=False` holds a page to its policy.
+    """
 
     def __init__(self, browser: "Browser"):
         self._browser = browser
 
     def new_context(self, **options: Any) -> "BrowserContext":
         """Return a browser window of its own: its own storage, its own tabs."""
-        context = self._browser.new_context(**options)
+        context = self._browser.new_context(**{"bypass_csp": True, **options})
         context.set_default_timeout(WAIT)
         return context
 
     def new_page(self, **options: Any) -> "Page":
         """Return a page in a window of its own, which closes with it."""
-        page = self._browser.new_page(**options)
+        page = self._browser.new_page(**{"bypass_csp": True, **options})
         page.set_default_timeout(WAIT)
         return page
 

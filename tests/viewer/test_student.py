@@ -6,7 +6,8 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 
 from tests import fake
-from workbench.timeline import Timeline, Timelines
+from workbench.timeline import Timeline
+from workbench.viewer.runs import Runs
 from workbench.viewer.student import Student
 
 
@@ -16,7 +17,8 @@ class Talk:
     def __init__(self) -> None:
         self.told: list[dict] = []
         self._heard = asyncio.Event()
-        self.student = Student({"fake": fake.lesson}, Timelines(), self._hear)
+        self.runs = Runs()
+        self.student = Student({"fake": fake.lesson}, self.runs, self._hear)
         self._work = asyncio.create_task(self.student.work())
 
     async def _hear(self, text: str) -> None:
@@ -45,7 +47,11 @@ def talk(script) -> None:
     """Run the script in a thread of its own: a browser test before may have left its loop running in this one."""
 
     async def run() -> None:
-        await script(Talk())
+        me = Talk()
+        try:
+            await script(me)
+        finally:
+            me.runs.close()
 
     with ThreadPoolExecutor(1) as threads:
         threads.submit(lambda: asyncio.run(run())).result()

@@ -59,8 +59,8 @@ def chart_of(curves: Sequence[Curve]) -> dict[str, Any]:
     return drawn | {"x": asdict(across), "y": asdict(up), "curves": [_curve(curve) for curve in curves]}
 
 
-def series_of(series: Mapping[str, Series]) -> list[dict[str, Any]]:
-    """Return every scalar over the steps of a run that are known."""
+def series_of(series: Mapping[str, Series], start: int = 0) -> list[dict[str, Any]]:
+    """Return every scalar over the steps of a run that are known, from a step on."""
     return [
         {
             "path": path,
@@ -69,7 +69,7 @@ def series_of(series: Mapping[str, Series]) -> list[dict[str, Any]]:
             "unit": one.scalar.unit,
             "color": css_color(PALETTE[one.scalar.color]),
             "log": one.scalar.log,
-            "values": [number(value) for value in one.values],
+            "values": [number(value) for value in one.values[start:]],
         }
         for path, one in series.items()
     ]

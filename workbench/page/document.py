@@ -55,7 +55,8 @@ def lesson_document(
         f'<main><article id="article"><nav class="top"><a href="{_course(home)}">Geometry workbench</a>'
         '<button type="button" id="theme" title="Light or dark (T)">◐</button>'
         '<button type="button" id="help" title="Keys (?)">?</button></nav>'
-        f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}{ending}</article><div id="side">{_stage()}</div></main>'
+        f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}{ending}</article>'
+        f'<div id="side">{_stage()}</div></main>'
         f"<script>const LESSON = {in_script(data)};</script>"
         + "".join(f'<script src="{root}{name}"></script>' for name in (source, *SCRIPTS))
         + "</body></html>\n"

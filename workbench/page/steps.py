@@ -1,7 +1,9 @@
 """The steps of a run as plain data: captions, what stands beside the scene, and where the code stood."""
 
 import base64
+import hashlib
 import threading
+import weakref
 from dataclasses import replace
 from typing import Any
 
@@ -18,21 +20,37 @@ from workbench.timeline import Step, Timeline
 class Steps:
     """Makes the data of a run's steps. What repeats from step to step is kept once, in `things`, and named by its number.
 
-    Each step is made once and shared by all who ask; any thread may ask.
+    Each step is made once and shared by all who ask; any thread may ask. The run is somebody else's to hold: its data may
+    be kept beside it without keeping it.
+
+    Attributes:
+        things: What repeats, by its number.
+        bytes: What all data hold, about.
     """
 
     def __init__(self, timeline: Timeline):
-        self.timeline = timeline
+        self._timeline = weakref.ref(timeline)
+        self.bytes = 0
         self.things: list[Any] = []
         self._numbers: dict[Any, int] = {}
         self._steps: dict[int, dict[str, Any]] = {}
+        self._series: dict[tuple[int, int], dict[str, Any]] = {}
         self._lock = threading.Lock()
+
+    @property
+    def timeline(self) -> Timeline:
+        """The run."""
+        timeline = self._timeline()
+        if timeline is None:
+            raise ReferenceError("the run is gone: hold it as long as its steps are asked for")
+        return timeline
 
     def step(self, k: int) -> dict[str, Any]:
         """Return a known step: caption and tone, and the numbers of what is `shown` and of the legend."""
         with self._lock:
             if k not in self._steps:
-                self._steps[k] = self._made(self.timeline[k])
+                self._steps[k] = made = self._made(self.timeline[k])
+                self.bytes += 500 + 2 * len(made["caption"])
             return self._steps[k]
 
     def code(self, k: int) -> dict[str, Any] | None:
@@ -45,10 +63,17 @@ class Steps:
             source = self._number({"kind": "source", "name": name, "html": source_html(moment.function)}, name)
         return {"source": source, **moment_data(moment)}
 
-    def series(self) -> dict[str, Any]:
-        """Return every scalar over the steps that are known, and the axes of their charts."""
-        series = self.timeline.series()
-        return {"series": series_of(series), "charts": series_charts(series, len(self.timeline))}
+    def series(self, start: int = 0, end: int | None = None) -> dict[str, Any]:
+        """Return every scalar from step `start` to before `end` (None: all that are known), and the axes of all to there."""
+        timeline = self.timeline
+        known = len(timeline) if end is None else end
+        series, key = timeline.series(known), (start, known)
+        with self._lock:
+            if key not in self._series:
+                self._series = dict(tuple(self._series.items())[-7:])  # of those who follow a run as it grows
+                self._series[key] = {"from": start, "series": series_of(series, start),
+                                     "charts": series_charts(series, known)}  # fmt: skip
+            return self._series[key]
 
     def whole(self) -> dict[str, Any]:
         """Return all of a finished run."""
@@ -61,35 +86,56 @@ class Steps:
         return {
             "caption": step.caption.text,
             "tone": step.caption.tone,
-            "shown": [self._number(thing, key) for thing, key in things_of(step.scene)],
+            "shown": self._shown(step.scene),
             "legend": self._number(legend, legend),
         }
+
+    def _shown(self, scene: Scene) -> list[int]:
+        """Return the numbers of what stands beside a scene: pictures and tables, then charts."""
+        found: list[int] = []
+        charts: dict[str, list[Curve]] = {}
+        for primitive in scene.values():
+            if isinstance(primitive, Curve):
+                charts.setdefault(primitive.chart, []).append(primitive)
+            elif isinstance(primitive, Table):
+                text = table_html(primitive)
+                found.append(self._number({"kind": "html", "html": text}, text))
+            elif isinstance(primitive, Picture) and not in_space(primitive):
+                found.append(self._picture(primitive))
+        for curves in charts.values():
+            drawn = chart_of(curves)
+            found.append(self._number(drawn, repr(drawn)))
+        return found
+
+    def _picture(self, picture: Picture) -> int:
+        """Return the number of a picture: one with the arrays of an earlier step is not looked at again."""
+        image = picture.image
+        field = (id(image.values), image.low, image.high, image.map) if isinstance(image, Field) else id(image)
+        same = picture.title, field  # the run keeps its arrays: no other has these numbers
+        if same not in self._numbers:
+            rgb = picture.rgb() if isinstance(image, np.ndarray) else _coarse(image).rgb()
+            bar = bar_html(image) if isinstance(image, Field) else ""
+            content = rgb.shape, hashlib.sha256(rgb.tobytes()).digest(), picture.title, bar
+            if content not in self._numbers:
+                self._number(_picture(rgb, picture.title, bar), content)
+            self._numbers[same] = self._numbers[content]
+        return self._numbers[same]
 
     def _number(self, thing: Any, key: Any) -> int:
         if key not in self._numbers:
             self._numbers[key] = len(self.things)
             self.things.append(thing)
+            self.bytes += 2 * _size(thing) + (len(key) if isinstance(key, str) else 0)
         return self._numbers[key]
 
 
-def things_of(scene: Scene) -> list[tuple[Any, Any]]:
-    """Return what stands beside a scene (pictures, tables, charts), each with a key that tells it from all others."""
-    found: list[tuple[Any, Any]] = []
-    charts: dict[str, list[Curve]] = {}
-    for primitive in scene.values():
-        if isinstance(primitive, Curve):
-            charts.setdefault(primitive.chart, []).append(primitive)
-        elif isinstance(primitive, Table):
-            text = table_html(primitive)
-            found.append(({"kind": "html", "html": text}, text))
-        elif isinstance(primitive, Picture) and not in_space(primitive):
-            image = primitive.rgb() if isinstance(primitive.image, np.ndarray) else _coarse(primitive.image).rgb()
-            bar = bar_html(primitive.image) if isinstance(primitive.image, Field) else ""
-            found.append((_picture(image, primitive.title, bar), (image.shape, image.tobytes(), primitive.title, bar)))
-    for curves in charts.values():
-        drawn = chart_of(curves)
-        found.append((drawn, repr(drawn)))
-    return found
+def _size(thing: Any) -> int:
+    """Return the characters that a thing has as plain data, about."""
+    if isinstance(thing, str):
+        return len(thing)
+    if isinstance(thing, dict):
+        return sum(_size(value) for value in thing.values())
+    return sum(_size(value) for value in thing) if isinstance(thing, list | tuple) else 12
 
 
 def _coarse(field: Field) -> Field:

@@ -8,18 +8,18 @@ import asyncio
 import contextlib
 import functools
 import io
+import re
 import secrets
+import socket as sockets
 import threading
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Mapping
 from typing import Any
 
-import httpx
 import uvicorn
 import viser
-import websockets
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import FileResponse, HTMLResponse, PlainTextResponse, RedirectResponse, Response
+from starlette.responses import FileResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
@@ -29,16 +29,24 @@ from workbench.errors import InputError
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson, catalog
 from workbench.page.document import SCRIPTS, STATIC
-from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
 from workbench.viewer.documents import course_page, lesson_page, start_address
 from workbench.viewer.following import Following
+from workbench.viewer.patience import Patience, more_files
+from workbench.viewer.rules import KEY, Gate, Rules, addresses, page_response
+from workbench.viewer.runs import MOST_BYTES, Runs
+from workbench.viewer.scene_proxy import FIRST_WORD, Pace, SceneProxy
 from workbench.viewer.student import Student
 from workbench.viewer.transfers import receive, recording
 
 FILES = ("page.css", "ending.css", "course.css", "live.js", *SCRIPTS)
-FRESH = {"cache-control": "no-store"}  # every page has a token of its own
-LONGEST = 20_000  # characters of a message from a browser
+MOST_PAGES = 400
+"""Pages at once; whoever comes later is told so."""
+MOST_A_SECOND = 200
+"""Wishes of a page; what is more waits, and of its kind the latest is what counts."""
+ROOM = 3.0
+"""Seconds between two looks at what is held in memory."""
+_TOKEN = re.compile(r"[0-9a-f]{24}")
 
 
 class Server:
@@ -49,6 +57,17 @@ class Server:
         host, port: Where it listens; port 0 picks a free one.
         watched: A student's file that drives the lesson of `start`; loaded again whenever it is saved.
         edited: The lesson of `start` where it was given by its path; loaded again whenever one of its files is saved.
+        open_to_all: Let everybody in who reaches it; else whoever is not on this machine brings the token of `links`.
+        behind: The name under which browsers find it, where it stands behind a proxy.
+        most_bytes: What runs and all that belongs to them may hold.
+        most_pages: How many pages may be open.
+
+    Attributes:
+        address: Where a browser on this machine finds it.
+        links: Where browsers on other machines find it, with the token that lets them in.
+
+    Raises:
+        InputError: If the port is taken or may not be used.
     """
 
     def __init__(
@@ -59,38 +78,66 @@ class Server:
         port: int = 0,
         watched: Watched | None = None,
         edited: Edited | None = None,
+        open_to_all: bool = False,
+        behind: str | None = None,
+        most_bytes: int = MOST_BYTES,
+        most_pages: int = MOST_PAGES,
     ):
         self.lessons: dict[str, Lesson] = dict(catalog()) | ({start.lesson.name: start.lesson} if start else {})
-        self.timelines, self._start = Timelines(), start
+        self.rules = Rules(host, open_to_all=open_to_all, behind=behind)
+        listening = _listening(host, port)
+        more_files()
+        self.port = listening.getsockname()[1]
+        self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
         self.students: dict[str, Student] = {}
         self._scenes: dict[str, viser.ClientHandle] = {}
+        self.following = start and Following(start.lesson, watched, edited, self._replace, self._pages)
         with contextlib.redirect_stdout(io.StringIO()):  # its banner
             self._viser = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
         self._viser.request_share_url = lambda *args, **kwargs: None  # type: ignore[method-assign]
         self._viser.on_client_connect(self._joined)
         self._viser.on_client_disconnect(self._left)
-        self._inner = f"127.0.0.1:{self._viser.get_port()}"
-        config = uvicorn.Config(self._app(), host=host, port=port, log_level="warning", ws_max_size=2**20)
+        self._connections = _connections_of(self._viser)
+        self.scenes = SceneProxy(f"127.0.0.1:{self._viser.get_port()}")
+        config = uvicorn.Config(
+            Gate(self._app(), self.rules, f"workbench-{self.port}"),
+            http="h11",
+            ws="websockets-sansio",
+            log_level="critical",
+            ws_max_size=2**16,
+            ws_per_message_deflate=False,
+            server_header=False,
+            timeout_graceful_shutdown=2,
+        )
         self._uvicorn = uvicorn.Server(config)
-        self._thread = threading.Thread(target=self._uvicorn.run, daemon=True)
+        self._thread = threading.Thread(target=self._uvicorn.run, args=([listening],), daemon=True)
         self._thread.start()
         while not self._uvicorn.started:
             if not self._thread.is_alive():
                 raise InputError(f"cannot listen on {host}:{port}")
             self._thread.join(0.01)
-        self.port = self._uvicorn.servers[0].sockets[0].getsockname()[1]
-        self.address = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::', '') else host}:{self.port}"
+        key = "" if self.rules.token is None else f"/?{KEY}={self.rules.token}"
+        self.address = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::', '') else addresses(host)[0]}:{self.port}{key}"
+        self.links = [] if self.rules.local else [f"http://{name}:{self.port}{key}" for name in addresses(host)]
 
-        self.following = start and Following(
-            start.lesson, watched, edited, self._replace, lambda: list(self.students.values())
+    def welcome(self) -> str:
+        """Return what whoever started the server is told: where browsers find it, and who is let in."""
+        if self.rules.local:
+            return self.address
+        who = (
+            "Everybody who reaches this machine is let in, and sees what is served, own files' contents included."
+            if self.rules.token is None
+            else "Whoever has this link is let in; give it to nobody else:"
         )
+        return "\n".join([who, *self.links, "On this machine:", self.address])
 
     def stop(self) -> None:
         """Stop listening and end all pages."""
         if self.following is not None:
             self.following.close()
         self._uvicorn.should_exit = True
-        self._thread.join()
+        self._thread.join(10)
+        self.runs.close()
         with contextlib.redirect_stdout(io.StringIO()):
             self._viser.stop()
 
@@ -114,13 +161,31 @@ class Server:
 
     @contextlib.asynccontextmanager
     async def _lifespan(self, app: Starlette) -> AsyncIterator[None]:
-        async with httpx.AsyncClient(base_url=f"http://{self._inner}") as self._http:
+        self._loop = asyncio.get_running_loop()
+        keeping = [asyncio.create_task(one) for one in (Patience(self._uvicorn).keep(), self._keep_room())]
+        async with self.scenes.running():
             yield
+        for task in keeping:
+            task.cancel()
+
+    async def _keep_room(self) -> None:
+        """Hold what is kept within its bound, and see to it that what is stuck holds nobody up."""
+        while True:
+            await asyncio.sleep(ROOM)
+            self.runs.scheduler.relieve()
+            longest_ago = sorted(self.students.values(), key=lambda student: student.acted)
+            await self.runs.asking.do(
+                self.runs.make_room, list(self.lessons.values()), [student.sleep for student in longest_ago]
+            )
 
     async def _page(self, request: Request) -> Response:
+        if len(self.students) >= self._most_pages:
+            return PlainTextResponse("As many pages are open as this server can bear. Try again in a while.", 503)
         named, trouble = request.query_params.get("lesson"), None
         if named is None and self._start is not None and "course" not in request.query_params:
-            return RedirectResponse(start_address(self._start, request.url.query), headers=FRESH)
+            return RedirectResponse(
+                start_address(self._start, request.url.query), headers={"cache-control": "no-store"}
+            )
         lesson = self.lessons.get(named or "")
         try:
             place = links.read(request.url.query, here=lesson)
@@ -128,11 +193,10 @@ class Server:
         except InputError as error:
             trouble = str(error)  # of a lesson that is here, the page's websocket tells it
         if lesson is None:
-            return HTMLResponse(await asyncio.to_thread(course_page, self.lessons, trouble), headers=FRESH)
+            return page_response(request, await self.runs.showing.do(course_page, self.lessons, trouble))
         watched = self.following.watched if self.following else None
-        page = await asyncio.to_thread(lesson_page, lesson, self.lessons, watched)
-        token = f'<body data-token="{secrets.token_hex(12)}" '
-        return HTMLResponse(page.replace("<body ", token, 1), headers=FRESH)
+        page = await self.runs.showing.do(lesson_page, lesson, self.lessons, watched)
+        return page_response(request, page.replace("<body ", f'<body data-token="{secrets.token_hex(12)}" ', 1))
 
     def _pages(self) -> list[Student]:
         return list(self.students.values())
@@ -152,93 +216,113 @@ class Server:
         return await receive(request, self.students.get(request.path_params["token"]))
 
     async def _math(self, request: Request) -> Response:
-        return PlainTextResponse(await asyncio.to_thread(math_font_css), media_type="text/css")
+        return PlainTextResponse(await self.runs.showing.do(math_font_css), media_type="text/css")
 
     async def _file(self, request: Request) -> Response:
         name = request.path_params["file"]
         return FileResponse(STATIC / name) if name in FILES else PlainTextResponse("no such file", 404)
 
     async def _live(self, socket: WebSocket) -> None:
-        if not _same_origin(socket):
-            await socket.close(4403)
-            return
         await socket.accept()
         token = socket.query_params.get("token", "")
-        student = Student(self.lessons, self.timelines, functools.partial(_send, socket))
-        student.start, student.following = self._start, self.following
-        if not token or token in self.students:
+        if not _TOKEN.fullmatch(token) or token in self.students or len(self.students) >= self._most_pages:
             await socket.close(4409)
             return
-        self.students[token] = student
+        student = self.students[token] = Student(self.lessons, self.runs, functools.partial(_send, socket))
+        student.start, student.following = self._start, self.following
         if token in self._scenes:
             student.join(self._scenes[token])
         working = asyncio.create_task(student.work())
         try:
-            async for text in socket.iter_text():
-                if len(text) <= LONGEST:
-                    student.hear(text)
-        except (WebSocketDisconnect, RuntimeError):
+            await self._listen(socket, student)
+        except (WebSocketDisconnect, RuntimeError, TimeoutError):
             pass
         finally:
             working.cancel()
             self.students.pop(token, None)
             student.close()
+            student.leave()
+        with contextlib.suppress(RuntimeError):
+            await socket.close()
+
+    @staticmethod
+    async def _listen(socket: WebSocket, student: Student) -> None:
+        pace, said = Pace(MOST_A_SECOND), False
+        while True:
+            message = await asyncio.wait_for(socket.receive(), None if said else FIRST_WORD)
+            if message["type"] == "websocket.disconnect":
+                return
+            said |= student.hear(message.get("text") or "")
+            await pace.step()
 
     # the scene ------------------------------------------------------------------------------------------------------
 
     async def _scene(self, request: Request) -> Response:
-        kept = {name: value for name, value in request.headers.items() if name in ("accept-encoding", "if-none-match")}
-        sent = self._http.build_request("GET", "/", headers=kept)
-        answer = await self._http.send(sent, stream=True)
-        body = b"".join([part async for part in answer.aiter_raw()])
-        names = ("content-type", "content-encoding", "etag", "last-modified")
-        headers = {name: answer.headers[name] for name in names if name in answer.headers}
-        return Response(body, answer.status_code, headers | {"cache-control": "no-cache"})
+        return await self.scenes.page(request)
 
     async def _scene_socket(self, socket: WebSocket) -> None:
-        if not _same_origin(socket):
-            await socket.close(4403)
-            return
-        wanted = [websockets.Subprotocol(name) for name in socket.scope.get("subprotocols") or ()]
-        address = f"ws://{self._inner}/{socket.path_params['token']}"
-        async with websockets.connect(address, subprotocols=wanted or None, max_size=None, compression=None) as inner:
-            await socket.accept(inner.subprotocol)
-            passing = asyncio.create_task(_pass_on(inner, socket))
-            try:
-                while True:
-                    message = await socket.receive()
-                    if message["type"] == "websocket.disconnect":
-                        break
-                    await inner.send(message.get("bytes") or message.get("text") or b"")
-            except (websockets.ConnectionClosed, RuntimeError):
-                pass
-            finally:
-                passing.cancel()
+        known = _TOKEN.fullmatch(socket.path_params["token"]) and self.scenes.open < self._most_pages
+        await (self.scenes.socket(socket) if known else socket.close(4404))
 
     async def _joined(self, client: viser.ClientHandle) -> None:
-        connection = self._viser._websock_server._live_connections.get(client.client_id)  # nothing public tells it
+        connection = self._connections.get(client.client_id)
         request = None if connection is None else connection.request
         token = "" if request is None else request.path.strip("/")
+        self._loop.call_soon_threadsafe(self._take, token, client)
+
+    async def _left(self, client: viser.ClientHandle) -> None:
+        with contextlib.suppress(RuntimeError):  # the server has stopped
+            self._loop.call_soon_threadsafe(self._lose, client)
+
+    def _take(self, token: str, client: viser.ClientHandle) -> None:
         self._scenes[token] = client
         if token in self.students:
             self.students[token].join(client)
 
-    async def _left(self, client: viser.ClientHandle) -> None:
+    def _lose(self, client: viser.ClientHandle) -> None:
         for token in [token for token, other in self._scenes.items() if other is client]:
             del self._scenes[token]
+            if token in self.students:
+                self.students[token].join(None)
+
+
+def _connections_of(server: viser.ViserServer) -> Mapping[int, Any]:
+    """Return viser's connections by client: their address tells which page a scene belongs to; nothing public does.
+
+    Raises:
+        InputError: If this version of viser does not have them.
+    """
+    connections = getattr(getattr(server, "_websock_server", None), "_live_connections", None)
+    if not isinstance(connections, dict):
+        raise InputError(f"viser {viser.__version__} does not tell which page a scene belongs to: install viser 1.1.1")
+    return connections
+
+
+def _listening(host: str, port: int) -> sockets.socket:
+    """Return a socket that listens.
+
+    Raises:
+        InputError: If the port is taken or may not be used.
+    """
+    if not 0 <= port < 65536:
+        raise InputError(f"port {port}: a port is a whole number from 0 to 65535")
+    made = sockets.socket(sockets.AF_INET6 if ":" in host else sockets.AF_INET)
+    try:
+        made.setsockopt(sockets.SOL_SOCKET, sockets.SO_REUSEADDR, 1)
+        made.bind((host.strip("[]"), port))
+    except OSError as error:
+        made.close()
+        if isinstance(error, PermissionError):
+            raise InputError(f"port {port} needs more rights than this user has: choose one above 1023") from None
+        if isinstance(error, sockets.gaierror) or error.errno == 99:
+            raise InputError(f"host {host!r} is no address of this machine") from None
+        if error.errno == 98 or "in use" in str(error):
+            free = "stop the other program, or choose another with --port (0 picks a free one)"
+            raise InputError(f"port {port} is in use: {free}") from None
+        raise InputError(f"cannot listen on {host}:{port}: {error.strerror or error}") from None
+    return made
 
 
 async def _send(socket: WebSocket, text: str) -> None:
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):  # it has left
         await socket.send_text(text)
-
-
-async def _pass_on(inner: Any, socket: WebSocket) -> None:
-    with contextlib.suppress(websockets.ConnectionClosed, RuntimeError):
-        async for message in inner:
-            await (socket.send_bytes(message) if isinstance(message, bytes) else socket.send_text(message))
-
-
-def _same_origin(socket: WebSocket) -> bool:
-    origin = socket.headers.get("origin")
-    return origin is not None and origin.partition("//")[2] == socket.headers.get("host")

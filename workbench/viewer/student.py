@@ -6,6 +6,7 @@ Messages are JSON. From the page: {"verb": ..., ...} with the verbs of VERBS. To
 
 import asyncio
 import contextlib
+import functools
 import json
 import traceback
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
@@ -20,22 +21,21 @@ from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
 from workbench.exercise.driven import Pair, first_difference
 from workbench.flags import show_command
-from workbench.knobs import Pick, fields_of, with_own_files
-from workbench.lesson import Lesson, View
+from workbench.knobs import fields_of, with_own_files
+from workbench.lesson import Lesson
+from workbench.motion import FRAMES, SECONDS
 from workbench.page.charts import series_of
 from workbench.page.steps import Steps
 from workbench.picking import picked_params
 from workbench.questions import answer
 from workbench.session import Look, Session
-from workbench.timeline import Timelines
+from workbench.timeline import Timeline
 from workbench.viewer.following import Following
-from workbench.viewer.handles import Handles, listen_for_clicks
+from workbench.viewer.live_scene import LiveScene
 from workbench.viewer.own_files import OwnFiles
-from workbench.viewer.sink import ViserSink
-from workbench.viewer.stage import BACKDROPS, set_stage
+from workbench.viewer.runs import Runs
 from workbench.viewer.terminal import tell_terminal
-
-SLICE = 0.04  # seconds of computing between two pictures
+from workbench.viewer.wishes import Wishes, read_wish
 
 
 class Student:
@@ -43,54 +43,71 @@ class Student:
 
     Args:
         lessons: All lessons that are served, by name.
-        timelines: The runs kept for everybody.
-        send: Sends a text to the page; says nothing where the page has left.
+        runs: What is shared between all pages.
+        send: Sends a text to the page, and returns when it may be sent more; says nothing where the page has left.
     """
 
-    def __init__(self, lessons: Mapping[str, Lesson], timelines: Timelines, send: Callable[[str], Awaitable[None]]):
-        self.lessons, self.timelines, self._send = lessons, timelines, send
+    def __init__(self, lessons: Mapping[str, Lesson], runs: Runs, send: Callable[[str], Awaitable[None]]):
+        self.lessons, self.runs, self._send = lessons, runs, send
         self._loop = asyncio.get_running_loop()
         self.start: links.Place | None = None  # where browsers begin; its own files are kept
         self.following: Following | None = None
         self.files = OwnFiles()
         self._news: list[Mapping[str, Any]] = []  # what the page is told next, of the files behind its lesson
         self.session: Session | None = None
+        self.acted = self._loop.time()  # when something was last wished for
+        self.asleep = False  # whether its run was let go to make room
         self._wake = asyncio.Event()
-        self._client: viser.ClientHandle | None = None
-        self._sink: ViserSink | None = None
-        self._staged: Lesson | None = None
-        self._view: View | None = None  # wanted; a camera that a person turned stays as long as this does
-        self._aimed: tuple[str, View] | None = None
+        self._coming: tuple[bool, viser.ClientHandle | None] = False, None  # a scene that has come or gone
+        self._scene = LiveScene(self._moved, self._clicks)
         self._steps: Steps | None = None
+        self._timeline: Timeline | None = None  # whose steps these are
         self._sent: set[int] = set()  # numbers of things of this run that the page has
         self._told: Any = None  # what was last said of the run
+        self._told_steps = 0  # up to where its series were
         self._run = 0
-        self._waiting: list[dict[str, Any]] = []
-        self._dark = False
-        self._handles: Handles | None = None
-        self._wants_handles = False
+        self._seen: Any = None  # what the page was shown last
+        self._wishes = Wishes()
 
-    def join(self, client: viser.ClientHandle) -> None:
-        """Take the scene of this page, which has come up; may be called in viser's thread."""
-        self._loop.call_soon_threadsafe(self._join, client)
-
-    def _join(self, client: viser.ClientHandle) -> None:
-        self._client, self._sink, self._staged, self._handles = client, ViserSink(client.scene), None, None
-        self._aimed = None
-        client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=self._dark)
-        self._told = None
+    def join(self, client: viser.ClientHandle | None) -> None:
+        """Take the scene of this page, which has come up; None where it has gone."""
+        self._coming = True, client
         self._wake.set()
 
-    def hear(self, text: str) -> None:
-        """Note a wish; what is none is ignored."""
-        try:
-            message = json.loads(text)
-        except (ValueError, RecursionError):
-            return
-        if isinstance(message, dict) and isinstance(message.get("verb"), str) and message["verb"] in VERBS:
-            self._waiting.append(message)
-            del self._waiting[:-200]
-            self._wake.set()
+    def hear(self, text: str) -> bool:
+        """Note a wish, and tell whether it is one; what is none is ignored."""
+        wish = read_wish(text)
+        if wish is None or wish["verb"] not in VERBS:
+            return False
+        self._wish(wish)
+        return True
+
+    def _wish(self, wish: Mapping[str, Any]) -> None:
+        self._wishes.add(wish)
+        self.acted = self._loop.time()
+        self._wake.set()
+
+    def _wish_elsewhere(self, verb: str, **wish: Any) -> None:
+        """Note a wish that comes from viser's thread."""
+        self._loop.call_soon_threadsafe(self._wish, {"verb": verb, **wish})
+
+    def leave(self) -> None:
+        """Want nothing more: the page has gone."""
+        self.runs.scheduler.leave(self)
+
+    def sleep(self) -> bool:
+        """Let go of the run, to make room, until something is wished for; tell whether there was one. From any thread."""
+        if self.asleep or self.session is None or self._wishes:
+            return False
+        self.asleep = True
+        self._loop.call_soon_threadsafe(self._sleep)
+        return True
+
+    def _sleep(self) -> None:
+        self.runs.scheduler.leave(self)
+        if self.session is not None:
+            self.session.let_go()
+        self._timeline = self._steps = self._seen = None
 
     def close(self) -> None:
         """Remove what is kept for this page alone."""
@@ -108,10 +125,16 @@ class Student:
                 await self._tell(tell="trouble", text="Something went wrong; the terminal of the server says what.")
 
     async def _do_what_is_wished(self) -> None:
-        waiting, self._waiting = self._waiting, []
-        for message in waiting:
+        wishes, (changed, client), self._coming = self._wishes.take(), self._coming, (False, None)
+        if changed:
+            self._scene.take(client)
+            self._seen = None
+        if self.asleep and (wishes or client) and self.session is not None:
+            self.asleep = False
+            self.session.take_up()
+        for wish in wishes:
             try:
-                await VERBS[message["verb"]](self, message)
+                await (self._click(wish) if wish["verb"] == "click" else VERBS[wish["verb"]](self, wish))
             except InputError as error:
                 tell_terminal(error)
                 await self._tell(tell="trouble", text=str(error))
@@ -119,13 +142,21 @@ class Student:
         for told in news:
             await self._tell(**told)
         session = self.session
-        if session is None:
+        if session is None or self.asleep:
             return
-        if session.pending:
-            await asyncio.to_thread(session.compute, SLICE)
-        await self._show(session)
-        if session.pending:
-            self._wake.set()
+        self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
+        for text in await self.runs.showing.do(self._show, session, bool(wishes)):
+            await self._send(text)
+        await self._glide()
+
+    async def _glide(self) -> None:
+        """Show what moves on its way; who wishes for something meanwhile sees where it ends."""
+        while await self.runs.showing.do(functools.partial(self._scene.go_on, at_once=len(self._wishes) > 0)):
+            await asyncio.sleep(SECONDS / FRAMES)
+
+    def _came(self) -> None:
+        """Look again: steps have come. Called in a thread that computes."""
+        self._loop.call_soon_threadsafe(self._wake.set)
 
     # the verbs ------------------------------------------------------------------------------------------------------
 
@@ -145,7 +176,7 @@ class Student:
         params, start = place.params, self.start
         if start is not None and start.lesson is place.lesson:
             params = with_own_files(params, start.params)
-        session = self.session or Session(place.lesson, self.timelines)
+        session = self.session or Session(place.lesson, self.runs.timelines)
         session.open(place.lesson, params, place.step)
         session.message, self.session = trouble, session
         self._look_anew()
@@ -206,9 +237,10 @@ class Student:
         question = next((one for one in lesson.questions if one.name == message.get("question")), None)
         if question is None:
             return
+        await self._computed(self.runs.timelines.get(lesson, question.params))
         try:
             with Blaming(f"lesson {lesson.name}, question {question.name!r}", question.answer):
-                found = await asyncio.to_thread(answer, lesson, question, message.get("given"), self.timelines)
+                found = await self.runs.asking.do(answer, lesson, question, message.get("given"), self.runs.timelines)
         except InputError as error:
             tell_terminal(error)
             await self._tell(tell="answer", question=question.name, trouble=str(error))
@@ -219,17 +251,36 @@ class Student:
 
     async def handles(self, message: Mapping[str, Any]) -> None:
         """Show the handles in the scene, or hide them."""
-        self._wants_handles = message.get("on") is True
-        if self._handles is not None and not self._wants_handles:
-            self._handles.close()
-            self._handles = None
+        self._scene.wants_handles = message.get("on") is True
+
+    async def light(self, message: Mapping[str, Any]) -> None:
+        """Let what is at a path of the scene stand out; an empty one ends it."""
+        self._scene.path = str(message.get("path", ""))[:200]
 
     async def theme(self, message: Mapping[str, Any]) -> None:
         """Draw the scene for a dark or a light page."""
-        self._dark = message.get("dark") is True
-        if self._client is not None and self._sink is not None:
-            self._client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=self._dark)
-            self._sink.repaint(BACKDROPS[self._dark])
+        self._scene.wear(dark=message.get("dark") is True, still=message.get("still") is True)
+
+    async def _click(self, message: Mapping[str, Any]) -> None:
+        """Set the params that a click in the scene picks."""
+        session = self.session
+        look = None if session is None else session.look()
+        if look is not None and session is not None:
+            values = await self.runs.showing.do(
+                picked_params, look.params, look.scene, message["p_origin"], message["v_ray"]
+            )
+            session.change(**values)
+
+    async def _computed(self, timeline: Timeline) -> None:
+        """Wait until a run is computed to its end; it is, in turn with what others wait for."""
+        came = asyncio.Event()
+
+        def tell() -> None:
+            self._loop.call_soon_threadsafe(came.set)
+
+        while self.runs.scheduler.want(self, timeline, -1, tell):
+            await came.wait()
+            came.clear()
 
     # what comes from elsewhere ---------------------------------------------------------------------------------------
 
@@ -243,7 +294,8 @@ class Student:
         if session is None or field not in {one.name for one in fields_of(session.lesson.params) if one.sensitive}:
             raise InputError("this lesson takes no such file")
         path = await self.files.keep(field, name, parts)
-        self._change({field: path})
+        session.change(**{field: path})
+        self._wake.set()
 
     def go_on(self, before: Lesson, after: Lesson, news: Mapping[str, Any] | None) -> None:
         """Go on in another version of a lesson, at the same params and step, where it is open; called in another thread."""
@@ -275,134 +327,89 @@ class Student:
     def _look_anew(self) -> None:
         """Take the camera of the run that was opened."""
         if self.session is not None:
-            self._view = self.session.lesson.view_of(self.session.params)
+            self._scene.view = self.session.lesson.view_of(self.session.params)
 
     # telling --------------------------------------------------------------------------------------------------------
 
-    async def _show(self, session: Session) -> None:
+    def _show(self, session: Session, asked: bool) -> list[str]:
+        """Show what is to be seen now in the scene; return what the page is to be told. Not on the event loop.
+
+        Args:
+            session: Where the person is.
+            asked: Whether they wished for something; else what they have seen is not said again.
+        """
         look = session.look()
         if look is None or session is not self.session:
-            return
-        if look.timeline.failure is not None:
-            tell_terminal(AuthorError(look.timeline.stopped or "", look.timeline.failure))
-        trouble = self._draw(look)
-        if self._steps is None or self._steps.timeline is not look.timeline:
-            self._steps, self._sent, self._run = Steps(look.timeline), set(), self._run + 1
-        now = (self._run, look.known, look.finished, look.pinned, look.params, session.message)
-        if now != self._told:
-            self._told = now
-            await self._tell(**await asyncio.to_thread(self._run_told, look))
-        if look.known:
-            await self._tell(**await asyncio.to_thread(self._step_told, look, trouble))
-        elif trouble is None and look.caption.text:
-            await self._tell(tell="trouble", text=look.caption.text)
+            return []
+        timeline = look.timeline
+        if timeline.failure is not None:
+            tell_terminal(AuthorError(timeline.stopped or "", timeline.failure))
+        if self._timeline is not timeline or self._steps is None:
+            self._timeline, self._steps = timeline, self.runs.steps(timeline)
+            self._sent, self._told, self._told_steps, self._run = set(), None, 0, self._run + 1
+        pinned = None if session.pinned_run is None else (id(session.pinned_run), len(session.pinned_run))
+        now = self._run, look.k, look.known > 0, look.caption, pinned, self._scene.client, self._scene.dark
+        again = asked or now != self._seen
+        trouble = self._scene.show(look, current=timeline is session.timeline) if again else None
+        told = [self._run_told(self._steps, look, pinned)]
+        if look.known and again:
+            told.append(self._step_told(self._steps, look, trouble))
+        elif not look.known and trouble is None and look.caption.text and again:
+            told.append({"tell": "trouble", "text": look.caption.text})
+        self._seen = now if trouble is None else None
+        return [_packed(message) for message in told if message is not None]
 
-    def _run_told(self, look: Look) -> dict[str, Any]:
-        assert self._steps is not None
+    def _run_told(self, steps: Steps, look: Look, pinned: Any) -> dict[str, Any] | None:
+        """Return what is new of the run since it was last told, None when nothing is."""
         params, lesson = look.params, look.lesson
-        preset = "default" if params == lesson.params() else getattr(lesson.preset_of(params), "name", "")
-        return {
-            "tell": "run",
-            "run": self._run,
-            "name": preset,
+        said = {
+            "name": "default" if params == lesson.params() else getattr(lesson.preset_of(params), "name", ""),
             "params": _values(params),
             "known": look.known,
             "finished": look.finished,
-            "pinned": series_of(look.pinned_series) if look.pinned else None,
-            "mark": first_difference(look.timeline.known()),
-            "files": {
-                field.name: value.name
-                for field in fields_of(type(params))
-                if field.sensitive and (value := getattr(params, field.name)) is not None
-            },
+            "files": _files(params),
+            "mark": first_difference(look.timeline.known()) if self._is_watched(lesson) else None,
             "command": show_command(lesson, params),
             "query": links.write(links.Place(lesson, params)),
-            **self._steps.series(),
         }
+        if (said, pinned) == self._told:
+            return None
+        new: dict[str, Any] = {"tell": "run", "run": self._run, **said}
+        if self._told is None or self._told[1] != pinned:
+            new["pinned"] = series_of(look.pinned_series) if pinned else None
+        if self._told is None or look.known > self._told_steps:
+            new |= steps.series(self._told_steps, look.known)
+        self._told, self._told_steps = (said, pinned), look.known
+        return new
 
-    def _step_told(self, look: Look, trouble: str | None) -> dict[str, Any]:
-        assert self._steps is not None
-        step = dict(self._steps.step(look.k))
+    def _is_watched(self, lesson: Lesson) -> bool:
+        watched = None if self.following is None else self.following.watched
+        return watched is not None and watched.lesson is lesson
+
+    def _step_told(self, steps: Steps, look: Look, trouble: str | None) -> dict[str, Any]:
+        step = dict(steps.step(look.k))
         if look.caption.text != step["caption"] or trouble:
             step |= {"caption": trouble or look.caption.text, "tone": "wrong" if trouble else look.caption.tone}
         wanted = [*step["shown"], step["legend"]]
-        code = self._steps.code(look.k)
+        code = steps.code(look.k)
         if code is not None:
             state = look.timeline[look.k].state
             step["code"] = code | ({"wrong": state.line} if isinstance(state, Pair) and state.line else {})
             wanted.append(code["source"])
-        new = {n: self._steps.things[n] for n in wanted if n not in self._sent}
+        new = {n: steps.things[n] for n in wanted if n not in self._sent}
         self._sent |= set(new)
         return {"tell": "step", "run": self._run, "k": look.k, "step": step, "things": new}
 
-    def _draw(self, look: Look) -> str | None:
-        """Make the scene equal to what is looked at; return what went wrong."""
-        if self._client is None or self._sink is None:
-            return None
-        try:
-            with Blaming(f"lesson {look.lesson.name}", look.lesson.draw), self._client.atomic():
-                if self._staged is not look.lesson:
-                    self._set_up(look.lesson)
-                self._aim(look)
-                self._sink.show(look.scene)
-                if self._wants_handles and self._handles is None:
-                    self._handles = Handles(self._client.scene, look.lesson.params, self._moved)
-                if self._handles is not None:
-                    self._handles.show(look.params)
-        except InputError as error:
-            tell_terminal(error)
-            return str(error)
-        finally:
-            self._client.flush()
-        return None
-
-    def _set_up(self, lesson: Lesson) -> None:
-        """Make the stage a lesson's: its handles, and clicks that set its params."""
-        assert self._client is not None
-        assert self._sink is not None
-        if self._staged is None:
-            self._sink.repaint(BACKDROPS[self._dark])
-        if self._handles is not None:
-            self._handles.close()
-            self._handles = None
-        can_be_picked = any(isinstance(field.knob.by, Pick) for field in fields_of(lesson.params))
-        listen_for_clicks(self._client.scene, self._clicks if can_be_picked else None)
-        self._staged = lesson
-
-    def _aim(self, look: Look) -> None:
-        """Set camera and grid where a run with another view was opened; a knob keeps the camera as long as the grid fits."""
-        assert self._client is not None
-        assert self.session is not None
-        if self._aimed is not None and look.timeline is not self.session.timeline:
-            return  # the picture is of the run before
-        own = look.timeline.lesson.view_of(look.timeline.params)
-        if self._view is None or (self._view.grid, self._view.grid_height) != (own.grid, own.grid_height):
-            self._view = own
-        if self._aimed != (look.lesson.name, self._view):
-            set_stage(self._client, self._view)
-            self._aimed = (look.lesson.name, self._view)
-
     def _clicks(self, p_origin: np.ndarray, v_ray: np.ndarray) -> None:
         """Note a click in the scene; called in viser's thread."""
-        self._loop.call_soon_threadsafe(self._clicked, p_origin, v_ray)
+        self._wish_elsewhere("click", p_origin=p_origin, v_ray=v_ray)
 
     def _moved(self, **values: Any) -> None:
         """Note that a handle was moved; called in viser's thread."""
-        self._loop.call_soon_threadsafe(self._change, values)
-
-    def _clicked(self, p_origin: np.ndarray, v_ray: np.ndarray) -> None:
-        look = None if self.session is None else self.session.look()
-        values = {} if look is None else picked_params(look.params, look.scene, p_origin, v_ray)
-        if values:
-            self._change(values)
-
-    def _change(self, values: Mapping[str, Any]) -> None:
-        if self.session is not None:
-            self.session.change(**values)
-            self._wake.set()
+        self._wish_elsewhere("change", values=values)
 
     async def _tell(self, **message: Any) -> None:
-        await self._send(json.dumps(message, ensure_ascii=False, separators=(",", ":")))
+        await self._send(_packed(message))
 
 
 VERBS: Mapping[str, Callable[[Student, Mapping[str, Any]], Awaitable[None]]] = {
@@ -415,11 +422,22 @@ VERBS: Mapping[str, Callable[[Student, Mapping[str, Any]], Awaitable[None]]] = {
     "pin": Student.pin,
     "predict": Student.predict,
     "handles": Student.handles,
+    "light": Student.light,
     "theme": Student.theme,
 }
+
+
+def _packed(message: Mapping[str, Any]) -> str:
+    return json.dumps(message, ensure_ascii=False, separators=(",", ":"))
 
 
 def _values(params: Any) -> dict[str, Any]:
     """Return params as a page gets them: without the names of files."""
     named = {field.name: getattr(params, field.name) for field in fields_of(type(params)) if not field.sensitive}
     return {name: list(value) if isinstance(value, tuple) else value for name, value in named.items()}
+
+
+def _files(params: Any) -> dict[str, str]:
+    """Return the names, without folders, of the files that params name, by field."""
+    found = {field.name: getattr(params, field.name) for field in fields_of(type(params)) if field.sensitive}
+    return {name: value.name for name, value in found.items() if value is not None}

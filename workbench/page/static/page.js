@@ -24,12 +24,13 @@ const page = {
   },
 
   // what the source says of a run: new, or more of it
-  told(data) {
+  told({ series, from, ...data }) {
     const { id } = data;
     if (!this.run || this.run.id !== id) {
       this.run = { steps: [], things: {}, series: [], charts: {}, played: -1, seen: false, pinned: null, ...data };
       this.k = 0;
     } else Object.assign(this.run, data);
+    if (series) this.run.series = grown(this.run.series, series, from ?? 0);
     if (data.params) knobs.show(data.params);
     $("#pin").setAttribute("aria-pressed", String(Boolean(this.run.pinned)));
     if (data.files) files.show(data.files);
@@ -81,6 +82,15 @@ const page = {
     source.theme?.(dark);
   },
 };
+
+// series with the values that have come from a step on; null where one has none
+function grown(before, series, from) {
+  return series.map((one) => {
+    const values = (before.find((other) => other.path === one.path)?.values ?? []).slice(0, from);
+    while (values.length < from) values.push(null);
+    return { ...one, values: [...values, ...one.values] };
+  });
+}
 
 document.addEventListener("DOMContentLoaded", () => {
   for (const tool of $$("[data-needs]")) tool.hidden = !source[tool.dataset.needs] || !page.can(tool.id);

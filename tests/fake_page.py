@@ -1,0 +1,139 @@
+"""A page and its scene without a browser: what one would say to the live server, and what comes back, with its time."""
+
+import asyncio
+import contextlib
+import json
+import re
+import time
+from collections.abc import Callable
+from typing import Any
+
+import httpx
+import msgspec
+import websockets
+
+CAMERA = {
+    "type": "ViewerCameraMessage", "wxyz": [1.0, 0, 0, 0], "position": [3.0, 3, 3], "fov": 0.8, "near": 0.01, "far": 1e3,
+    "image_height": 900, "image_width": 1440, "look_at": [0.0, 0, 0], "up_direction": [0.0, 0, 1],
+}  # fmt: skip
+
+
+class FakePage:
+    """One visit: the page is asked for, its websocket opened, and its scene's, which takes whatever comes.
+
+    Args:
+        address: Where the server is, up to the last slash, without a query.
+        query: What stands behind it, with its `?`.
+        headers: Of all requests, such as Host, Origin or Cookie; Origin is the server's own unless given.
+    """
+
+    def __init__(self, address: str, query: str = "", headers: dict[str, str] | None = None):
+        self.address, self.query = address.rstrip("/") + "/", query
+        self.headers = {"Origin": re.sub(r"^(https?://[^/]+).*", r"\1", address), **(headers or {})}
+        self.run: dict[str, Any] = {}
+        self.step: dict[str, Any] = {}
+        self.told: list[dict[str, Any]] = []
+        self.came = self.scene_came = 0.0  # when the last step came, and the last of the scene
+        self.scene_bytes = self.bytes = 0
+        self.gone = False
+        self._news = asyncio.Event()
+        self._reading: list[asyncio.Task] = []
+
+    async def open(self, *, scene: bool = True, read: bool = True) -> "FakePage":
+        """Open it as a browser does."""
+        host = {name: value for name, value in self.headers.items() if name in ("Host", "Cookie")}
+        async with httpx.AsyncClient(timeout=60) as http:
+            page = await http.get(f"{self.address}{self.query}", headers=host)
+            page.raise_for_status()
+        self.lesson = re.findall(r'data-lesson="([^"]+)"', page.text)[0]
+        self.token = re.findall(r'data-token="([^"]+)"', page.text)[0]
+        self.live = await self.socket(f"live?token={self.token}")
+        await self.say(verb="open", query=self.query, lesson=self.lesson)
+        if read:
+            self._reading.append(asyncio.create_task(self._read_page()))
+        if scene:
+            await self.open_scene(read=read)
+        return self
+
+    async def open_scene(self, *, read: bool = True) -> None:
+        """Let the scene come up."""
+        import viser
+
+        name = websockets.Subprotocol(f"viser-v{viser.__version__}")
+        self.scene = await self.socket(f"scene/{self.token}/", subprotocols=[name])
+        await self.scene.send(msgspec.msgpack.encode(CAMERA))
+        if read:
+            self._reading.append(asyncio.create_task(self._read_scene()))
+
+    async def socket(self, path: str, **options: Any) -> Any:
+        """Open a websocket of this page."""
+        headers = {name: value for name, value in self.headers.items() if name not in ("Origin", "Host")}
+        server = httpx.URL(self.address)
+        address = f"ws{self.address.removeprefix('http')}{path}"
+        if "Host" in self.headers:
+            address = re.sub(r"//[^/]+", f"//{self.headers['Host']}", address)
+        return await websockets.connect(
+            address,
+            host=server.host,
+            port=server.port,
+            origin=self.headers["Origin"] or None,  # type: ignore[arg-type]
+            additional_headers=headers,
+            max_size=None,
+            compression=None,
+            ping_interval=None,
+            open_timeout=60,
+            **options,
+        )
+
+    async def say(self, **message: Any) -> None:
+        """Wish for something."""
+        await self.live.send(json.dumps(message))
+
+    async def until(self, holds: Callable[["FakePage"], bool], seconds: float = 60.0) -> None:
+        """Wait until something holds of this page; looked at whenever a message has come."""
+        async with asyncio.timeout(seconds):
+            while not holds(self):
+                if self.gone:
+                    raise ConnectionError("the server has closed this page's socket")
+                self._news.clear()
+                await self._news.wait()
+
+    async def seek(self, k: int) -> tuple[float, float]:
+        """Go to a step; return the seconds until its words had come, and until the last of its scene had."""
+        began = time.perf_counter()
+        self.step = {}
+        await self.say(verb="seek", k=k)
+        await self.until(lambda page: page.step.get("k") == k)
+        return self.came - began, max(self.scene_came - began, 0.0)
+
+    async def close(self) -> None:
+        """Leave."""
+        for task in self._reading:
+            task.cancel()
+        for name in ("live", "scene"):
+            if hasattr(self, name):
+                with contextlib.suppress(Exception):
+                    await getattr(self, name).close()
+
+    async def _read_page(self) -> None:
+        with contextlib.suppress(websockets.ConnectionClosed):
+            async for text in self.live:
+                self.bytes += len(text)
+                self._hear(json.loads(text))
+        self.gone = True
+        self._news.set()
+
+    def _hear(self, message: dict[str, Any]) -> None:
+        if message["tell"] == "run":
+            self.run |= message
+        elif message["tell"] == "step":
+            self.step, self.came = message, time.perf_counter()
+        else:
+            self.told.append(message)
+        self._news.set()
+
+    async def _read_scene(self) -> None:
+        with contextlib.suppress(websockets.ConnectionClosed):
+            async for frame in self.scene:
+                self.scene_bytes += len(frame)
+                self.scene_came = time.perf_counter()

@@ -1,0 +1,170 @@
+"""The runs of all pages: computed in turn, their data made once for everybody, all within one bound of memory."""
+
+import asyncio
+import contextlib
+import ctypes
+import gc
+import queue
+import sys
+import threading
+import weakref
+from collections.abc import Callable, Iterable
+from typing import Any, TypeVar
+
+from workbench.lesson import Lesson
+from workbench.page.steps import Steps
+from workbench.scene import arrays
+from workbench.timeline import Timeline, Timelines
+from workbench.viewer.scheduling import Scheduler
+
+Result = TypeVar("Result")
+
+MOST_BYTES = 3 * 2**29
+"""What runs, their steps' data and lessons' caches may hold together."""
+
+
+class Crew:
+    """A few threads that do one kind of work, and end with the program whatever holds them up."""
+
+    def __init__(self, name: str, threads: int):
+        self._work: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._threads = threads
+        for _ in range(threads):
+            threading.Thread(target=self._run, name=name, daemon=True).start()
+
+    async def do(self, function: Callable[..., Result], *args: Any) -> Result:
+        """Return what a function returns, called in one of the threads."""
+        loop = asyncio.get_running_loop()
+        answer: asyncio.Future[Result] = loop.create_future()
+        self._work.put((loop, answer, function, args))
+        return await answer
+
+    def close(self) -> None:
+        """Do nothing more than what was begun."""
+        for _ in range(self._threads):
+            self._work.put(None)
+
+    def _run(self) -> None:
+        while (task := self._work.get()) is not None:
+            loop, answer, function, args = task
+            del task
+            if answer.cancelled():
+                continue
+            found, error = None, None
+            try:
+                found = function(*args)
+            except Exception as raised:
+                error = raised
+            except BaseException as raised:  # a lesson that wants to end the program
+                error = RuntimeError(repr(raised))
+            try:
+                loop.call_soon_threadsafe(_settle, answer, found, error)
+            except RuntimeError:
+                return  # the server has stopped
+            del loop, answer, function, args, found, error
+
+
+def _settle(answer: asyncio.Future, found: Any, error: Exception | None) -> None:
+    if answer.done():
+        return
+    if error is not None:
+        answer.set_exception(error)
+    else:
+        answer.set_result(found)
+
+
+class Runs:
+    """What the pages of a server share.
+
+    Args:
+        most_bytes: What runs, their steps' data and lessons' caches may hold together. Runs that nobody looks at go
+            first, then lessons' caches, then the runs of pages where nothing was done for longest.
+        threads: How many compute.
+    """
+
+    def __init__(self, most_bytes: int = MOST_BYTES, threads: int = 2):
+        self.timelines = Timelines(most_bytes=most_bytes)
+        self.scheduler = Scheduler(threads)
+        self.showing, self.asking = Crew("showing", 2), Crew("asking", 1)
+        self._most_bytes = most_bytes
+        self._steps: weakref.WeakKeyDictionary[Timeline, Steps] = weakref.WeakKeyDictionary()
+        self._lock = threading.Lock()
+
+    def steps(self, timeline: Timeline) -> Steps:
+        """Return the data of a run's steps, the same for all who ask."""
+        with self._lock:
+            steps = self._steps.get(timeline)
+            if steps is None:
+                steps = self._steps[timeline] = Steps(timeline)
+            return steps
+
+    def close(self) -> None:
+        """End the threads; what is computed now is given up."""
+        self.scheduler.close()
+        self.showing.close()
+        self.asking.close()
+
+    def held(self, lessons: Iterable[Lesson]) -> int:
+        """Return the bytes of all runs, their steps' data and these lessons' caches, each array counted once."""
+        owned: dict[int, int] = {}
+        for timeline in self.timelines.alive():
+            owned |= timeline.owned()
+        for cached in caches(lessons):
+            owned |= {id(array): array.nbytes for array in _cached_arrays(cached)}
+        with self._lock:
+            data = sum(steps.bytes for steps in self._steps.values())
+        return sum(owned.values()) + data
+
+    def make_room(self, lessons: Iterable[Lesson], sleepers: Iterable[Callable[[], bool]]) -> int:
+        """Let go of what is needed least until all is within the bound; return what is held then.
+
+        Args:
+            lessons: Those that are served.
+            sleepers: Let go of the run of one page each, in this order, and tell whether they did.
+        """
+        lessons, freed = tuple(lessons), False
+        if self.timelines.bytes < self._most_bytes // 2:
+            return self.timelines.bytes  # arrays that two runs share counted twice: there is room
+        while (held := self.held(lessons)) > self._most_bytes and self.timelines.drop():
+            freed = True
+        if held > self._most_bytes:
+            for cached in caches(lessons):
+                cached.cache_clear()
+            held, freed = self.held(lessons), True
+        for sleep in sleepers:
+            if held <= self._most_bytes:
+                break
+            if sleep():
+                held, freed = self.held(lessons), True
+        if freed:
+            give_back()
+        return held
+
+
+def caches(lessons: Iterable[Lesson]) -> list[Any]:
+    """Return the caches (`functools.lru_cache`) of the modules that lessons are made of."""
+    homes = {lesson.params.__module__.rpartition(".")[0] or lesson.params.__module__ for lesson in lessons}
+    found: dict[int, Any] = {}
+    for name, module in tuple(sys.modules.items()):
+        if name in homes or name.rpartition(".")[0] in homes:
+            for value in tuple(vars(module).values()):
+                if callable(getattr(value, "cache_clear", None)) and callable(getattr(value, "cache_info", None)):
+                    found[id(value)] = value
+    return list(found.values())
+
+
+def _cached_arrays(cached: Any) -> Iterable[Any]:
+    """Walk through the arrays that a cache holds, as far as they can be seen."""
+    for held in gc.get_referents(cached):
+        for array in arrays(held):
+            owner = array
+            while owner.base is not None and type(owner.base) is type(owner):
+                owner = owner.base
+            yield owner
+
+
+def give_back() -> None:
+    """Give freed memory back to the machine, where its C library can."""
+    if sys.platform == "linux":
+        with contextlib.suppress(OSError, AttributeError):  # another C library
+            ctypes.CDLL(None).malloc_trim(0)
