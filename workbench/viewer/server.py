@@ -27,12 +27,12 @@ from workbench import links
 from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
 from workbench.page.article import article_html
-from workbench.page.document import SCRIPTS, STATIC, lesson_document
+from workbench.page.document import SCRIPTS, STATIC, STYLES, lesson_document
 from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
 from workbench.viewer.student import Student
 
-FILES = ("page.css", "live.js", *SCRIPTS)
+FILES = (*STYLES, "live.js", *SCRIPTS)
 LONGEST = 20_000  # characters of a message from a browser
 
 

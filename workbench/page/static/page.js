@@ -57,6 +57,7 @@ const page = {
     this.say(step.caption, step.tone);
     stage.legend(this.run.things[step.legend] ?? "");
     beside.show();
+    text.show();
   },
 
   say(text, tone) {
