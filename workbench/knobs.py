@@ -294,15 +294,16 @@ def changed(params: Any, base: Any = None) -> dict[str, str]:
     """Return the fields that differ from the base (or the defaults), as the text a link or command line takes."""
     base = type(params)() if base is None else base
     return {
-        f.name: _text(getattr(params, f.name))
+        f.name: text_of(getattr(params, f.name))
         for f in fields_of(type(params))
         if getattr(params, f.name) != getattr(base, f.name)
     }
 
 
-def _text(value: Any) -> str:
+def text_of(value: Any) -> str:
+    """Return the value of a field as the text that a link or a command line takes."""
     if isinstance(value, tuple):
-        return ",".join(_text(part) for part in value)
+        return ",".join(text_of(part) for part in value)
     return f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else str(value)
 
 

@@ -77,7 +77,7 @@ def test_a_ledger_that_is_none_gives_no_rights(out, text):
     assert contents(out) == before
 
 
-@pytest.mark.parametrize("name", ["index.html", "site.css", ".nojekyll", "fake/index.html", "fake/runs/fake.rrd"])
+@pytest.mark.parametrize("name", ["index.html", "lessons.js", ".nojekyll", "fake/index.html", "fake/runs/fake.rrd"])
 def test_a_file_of_somebody_else_is_not_replaced(tmp_path, name, rendered):
     (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
     (tmp_path / name).write_text("mine")
@@ -89,13 +89,13 @@ def test_a_file_of_somebody_else_is_not_replaced(tmp_path, name, rendered):
 
 
 def test_a_file_of_ours_that_somebody_changed_is_theirs(out):
-    (out / "site.css").write_text("mine")
+    (out / "lessons.js").write_text("mine")
     before = contents(out)
-    with pytest.raises(InputError, match=r"site\.css.*--force"):
+    with pytest.raises(InputError, match=r"lessons\.js.*--force"):
         site.publish(out, [TINY])
     assert contents(out) == before
     site.publish(out, [TINY], force=True)
-    assert b"mine" not in (out / "site.css").read_bytes()
+    assert b"mine" not in (out / "lessons.js").read_bytes()
 
 
 def test_one_lesson_more_leaves_the_others_and_what_people_put_there(out):
@@ -118,7 +118,7 @@ def test_a_lesson_that_is_no_more_goes_and_what_others_put_there_stays(out):
     assert not (out / "fake" / "runs").exists()
     assert "fake" not in (out / "index.html").read_text()
     site.publish(out, [TINY], remove_others=True, force=True)
-    assert sorted(os.listdir(out / "fake")) == ["index.html", "notes.txt", "runs"]
+    assert sorted(os.listdir(out / "fake")) == ["index.html", "notes.txt", "picture.webp", "runs"]
     assert not (out / "other").exists()
 
 
@@ -163,12 +163,12 @@ def test_a_link_to_a_file_elsewhere_is_replaced_not_followed(tmp_path):
     (tmp_path / "own.css").write_text("mine")
     out = tmp_path / "site"
     out.mkdir()
-    (out / "site.css").symlink_to(tmp_path / "own.css")
-    with pytest.raises(InputError, match=r"site\.css"):
+    (out / "lessons.js").symlink_to(tmp_path / "own.css")
+    with pytest.raises(InputError, match=r"lessons\.js"):
         site.publish(out, [TINY])
     site.publish(out, [TINY], force=True)
     assert (tmp_path / "own.css").read_text() == "mine"
-    assert not (out / "site.css").is_symlink()
+    assert not (out / "lessons.js").is_symlink()
 
 
 def test_who_is_stopped_in_the_middle_of_writing_goes_on(out, monkeypatch, rendered):

@@ -1,15 +1,19 @@
+import base64
 import json
 import re
 from dataclasses import replace
 
+import msgspec
 import pytest
+import zstandard
 
 from tests import fake
 from tests.publish.conftest import TINY
 from workbench.errors import InputError
-from workbench.lesson import catalog
+from workbench.lesson import Sweep, View, catalog
 from workbench.page.steps import Steps
 from workbench.publish import runs, site
+from workbench.publish.replay import Renderer
 from workbench.scene import Caption
 from workbench.timeline import Timeline
 
@@ -32,9 +36,9 @@ def test_every_run_has_its_replay_its_recording_and_a_page_of_its_own(published)
     out, files = published
     for name in ("default.js", "default.html", "fake.rrd", "half.js", "half.html", "fake-half.rrd"):
         assert files[f"fake/runs/{name}"] > 500
-    for page, name in (("index", "fake.rrd"), ("runs/default", "fake.rrd"), ("runs/half", "fake-half.rrd")):
-        assert f'{name}" download="{name}"' in (out / "fake" / f"{page}.html").read_text()
-    assert data_of(out, "half")["recording"] == "fake-half.rrd"
+    for run, name in (("default", "fake.rrd"), ("half", "fake-half.rrd")):
+        assert data_of(out, run)["recording"] == name
+    assert files["fake/picture.webp"] > 5000
     assert files["fake/index.html"] < 300_000
     assert '<link rel="canonical" href="https://example.org/course/fake/">' in (out / "fake" / "index.html").read_text()
 
@@ -48,7 +52,89 @@ def test_the_numbers_are_those_of_the_run(published):
         values = timeline.series()[one["path"]].values
         assert one["values"] == [None if v != v else pytest.approx(v, rel=1e-5) for v in values]
     assert data["scene"]
-    assert data["reopen"] == "workbench show fake.py"
+    assert data["command"] == "workbench show fake.py"
+
+
+def test_every_step_says_where_the_code_stood(published):
+    out, _ = published
+    data = data_of(out, "default")
+    for step, known in zip(data["steps"], Timeline(SMALL, SMALL.params()).complete().known(), strict=True):
+        assert known.moment is not None
+        _, first = known.moment.source
+        assert first + step["code"]["line"] == known.moment.line
+        assert "def approach" in re.sub("<[^>]*>", "", data["things"][step["code"]["source"]]["html"])
+
+
+def test_the_page_tells_nobody_the_answers_who_reads_it(published):
+    out, _ = published
+    page = (out / "fake" / "index.html").read_text()
+    for question in SMALL.questions:
+        states = Timeline(SMALL, question.params).states()
+        assert question.why(states) not in page
+        kept = re.search(rf'"{question.name}":"([A-Za-z0-9+/=]+)"', page)
+        assert kept is not None
+        assert json.loads(base64.b64decode(kept[1]))["why"] == question.why(states)
+
+
+SWEPT = replace(
+    SMALL,
+    questions=(),
+    sweeps=(Sweep("angle", (0.0, 90.0, 180.0)), Sweep("place", ((0.5, 0.25, 0.0), (-1.0, 0.0, 0.0)))),
+)
+
+
+def test_a_sweep_is_a_knob_whose_runs_are_shared_with_presets_and_the_default():
+    found = [(run.name, run.file, run.recorded) for run in runs.runs_of(SWEPT)]
+    assert found == [
+        ("default", "default", True),
+        ("half", "half", True),
+        ("angle:0", "angle-0", False),
+        ("place:0.5,0.25,0", "place-0_5_0_25_0", False),
+        ("place:-1,0,0", "place--1_0_0", False),
+    ]
+    angle, place = runs.sweep_data(SWEPT)
+    assert (angle["label"], angle["unit"], angle["values"]) == ("Angle", "deg", ["0", "90", "180"])
+    assert angle["runs"] == ["angle:0", "default", "half"]
+    assert place["runs"] == ["place:0.5,0.25,0", "place:-1,0,0"]
+    known = runs.recorded(SWEPT, runs.runs_of(SWEPT)[0], root="", runs="runs/", answers={})
+    assert known["aliases"]["angle:180"] == "half"
+
+
+def test_runs_of_a_sweep_are_published_without_a_recording(tmp_path):
+    swept = replace(TINY, sweeps=(Sweep("colors", ("role", "field")),))
+    files = dict(site.publish(tmp_path, [swept]))
+    assert {name for name in files if name.startswith("fake/runs/")} == {
+        *(
+            f"fake/runs/{name}"
+            for name in ("default.js", "default.html", "fake.rrd", "colors-role.js", "colors-role.html")
+        )
+    }
+    assert data_of(tmp_path, "colors-role")["recording"] is None
+    assert data_of(tmp_path, "colors-role")["command"] == "workbench show fake.py --colors=role"
+
+
+def test_two_runs_that_would_have_one_file_are_refused(tmp_path, rendered):
+    taken = replace(SMALL.presets[0], name="angle-0")
+    with pytest.raises(InputError, match="two of its runs"):
+        site.publish(tmp_path, [replace(SWEPT, presets=(taken,))])
+    assert rendered == []
+
+
+def test_a_run_is_seen_by_the_camera_of_its_preset():
+    view = View(eye=(0.0, -3.0, 1.0), grid=None)
+    own = replace(SMALL, presets=(replace(SMALL.presets[0], view=view),))
+    with Renderer() as renderer:
+        seen = [renderer.scene(Timeline(own, params).complete())[1] for params in (own.params(), own.presets[0].params)]
+    cameras = [camera_of(data) for data in seen]
+    assert cameras == [list(own.view.eye), list(view.eye)]
+
+
+def camera_of(data: str) -> list[float]:
+    """Return where the camera stands in a recording of viser's."""
+    packed = base64.b64decode(data)
+    inner = zstandard.ZstdDecompressor().decompress(packed[8:], max_output_size=int.from_bytes(packed[:8], "little"))
+    said = msgspec.msgpack.decode(inner[8 : 8 + int.from_bytes(inner[:8], "little")])
+    return next(m["position"] for _, m in said["messages"] if m["type"] == "SetCameraPositionMessage")
 
 
 def test_what_repeats_is_kept_once():
@@ -149,4 +235,4 @@ def test_every_page_of_every_lesson_is_small_and_its_runs_have_names_of_their_ow
     for lesson in catalog().values():
         names = [run.name for run in runs.runs_of(lesson)]
         assert len(set(names)) == len(names)
-        assert all(re.fullmatch(r"[a-z0-9_-]+", name) for name in names), names
+        assert all(re.fullmatch(r"[a-z0-9_-]+", name) for name in names if ":" not in name), names

@@ -1,6 +1,7 @@
 """The HTML document of the page, the same in every home: what a home cannot do is not in it."""
 
 import json
+from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -10,10 +11,15 @@ from workbench.page.article import PLACE
 from workbench.page.lessons import lesson_data
 
 STATIC = Path(__file__).with_name("static")
+STYLES = ("page.css", "ending.css", "course.css")
 SCRIPTS = (
-    "tools.js", "curves.js", "stage.js", "transport.js", "beside.js", "article.js", "knobs.js", "files.js", "exercise.js",
-    "run.js", "edited.js", "progress.js", "page.js",
+    "tools.js", "curves.js", "stage.js", "transport.js", "beside.js", "article.js", "knobs.js", "exercise.js",
+    "run.js", "progress.js", "text.js", "page.js",
 )  # fmt: skip
+LIVE = ("files.js", "edited.js", "live.js")
+"""The scripts that feed the page from a server."""
+RECORDED = ("viserfile.js", "feed.js", "ghosts.js", "shelf.js", "sweeps.js", "recorded.js")
+"""The scripts that feed the page from recorded runs, on a site and in a notebook."""
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 """Steps a second of Play, as a page offers them."""
 VERBS = (
@@ -27,7 +33,16 @@ VERBS = (
 
 
 def lesson_document(
-    lesson: Lesson, article: str, *, home: str, root: str, source: str, head: str = "", ending: str = ""
+    lesson: Lesson,
+    article: str,
+    *,
+    home: str,
+    root: str,
+    head: str = "",
+    ending: str = "",
+    more: Mapping[str, Any] | None = None,
+    alone: tuple[str, str] | None = None,
+    still: str = "",
 ) -> str:
     """Return the document of a lesson.
 
@@ -36,11 +51,29 @@ def lesson_document(
         article: Its text as HTML, with PLACE where the questions belong.
         home: `live`, `site` or `notebook`.
         root: The relative address of the folder with the page's own files.
-        source: The file name of the script that feeds the page in this home.
         head: More HTML for the head.
         ending: What stands behind the text and its experiments, as HTML.
+        more: What else the scripts need: name of a constant -> plain data.
+        alone: Of a page that shows one run and no article, its title and the address of the lesson's page.
+        still: The address of a picture that stands for the scene where no script runs.
     """
-    data = lesson_data(lesson)
+    data = lesson_data(lesson) | ({} if home == "live" else {"knobs": []})
+    scripts = (*(LIVE if home == "live" else RECORDED), *SCRIPTS)
+    constants = {"LESSON": data} | dict(more or {})
+    heading = f"{lesson.title}: {alone[0]}" if alone else lesson.title
+    text = _alone(heading, alone[1]) if alone else _article(article, home, data, ending)
+    return (
+        f"{document_head(heading, lesson.summary, root, head)}"
+        f'<body{" class=alone" if alone else ""} data-home="{home}" data-lesson="{escape(lesson.name)}">'
+        f'<a class="skip" href="#stage">To the stage</a><main>{text}'
+        f'<div id="side">{_stage(still)}</div></main>'
+        f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"
+        + "".join(f'<script src="{root}{name}"></script>' for name in scripts)
+        + "</body></html>\n"
+    )
+
+
+def _article(article: str, home: str, data: dict[str, Any], ending: str) -> str:
     questions = "".join(_question(question) for question in data["questions"])
     presets = "".join(
         f'<li><button type="button" data-run="{escape(preset["name"])}" aria-pressed="false">{escape(preset["title"])}'
@@ -49,17 +82,23 @@ def lesson_document(
     )
     chosen = f'<section class="s-runs"><h2>Experiments</h2><ul class="runs">{presets}</ul></section>' if presets else ""
     return (
-        f"{_head(lesson.title, lesson.summary, root, head)}"
-        f'<body data-home="{home}" data-lesson="{escape(lesson.name)}">'
-        '<a class="skip" href="#stage">To the stage</a>'
-        f'<main><article id="article"><nav class="top"><a href="{_course(home)}">Geometry workbench</a>'
+        f'<article id="article">{_top("Geometry workbench", _course(home))}'
+        f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}'
+        f'{ending}<section class="s-run" id="this-run" hidden><h2>This run</h2></section>'
+        '<details id="text"><summary>Text of this run</summary><p></p><ol start="0"></ol></details>'
+        f'<nav id="around" aria-label="Lessons before and after" data-address="{_lesson(home)}"></nav></article>'
+    )
+
+
+def _alone(heading: str, lesson_page: str) -> str:
+    return f'<header id="article"><h1>{escape(heading)}</h1>{_top("The lesson", lesson_page)}</header>'
+
+
+def _top(words: str, address: str) -> str:
+    return (
+        f'<nav class="top"><a href="{address}">{words}</a>'
         '<button type="button" id="theme" title="Light or dark (T)">◐</button>'
         '<button type="button" id="help" title="Keys (?)">?</button></nav>'
-        f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}{ending}</article>'
-        f'<div id="side">{_stage()}</div></main>'
-        f"<script>const LESSON = {in_script(data)};</script>"
-        + "".join(f'<script src="{root}{name}"></script>' for name in (source, *SCRIPTS))
-        + "</body></html>\n"
     )
 
 
@@ -69,13 +108,15 @@ def in_script(value: Any) -> str:
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
-def _head(title: str, summary: str, root: str, more: str) -> str:
+def document_head(title: str, summary: str, root: str, more: str) -> str:
+    """Return the head of a document of ours."""
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<title>{escape(title)}</title><meta name="description" content="{escape(summary)}">'
-        f'<link rel="icon" href="data:,"><link rel="stylesheet" href="{root}page.css">'
-        f'<link rel="stylesheet" href="{root}math.css">{more}</head>'
+        f'<link rel="icon" href="data:,">'
+        + "".join(f'<link rel="stylesheet" href="{root}{name}">' for name in (*STYLES, "math.css"))
+        + f"{more}</head>"
     )
 
 
@@ -83,22 +124,28 @@ def _course(home: str) -> str:
     return "?course" if home == "live" else "../index.html"
 
 
-def _stage() -> str:
-    """Return the stage. What a home may lack has `data-needs`, the verb of its source that it is shown with."""
+def _lesson(home: str) -> str:
+    return "?lesson=LESSON" if home == "live" else "../LESSON/index.html"
+
+
+def _stage(still: str) -> str:
+    """Return the stage. What a home may lack has `data-needs`, the verbs of its source that it is shown with."""
     buttons = "".join(
         f'<button type="button" data-act="{verb}" title="{title}" aria-label="{title}">{_sign(sign)}</button>'
         for verb, title, sign in VERBS
     )
     speeds = "".join(f'<option value="{speed:g}">{speed:g}×</option>' for speed in SPEEDS)
+    picture = f'<noscript><img src="{escape(still)}" alt="A step of this lesson"></noscript>' if still else ""
     return (
         '<section id="stage" aria-label="Stage"><div id="view"><div id="scene" aria-busy="true"></div>'
+        f"{picture}"
         '<div id="legend" role="group" aria-label="Legend" tabindex="0"></div>'
         '<div id="tools" role="group" aria-label="Tools">'
         '<button type="button" id="move" data-needs="handles" aria-pressed="false" title="Handles in the scene (H)" hidden>'
         "Move it yourself</button>"
         '<button type="button" id="pin" data-needs="pin" aria-pressed="false" title="Keep this run behind the next (I)" '
         "hidden>Pin</button>"
-        '<button type="button" id="set" data-needs="change" aria-expanded="false" aria-controls="drawer" '
+        '<button type="button" id="set" data-needs="change sweep" aria-expanded="false" aria-controls="drawer" '
         'title="What this run is made with (S)" hidden>Knobs</button></div>'
         '<aside id="drawer" aria-label="Knobs" hidden></aside></div>'
         f'<div id="bar" role="group" aria-label="Steps">{buttons}'

@@ -3,17 +3,18 @@
 import functools
 import hashlib
 import os
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.flags import show_command
-from workbench.lesson import Lesson, catalog
-from workbench.page.document import in_script
+from workbench.lesson import Lesson, Question, Sweep, catalog
+from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
-from workbench.publish.pages import embed_page, question_run
 from workbench.publish.replay import Renderer
 from workbench.publish.sources import sources_digest
 from workbench.publish.workers import WorkerLostError, shared_out
@@ -21,23 +22,42 @@ from workbench.recording import file_name, record_bytes
 from workbench.timeline import Timeline
 
 VISER_PAGE = "viser.js"
+PAGE = "page"
+"""The folder of a site with the page's own styles and scripts."""
 ALONE = 6
 """So many runs are rendered sooner by this process alone than by others that have to start."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """One run of a lesson's page: its name, title, line, params, and where it opens."""
+    """One run of a lesson's page.
+
+    Attributes:
+        name: Its name in addresses, such as `far` or `start_angle:30`.
+        title, line: What a person reads of it.
+        params: With these.
+        first: The step where it opens.
+        recorded: Whether its recording is part of the site: those of sweeps are not.
+    """
 
     name: str
     title: str
     line: str
     params: Any
     first: int
+    recorded: bool = True
+
+    @property
+    def file(self) -> str:
+        """The name of its files."""
+        return re.sub(r"[^A-Za-z0-9_-]", "_", self.name.replace(":", "-"))
 
 
 def runs_of(lesson: Lesson) -> tuple[Run, ...]:
-    """Return the runs of a lesson's page: the default, every preset, and what else its questions need."""
+    """Return the runs of a lesson's page: the default, every preset, what its questions need, and its sweeps.
+
+    What has equal params is one run.
+    """
     runs = [Run("default", "The default run", lesson.summary, lesson.params(), lesson.first_step)]
     for preset in lesson.presets:
         runs.append(
@@ -52,18 +72,58 @@ def runs_of(lesson: Lesson) -> tuple[Run, ...]:
     for question in lesson.questions:
         if question_run(lesson, question) == question.name:
             runs.append(Run(question.name, "The question's run", question.text, question.params, 0))
+    for name, title, params in (value for sweep in lesson.sweeps for value in swept(lesson, sweep)):
+        if all(run.params != params for run in runs):
+            runs.append(Run(name, title, "", params, lesson.first_step, recorded=False))
     return tuple(runs)
 
 
-def files_of(lesson: Lesson, run: Run) -> tuple[str, str, str]:
+def question_run(lesson: Lesson, question: Question) -> str:
+    """Return the name of the run that answers a question: of the default, a preset or an earlier question if the same."""
+    if question.params == lesson.params():
+        return "default"
+    preset = lesson.preset_of(question.params)
+    if preset is not None:
+        return preset.name
+    return next(other.name for other in lesson.questions if other.params == question.params)
+
+
+def swept(lesson: Lesson, sweep: Sweep) -> list[tuple[str, str, Any]]:
+    """Return name, title and params of the run at each value of a sweep."""
+    field = next(field for field in knobs.fields_of(lesson.params) if field.name == sweep.knob)
+    found = []
+    for params in lesson.swept(sweep):
+        said = knobs.text_of(getattr(params, sweep.knob))
+        found.append((f"{sweep.knob}:{said}", f"{field.label} {said} {field.knob.unit}".rstrip(), params))
+    return found
+
+
+def sweep_data(lesson: Lesson) -> list[dict[str, Any]]:
+    """Return the sweeps of a lesson as knobs of a page that cannot compute: what is shown, and the run at each value."""
+    fields = {field.name: field for field in knobs.fields_of(lesson.params)}
+    runs = runs_of(lesson)
+    return [
+        {
+            "label": fields[sweep.knob].label,
+            "unit": fields[sweep.knob].knob.unit,
+            "hint": fields[sweep.knob].knob.hint,
+            "names": [name for name, _, _ in swept(lesson, sweep)],
+            "values": [name.partition(":")[2] for name, _, _ in swept(lesson, sweep)],
+            "runs": [next(run.name for run in runs if run.params == params) for _, _, params in swept(lesson, sweep)],
+        }
+        for sweep in lesson.sweeps
+    ]
+
+
+def files_of(lesson: Lesson, run: Run) -> tuple[str, ...]:
     """Return where in a site a run's replay, page of its own and recording are."""
-    beside = f"{lesson.name}/runs/{run.name}"
-    return f"{beside}.js", f"{beside}.html", f"{lesson.name}/runs/{recording_of(lesson, run)}"
+    beside, recording = f"{lesson.name}/runs/{run.file}", recording_of(lesson, run)
+    return f"{beside}.js", f"{beside}.html", *([f"{lesson.name}/runs/{recording}"] if recording else [])
 
 
-def recording_of(lesson: Lesson, run: Run) -> str:
-    """Return the name of a run's recording: it tells what it is where it is downloaded to."""
-    return file_name(lesson, None if run.name == "default" else run.name)
+def recording_of(lesson: Lesson, run: Run) -> str | None:
+    """Return the name of a run's recording, which tells what it is where it is downloaded to; None where there is none."""
+    return file_name(lesson, None if run.name == "default" else run.name) if run.recorded else None
 
 
 def render_all(runs: Sequence[tuple[Lesson, Run]]) -> Iterator[tuple[Lesson, Run, dict[str, bytes]]]:
@@ -110,25 +170,71 @@ def render(lesson: Lesson, run: Run, renderer: Renderer) -> dict[str, bytes]:
         f"viserPage({in_script(head + 'window.__VISER_EMBED_DATA__=' + chr(34))}, {in_script(chr(34) + tail)});\n"
     )
     preset = run.name if any(preset.name == run.name for preset in lesson.presets) else None
-    script_file, alone, recording = files_of(lesson, run)
+    script_file, alone, *recordings = files_of(lesson, run)
     return {
         VISER_PAGE: viser_page.encode(),
         script_file: run_script(lesson, run, timeline, data).encode(),
-        alone: embed_page(lesson, run.name, run.title, recording_of(lesson, run)).encode(),
-        recording: record_bytes(timeline, preset=preset),
+        alone: run_page(lesson, run).encode(),
+        **{name: record_bytes(timeline, preset=preset) for name in recordings},
     }
 
 
 def run_script(lesson: Lesson, run: Run, timeline: Timeline, scene: str) -> str:
     """Return the script file of a run."""
-    first = timeline.opening(f"lesson {lesson.name}, run {run.name!r}", run.first)
-    data = Steps(timeline).whole() | {
+    return f"replay({in_script(run.name)}, {in_script(run_data(lesson, run, timeline, scene))});\n"
+
+
+def run_data(lesson: Lesson, run: Run, timeline: Timeline, scene: str) -> dict[str, Any]:
+    """Return all that a page shows of a run, as plain data; `scene` is a recording of viser's, base64."""
+    steps = Steps(timeline)
+    data = steps.whole()
+    for k, step in enumerate(data["steps"]):
+        code = steps.code(k)
+        data["steps"][k] = step | ({"code": code} if code else {})
+    return data | {
         "scene": scene,
-        "first": first,
-        "reopen": show_command(lesson, run.params),
+        "first": timeline.opening(f"lesson {lesson.name}, run {run.name!r}", run.first),
+        "command": show_command(lesson, run.params),
         "recording": recording_of(lesson, run),
     }
-    return f"replay({in_script(run.name)}, {in_script(data)});\n"
+
+
+def recorded(lesson: Lesson, opened: Run, *, root: str, runs: str, answers: Mapping[str, str]) -> dict[str, Any]:
+    """Return what a page must know of the runs that it can open.
+
+    Args:
+        lesson: Whose runs.
+        opened: The one it opens at first.
+        root: The address of the site's folder.
+        runs: That of the folder with the runs.
+        answers: What is told when a question is answered, by its name.
+    """
+    sweeps = sweep_data(lesson)
+    return {
+        "root": root,
+        "runs": runs,
+        "open": opened.name,
+        "files": {run.name: run.file for run in runs_of(lesson)},
+        "titles": {run.name: run.title for run in runs_of(lesson)},
+        "aliases": {name: run for sweep in sweeps for name, run in zip(sweep["names"], sweep["runs"], strict=True)},
+        "sweeps": sweeps,
+        "note": f"These runs are recorded. All knobs, live: {show_command(lesson, lesson.params())}",
+        "answers": dict(answers),
+    }
+
+
+def run_page(lesson: Lesson, run: Run) -> str:
+    """Return the page of one run alone, for an iframe on a slide or a learning platform."""
+    known = recorded(lesson, run, root="../../", runs="", answers={})
+    return lesson_document(
+        lesson,
+        "",
+        home="site",
+        root=f"../../{PAGE}/",
+        more={"RECORDED": known},
+        alone=(run.title, f"../index.html#run={run.name}"),
+        still="../picture.webp",
+    )
 
 
 def digest_of(lesson: Lesson, run: Run) -> str:
@@ -138,10 +244,13 @@ def digest_of(lesson: Lesson, run: Run) -> str:
 
 
 def page_digest(lesson: Lesson, address: str) -> str:
-    """Return what a lesson's page must agree with."""
+    """Return what a lesson's page and picture must agree with."""
     questions = [
         (one.name, one.text, one.choices, one.unit, one.tolerance, one.step, knobs.to_json(one.params))
         for one in lesson.questions
     ]
-    said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{questions}\0{address}\0{sources_digest(lesson)}"
-    return hashlib.sha256(said.encode()).hexdigest()
+    said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{lesson.sweeps}\0{questions}\0{address}\0"
+    found = hashlib.sha256(f"{said}{sources_digest(lesson)}".encode())
+    for file in sorted((*STATIC.iterdir(), *STATIC.parent.glob("*.py"), *Path(__file__).parent.glob("*.py"))):
+        found.update(f"\0{file.name}\0".encode() + file.read_bytes())
+    return found.hexdigest()

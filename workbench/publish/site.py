@@ -10,18 +10,30 @@ import viser
 import workbench
 from workbench.errors import InputError
 from workbench.lesson import Lesson
+from workbench.page.document import RECORDED, SCRIPTS, STATIC, STYLES
+from workbench.page.thumbnail import thumbnail
 from workbench.progress import Progress
 from workbench.publish.ledger import NAME, Ledger, Listed
 from workbench.publish.lock import only_writer
-from workbench.publish.pages import course_page, lesson_page
-from workbench.publish.runs import VISER_PAGE, Run, digest_of, files_of, page_digest, render_all, runs_of
+from workbench.publish.pages import LESSONS, answers, course_page, lesson_page, lessons_script
+from workbench.publish.runs import (
+    PAGE,
+    VISER_PAGE,
+    Run,
+    digest_of,
+    files_of,
+    page_digest,
+    recorded,
+    render_all,
+    runs_of,
+)
 from workbench.recording import equal_content
 from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
 
-STATIC = Path(__file__).with_name("static")
 PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = 300_000, 1_000_000, 4_000_000, 3_000_000
 COURSE_PAGE = "index.html"
+PICTURE = "picture.webp"
 
 
 def publish(
@@ -51,8 +63,13 @@ def publish(
             run fails, a file cannot be written, a link leads nowhere, or something is over its size budget.
     """
     for lesson in lessons:
-        if not all(NAME.fullmatch(name) for name in (lesson.name, *(run.name for run in runs_of(lesson)))):
+        runs = runs_of(lesson)
+        if not all(NAME.fullmatch(name) for name in (lesson.name, *(run.name for run in runs if run.recorded))):
             raise InputError(f"lesson {lesson.name!r}: a name on a site has the signs A-Z a-z 0-9 _ - only")
+        if len({run.file for run in runs}) < len(runs):
+            raise InputError(
+                f"lesson {lesson.name!r}: two of its runs would have one file; give them other names or values"
+            )
     canonical(base_url, "")  # raises here where it is none
     try:
         out.mkdir(parents=True, exist_ok=True)
@@ -60,6 +77,12 @@ def publish(
             return _publish(out, lessons, base_url, force, remove_others, progress)
     except OSError as error:
         raise InputError(f"{error.filename or out}: {error.strerror or error}") from None
+
+
+def _bare(file: Path) -> bytes:
+    """Return a script or style without the lines that only tell a reader something, and without indents."""
+    lines = (line.strip() for line in file.read_text(encoding="utf-8").splitlines())
+    return ("\n".join(line for line in lines if line and not line.startswith("//")) + "\n").encode()
 
 
 def _publish(
@@ -78,9 +101,10 @@ def _publish(
     if others and ledger.made_by != made_by:
         raise InputError(f"{out}: its other lessons were published by another version; publish all of them again")
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]
-    shared = {name: (STATIC / name).read_bytes() for name in ("site.css", "player.js")}
-    shared |= {"math.css": math_font_css().encode(), ".nojekyll": b""}
-    wanted = {COURSE_PAGE, VISER_PAGE, *shared, *(f"{name}/{COURSE_PAGE}" for name in names)}
+    shared = {f"{PAGE}/{name}": _bare(STATIC / name) for name in (*STYLES, *RECORDED, *SCRIPTS)}
+    shared |= {f"{PAGE}/math.css": math_font_css().encode(), ".nojekyll": b""}
+    wanted = {COURSE_PAGE, LESSONS, VISER_PAGE, *shared}
+    wanted |= {f"{name}/{file}" for name in names for file in (COURSE_PAGE, PICTURE)}
     wanted |= {name for lesson, run in work for name in files_of(lesson, run)}
     ledger.check(wanted, force=force)
 
@@ -92,7 +116,11 @@ def _publish(
         _write_page(ledger, lesson, timelines, canonical(base_url, f"{lesson.name}/"))
     listed = others | {lesson.name: Listed(lesson.title, lesson.summary, lesson.order) for lesson in lessons}
     ledger.lessons = dict(sorted(listed.items(), key=lambda item: (item[1].order, item[0])))
-    ledger.write({COURSE_PAGE: course_page(ledger.lessons, canonical(base_url, "")).encode()})
+    course = {
+        COURSE_PAGE: course_page(ledger.lessons, canonical(base_url, "")),
+        LESSONS: lessons_script(ledger.lessons),
+    }
+    ledger.write({name: text.encode() for name, text in course.items()})
     ledger.remove(name for name in ledger.files if name not in wanted and name.partition("/")[0] not in others)
     ledger.runs = {key: value for key, value in ledger.runs.items() if key.partition("/")[0] in ledger.lessons}
     ledger.save()
@@ -123,13 +151,14 @@ def _render(ledger: Ledger, work: Sequence[tuple[Lesson, Run]], progress: Progre
 
 def _write_page(ledger: Ledger, lesson: Lesson, timelines: Timelines, address: str) -> None:
     """Write a lesson's page if it is not there as it should be: its questions need runs."""
-    key, name = f"{lesson.name}/", f"{lesson.name}/{COURSE_PAGE}"
+    key, names = f"{lesson.name}/", [f"{lesson.name}/{file}" for file in (COURSE_PAGE, PICTURE)]
     digest = page_digest(lesson, address)
-    if ledger.runs.get(key) == digest and ledger.is_ours(name):
+    if ledger.runs.get(key) == digest and all(map(ledger.is_ours, names)):
         return
-    titles = {run.name: (run.title, run.line) for run in runs_of(lesson)}
+    known = recorded(lesson, runs_of(lesson)[0], root="../", runs="runs/", answers=answers(lesson, timelines))
+    picture = thumbnail(lesson, timelines.get(lesson, lesson.params()))
     ledger.runs.pop(key, None)
-    ledger.write({name: lesson_page(lesson, titles, timelines, address).encode()})
+    ledger.write(dict(zip(names, (lesson_page(lesson, known, address).encode(), picture), strict=True)))
     ledger.runs[key] = digest
 
 

@@ -10,9 +10,8 @@ from workbench.exercise.finding import exercises_of
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson
 from workbench.page.article import PLACE, article_html
-from workbench.page.course import course_document
+from workbench.page.course import Card, course_document
 from workbench.page.document import lesson_document
-from workbench.page.ending import RUN, beside_html
 from workbench.page.exercise import exercises_html, watched_html
 from workbench.viewer.terminal import tell_terminal
 
@@ -21,16 +20,27 @@ ROOT = "page/"
 
 def course_page(lessons: Mapping[str, Lesson], trouble: str | None = None) -> str:
     """Return the document of the course; `trouble` says why what was asked for is not shown."""
-    return course_document(in_order(lessons), _page_of, root=ROOT, trouble=trouble)
+    cards = [
+        Card(
+            name=lesson.name,
+            title=lesson.title,
+            summary=lesson.summary,
+            address=address(lesson, "", None),
+            picture=f"picture/{lesson.name}",
+        )
+        for lesson in in_order(lessons)
+    ]
+    return course_document(cards, root=ROOT, trouble=trouble)
 
 
 def lesson_page(lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None) -> str:
     """Return the document of a lesson, with what drives it where a student's file does."""
     article = _told(lesson, "page", lambda: article_html(lesson, lambda run, step: address(lesson, run, step)))
     exercises = _told(lesson, "exercises", lambda: _exercises(lesson, watched))
-    ending = exercises + RUN + beside_html(in_order(lessons), lesson, _page_of)
-    head = f'<link rel="stylesheet" href="{ROOT}ending.css">'
-    return lesson_document(lesson, article, home="live", root=ROOT, source="live.js", head=head, ending=ending)
+    course = [{"name": one.name, "title": one.title} for one in in_order(lessons)]
+    return lesson_document(
+        lesson, article, home="live", root=ROOT, ending=exercises, more={"COURSE": course}
+    )
 
 
 def in_order(lessons: Mapping[str, Lesson]) -> list[Lesson]:
@@ -47,10 +57,6 @@ def address(lesson: Lesson, run: str, step: int | None) -> str:
 def start_address(start: links.Place, query: str) -> str:
     """Return the relative address where browsers begin, with the keys of theirs that are not ours."""
     return links.write(start) + (f"&{query}" if query else "")
-
-
-def _page_of(lesson: Lesson) -> str:
-    return address(lesson, "", None)
 
 
 def _exercises(lesson: Lesson, watched: Watched | None) -> str:

@@ -28,7 +28,8 @@ from workbench.authoring.reloading import Edited, carried
 from workbench.errors import InputError
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson, catalog
-from workbench.page.document import SCRIPTS, STATIC
+from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES
+from workbench.page.thumbnail import thumbnail
 from workbench.typeset import math_font_css
 from workbench.viewer.documents import course_page, lesson_page, start_address
 from workbench.viewer.following import Following
@@ -39,7 +40,7 @@ from workbench.viewer.scene_proxy import FIRST_WORD, Pace, SceneProxy
 from workbench.viewer.student import Student
 from workbench.viewer.transfers import receive, recording
 
-FILES = ("page.css", "ending.css", "course.css", "live.js", *SCRIPTS)
+FILES = (*STYLES, *LIVE, *SCRIPTS)
 MOST_PAGES = 400
 """Pages at once; whoever comes later is told so."""
 MOST_A_SECOND = 200
@@ -91,6 +92,7 @@ class Server:
         self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
         self.students: dict[str, Student] = {}
         self._scenes: dict[str, viser.ClientHandle] = {}
+        self._pictures: dict[str, tuple[Lesson, bytes]] = {}
         self.following = start and Following(start.lesson, watched, edited, self._replace, self._pages)
         with contextlib.redirect_stdout(io.StringIO()):  # its banner
             self._viser = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
@@ -149,6 +151,7 @@ class Server:
                 Route("/", self._page),
                 Route("/page/math.css", self._math),
                 Route("/page/{file}", self._file),
+                Route("/picture/{lesson}", self._picture),
                 WebSocketRoute("/live", self._live),
                 Route("/recording/{token}", self._recording),
                 Route("/files/{token}/{field}", self._receive, methods=["POST"]),
@@ -217,6 +220,19 @@ class Server:
 
     async def _math(self, request: Request) -> Response:
         return PlainTextResponse(await self.runs.showing.do(math_font_css), media_type="text/css")
+
+    async def _picture(self, request: Request) -> Response:
+        lesson = self.lessons.get(request.path_params["lesson"])
+        kept, picture = self._pictures.get(lesson.name, (None, b"")) if lesson else (None, b"")
+        if lesson is not None and kept is not lesson:
+            try:
+                picture = await self.runs.asking.do(thumbnail, lesson)
+            except Exception as error:  # what is wrong with a lesson is told on its page
+                picture = f"no picture: {error}".encode()
+            self._pictures[lesson.name] = lesson, picture
+        if not picture.startswith(b"RIFF"):
+            return PlainTextResponse("no such picture", 404)
+        return Response(picture, media_type="image/webp", headers={"cache-control": "max-age=600"})
 
     async def _file(self, request: Request) -> Response:
         name = request.path_params["file"]

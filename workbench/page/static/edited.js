@@ -5,7 +5,6 @@ const edited = {
   takes: 0,
 
   start() {
-    if (!source.tells) return;
     source.tells.lesson = ({ lesson }) => this.take(lesson);
     source.tells.notice = ({ text }) => this.notice(text);
   },
@@ -25,7 +24,8 @@ const edited = {
     $("#article").scrollTop = top;
     document.title = found.title;
     article.recall();
-    thisRun.start();
+    for (const part of [thisRun, text]) part.start();
+    progress.around();
     page.draw();
     this.notice("");
   },
@@ -41,3 +41,5 @@ const edited = {
     box.textContent = text;
   },
 };
+
+document.addEventListener("DOMContentLoaded", () => edited.start());

@@ -5,9 +5,9 @@ const knobs = {
   inputs: {},  // name -> [[slider, number] or [input], ...], one for each entry of a vector
 
   start() {
-    if (!source.change) return;
+    const rows = source.change ? [...LESSON.knobs.map((knob) => this.row(knob)), ...(typeof files === "undefined" ? [] : files.rows())] : source.sweep ? sweeps.made() : [];
     const reset = element("button", { type: "button", textContent: "Reset", title: "Back to the default run (R)", onclick: () => source.reset() });
-    $("#drawer").replaceChildren(...LESSON.knobs.map((knob) => this.row(knob)), ...files.rows(), reset);
+    $("#drawer").replaceChildren(...rows, reset);
     $("#set").onclick = () => this.toggle();
   },
 

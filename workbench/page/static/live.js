@@ -21,8 +21,10 @@ const source = {
 
   heard(message) {
     const { tell, run, ...more } = message;
-    if (tell === "run") page.told({ id: run, ...more });
-    else if (tell === "step") page.came(run, more.k, more.step, more.things);
+    if (tell === "run") {
+      page.told({ id: run, ...more });
+      if (more.files) files.show(more.files);
+    } else if (tell === "step") page.came(run, more.k, more.step, more.things);
     else if (tell === "answer") article.answered({ ...more, given: this.given[more.question] ?? null });
     else if (tell === "trouble") page.say(more.text, "wrong");
     else this.tells[tell]?.(more);

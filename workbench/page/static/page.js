@@ -6,7 +6,7 @@ const page = {
   k: 0,
 
   // whether this lesson has what a tool is for
-  can: (tool) => (tool === "move" ? LESSON.knobs.some((knob) => knob.by === "gizmo") : tool === "set" ? LESSON.knobs.length > 0 : true),
+  can: (tool) => tool !== "move" || LESSON.knobs.some((knob) => knob.by === "gizmo"),
 
   known() { return this.run ? this.run.known : 0; },
   step() { return this.run ? this.run.steps[this.k] : undefined; },
@@ -33,7 +33,6 @@ const page = {
     if (series) this.run.series = grown(this.run.series, series, from ?? 0);
     if (data.params) knobs.show(data.params);
     $("#pin").setAttribute("aria-pressed", String(Boolean(this.run.pinned)));
-    if (data.files) files.show(data.files);
     this.draw();
   },
 
@@ -58,11 +57,13 @@ const page = {
     transport.show();
     if (this.run) article.show(this.run, this.k);
     exercise.show(this.run);
+    thisRun.show(this.run);
     const step = this.step();
     if (!step) return;
     this.say(step.caption, step.tone);
     stage.legend(this.run.things[step.legend] ?? "");
     beside.show();
+    text.show();
   },
 
   say(text, tone) {
@@ -93,10 +94,10 @@ function grown(before, series, from) {
 }
 
 document.addEventListener("DOMContentLoaded", () => {
-  for (const tool of $$("[data-needs]")) tool.hidden = !source[tool.dataset.needs] || !page.can(tool.id);
+  for (const tool of $$("[data-needs]")) tool.hidden = !tool.dataset.needs.split(" ").some((verb) => source[verb]) || !page.can(tool.id);
   article.start();
   knobs.start();
-  for (const part of [exercise, thisRun, edited]) part.start();
+  for (const part of [exercise, thisRun]) part.start();
   for (const button of $$("[data-act]")) button.addEventListener("click", () => transport.act(button.dataset.act));
   $("#step").addEventListener("input", (event) => { transport.pause(); page.seek(Number(event.target.value)); });
   document.addEventListener("keydown", (event) => keys.pressed(event));

@@ -2,6 +2,8 @@
 "use strict";
 
 const thisRun = {
+  file: null,  // the link to the recording, where that is a file
+
   start() {
     const section = $("#this-run");
     if (!section) return;
@@ -10,6 +12,8 @@ const thisRun = {
     const buttons = [button("Copy link", () => this.copy(this.link(), "The link to this step is copied.", said)),
       button("Copy command", () => this.copy(page.run?.command, "The command is copied.", said))];
     if (source.recording) buttons.push(button("Download recording", (own) => this.record(own, said)));
+    else buttons.push(this.file = element("a", { className: "button", textContent: "Download recording", hidden: true }));
+    if (source.alone) buttons.push(button("Copy for a page of your own", () => this.copy(this.frame(), "A line that shows this run in a page of your own is copied.", said)));
     section.replaceChildren($("h2", section), element("div", { className: "acts" }, ...buttons), said);
     section.hidden = false;
     keys.others.c = () => buttons[0].click();
@@ -17,7 +21,24 @@ const thisRun = {
     keys.more = [["C", "copy a link to this step"], ...(LESSON.presets.length ? [[`1–${Math.min(9, LESSON.presets.length)}`, "experiments"]] : [])];
   },
 
-  link() { return page.run && `${location.origin}${location.pathname}${page.run.query}&step=${page.k}`; },
+  link() {
+    if (!page.run?.query) return null;
+    const here = location.href.replace(/[?#].*$/, "");
+    return `${here}${page.run.query}&step=${page.k}`;
+  },
+
+  frame() {
+    const address = source.alone();
+    return address && `<iframe src="${address}" width="960" height="600" title="${escape(document.title)}"></iframe>`;
+  },
+
+  // where the recording is a file beside the page, it is linked
+  show(run) {
+    if (!this.file) return;
+    const address = run && source.recorded?.(run);
+    this.file.hidden = !address;
+    if (address) Object.assign(this.file, { href: address, download: run.recording });
+  },
 
   // copies a text; where the browser forbids that, it is there to be copied by hand
   async copy(text, words, said) {

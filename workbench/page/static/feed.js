@@ -1,0 +1,146 @@
+// Shows recorded steps in viser's client, which waits in the frame as for a server: what a server would send is made here.
+// What is shown is made equal to the step that is wanted, whatever was shown before, so that any step follows any other.
+"use strict";
+
+const GLIDE = 250; // milliseconds in which a thing that only moves gets to its new place
+const MESHES = new Set(["MeshMessage", "GlbMessage"]);
+const IDENTITY = { wxyz: [1, 0, 0, 0], position: [0, 0, 0], visible: true };
+
+// the nodes of a scene by name after each step: {add: the message that made it, props, wxyz, position, visible}
+function nodesOfSteps(steps) {
+  let nodes = new Map();
+  return steps.map((messages) => {
+    nodes = new Map(nodes);
+    const change = (name, values) => nodes.has(name) && nodes.set(name, { ...nodes.get(name), ...values });
+    for (const message of messages) {
+      const { type, name } = message;
+      if (message.props && name !== undefined) {
+        nodes.delete(name); // what is made anew comes last
+        nodes.set(name, { ...IDENTITY, add: message, props: message.props });
+      } else if (type === "SceneNodeUpdateMessage") change(name, { props: { ...nodes.get(name)?.props, ...message.updates } });
+      else if (type === "SetOrientationMessage") change(name, { wxyz: message.wxyz });
+      else if (type === "SetPositionMessage") change(name, { position: message.position });
+      else if (type === "SetSceneNodeVisibilityMessage") change(name, { visible: message.visible });
+      else if (type === "RemoveSceneNodeMessage") {
+        for (const other of [...nodes.keys()]) if (other === name || other.startsWith(`${name}/`)) nodes.delete(other);
+      }
+    }
+    return nodes;
+  });
+}
+
+const feed = window.feed = { // viser's page in the frame looks for it
+  client: null,        // viser's end of the wire
+  waiting: [],         // what is sent before it is there
+  shown: new Map(),    // name -> node, with the name it has in the client
+  made: 0,             // how many nodes got a name of their own
+  gliding: 0,          // the frame request of what glides
+  camera: "",          // how the scene that is open is first seen
+  dark: false,
+
+  // what stands in front of viser's page: its worker, which would open a websocket, is this page; nothing takes the focus
+  before: "<script>window.Worker=class{constructor(){this.postMessage=(said)=>said.type==='set_server'&&parent.feed.connect(this)}" +
+    "terminate(){}};HTMLElement.prototype.focus=()=>{};history.replaceState=()=>{}</script>",
+
+  connect(client) {
+    this.client = client;
+    this.say({ type: "connected" });
+    this.send(this.waiting.splice(0));
+  },
+
+  send(messages) {
+    if (!messages.length) return;
+    if (this.client) this.say({ type: "message_batch", messages });
+    else this.waiting.push(...messages);
+  },
+
+  say(data) { this.client.onmessage({ data }); },
+
+  theme(dark) {
+    this.dark = dark;
+    this.send([{ type: "ThemeConfigurationMessage", titlebar_content: null, control_layout: "floating", control_width: "medium",
+      show_logo: false, show_share_button: false, dark_mode: dark, colors: null }]);
+  },
+
+  // a scene opens: its light, and its camera unless it is the one that was there, which a person may have turned since
+  open(first) {
+    const of = (start) => first.filter((message) => message.type.startsWith(start));
+    const cameras = of("SetCamera"), camera = JSON.stringify(cameras);
+    const still = first.filter((message) => message.name === undefined && !message.type.startsWith("SetCamera"));
+    const root = first.filter((message) => message.name === "" && message.type === "SetOrientationMessage");
+    const order = ["SetCameraUpDirectionMessage", "SetCameraPositionMessage", "SetCameraLookAtMessage", "SetCameraFovMessage"];
+    const moved = camera === this.camera ? [] : !this.camera ? cameras
+      : order.flatMap(of).map((message) => ({ ...message, initial: false }));
+    this.send([...root, ...still, ...moved]);
+    this.camera = camera;
+  },
+
+  // shows these nodes; `glide` lets what only moves move, `next` says that they follow what is shown
+  show(wanted, { glide = false, next = false } = {}) {
+    cancelAnimationFrame(this.gliding);
+    const { sent, moves } = this.changes(wanted, next);
+    if (glide && moves.length) {
+      this.send(sent);
+      this.glide(moves);
+    } else this.send([...sent, ...moves.flatMap(([, to, name]) => pose(name, to))]);
+  },
+
+  changes(wanted, next) {
+    const sent = [], moves = [];
+    for (const [name, node] of this.shown) {
+      if (wanted.has(name)) continue;
+      sent.push({ type: "RemoveSceneNodeMessage", name: node.name, owner: "" });
+      this.shown.delete(name);
+    }
+    let veiled = false; // by a surface that is new: the client draws in the order in which things were made
+    for (const [name, node] of wanted) {
+      const old = this.shown.get(name);
+      const same = old && old.add === node.add;
+      const again = same && veiled && !next && node.add.type === "LineSegmentsMessage";
+      if (again) sent.push({ type: "RemoveSceneNodeMessage", name: old.name, owner: "" });
+      const now = { ...node, name: again ? `${name}~~${++this.made}` : old?.name ?? name };
+      this.shown.set(name, now);
+      if (!same || again) {
+        sent.push({ ...node.add, name: now.name, props: node.props }, ...pose(now.name, node), visibility(now));
+        veiled ||= MESHES.has(node.add.type);
+        continue;
+      }
+      const updates = Object.fromEntries(Object.entries(node.props).filter(([key, value]) => value !== old.props[key]));
+      if (Object.keys(updates).length) sent.push({ type: "SceneNodeUpdateMessage", name: now.name, owner: "", updates });
+      if (node.visible !== old.visible) sent.push(visibility(now));
+      const from = old.at ?? old;
+      if (String([from.wxyz, from.position]) !== String([node.wxyz, node.position])) moves.push([from, node, now.name, now]);
+    }
+    return { sent, moves };
+  },
+
+  glide(moves) {
+    const start = performance.now();
+    const frame = (time) => {
+      const part = Math.min(1, Math.max(0, (time - start) / GLIDE)), eased = part * part * (3 - 2 * part);
+      this.send(moves.flatMap(([from, to, name, now]) => {
+        now.at = part < 1 ? between(from, to, eased) : undefined;
+        return pose(name, now.at ?? to);
+      }));
+      if (part < 1) this.gliding = requestAnimationFrame(frame);
+    };
+    frame(start);
+  },
+};
+
+function pose(name, { wxyz, position }) {
+  return [{ type: "SetOrientationMessage", name, wxyz, owner: "" }, { type: "SetPositionMessage", name, position, owner: "" }];
+}
+
+function visibility({ name, visible }) { return { type: "SetSceneNodeVisibilityMessage", name, visible, owner: "" }; }
+
+// a pose on the way: turned along the shorter arc at an even pace, moved along a line
+function between(from, to, part) {
+  const dot = from.wxyz.reduce((sum, value, i) => sum + value * to.wxyz[i], 0), sign = dot < 0 ? -1 : 1;
+  const angle = Math.acos(Math.min(1, Math.abs(dot))), sine = Math.sin(angle);
+  const [a, b] = sine < 1e-6 ? [1 - part, part] : [Math.sin((1 - part) * angle) / sine, Math.sin(part * angle) / sine];
+  return {
+    wxyz: from.wxyz.map((value, i) => a * value + sign * b * to.wxyz[i]),
+    position: from.position.map((value, i) => (1 - part) * value + part * to.position[i]),
+  };
+}
