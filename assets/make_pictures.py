@@ -5,7 +5,6 @@ from pathlib import Path
 
 from tests.browser.chrome import started
 from workbench.lesson import catalog
-from workbench.viewer.server import Server
 
 HERE = Path(__file__).parent / "pictures"
 HIDE = ".mantine-Notifications-root{display:none!important}"

@@ -4,8 +4,12 @@ import asyncio
 import json
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import viser
 
 from tests import fake
+from workbench.lesson import Lesson, Preset, View
 from workbench.timeline import Timeline
 from workbench.viewer.runs import Runs
 from workbench.viewer.student import Student
@@ -14,11 +18,11 @@ from workbench.viewer.student import Student
 class Talk:
     """A student at work, and what the page was told."""
 
-    def __init__(self) -> None:
+    def __init__(self, lesson: Lesson = fake.lesson) -> None:
         self.told: list[dict] = []
         self._heard = asyncio.Event()
         self.runs = Runs()
-        self.student = Student({"fake": fake.lesson}, self.runs, self._hear)
+        self.student = Student({"fake": lesson}, self.runs, self._hear)
         self._work = asyncio.create_task(self.student.work())
 
     async def _hear(self, text: str) -> None:
@@ -43,11 +47,11 @@ class Talk:
         self.told.clear()
 
 
-def talk(script) -> None:
+def talk(script, lesson: Lesson = fake.lesson) -> None:
     """Run the script in a thread of its own: a browser test before may have left its loop running in this one."""
 
     async def run() -> None:
-        me = Talk()
+        me = Talk(lesson)
         try:
             await script(me)
         finally:
@@ -101,3 +105,54 @@ def test_what_is_no_wish_is_ignored_and_files_are_not_set():
         assert me.student.session.params == fake.Params()
 
     talk(script)
+
+
+def test_the_camera_is_set_when_a_run_with_another_view_is_opened_and_else_left_alone(monkeypatch):
+    near, sparse = View(eye=(0.5, 0.5, 0.5)), View(grid=2.0)
+    lesson = replace(
+        fake.lesson,
+        presets=(
+            Preset("near", "Near", "", fake.Params(angle=10.0), view=near),
+            Preset("sparse", "Sparse", "", fake.Params(angle=20.0), view=sparse),
+        ),
+    )
+    views: list[View] = []
+    monkeypatch.setattr("workbench.viewer.student.set_stage", lambda client, view: views.append(view))
+
+    async def script(me: Talk) -> None:
+        async def done(**params) -> list[View]:
+            """Wait for the run of these params; return the views since, and turn the camera."""
+            wanted = fake.Params(**params)
+            await me.until(
+                lambda told: told["tell"] == "run" and told["finished"] and told["params"]["angle"] == wanted.angle
+            )
+            me.told.clear()
+            me.say(verb="seek", k=2)
+            await me.until(lambda told: told["tell"] == "step" and told["k"] == 2)
+            me.told.clear()
+            seen, views[:] = views[:], []
+            return seen
+
+        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+        try:
+            me.student.join(server)  # type: ignore[arg-type]
+            me.say(verb="open", query="?lesson=fake", lesson="fake")
+            assert await done() == [lesson.view]
+            me.say(verb="change", values={"angle": 77})
+            assert await done(angle=77.0) == []
+            me.say(verb="run", run="near")
+            assert await done(angle=10.0) == [near]
+            me.say(verb="change", values={"angle": 11})
+            assert await done(angle=11.0) == []  # a knob turns no camera
+            me.say(verb="reset")
+            assert await done() == [lesson.view]
+            me.say(verb="run", run="sparse")
+            assert await done(angle=20.0) == [sparse]
+            me.say(verb="change", values={"angle": 21})
+            assert await done(angle=21.0) == [lesson.view]  # the legend tells of another grid
+            me.say(verb="predict", question="end", given=None)
+            assert await done() == []
+        finally:
+            server.stop()
+
+    talk(script, lesson)

@@ -1,0 +1,91 @@
+"""The course in a real browser: cards, ticks, the way from lesson to lesson, and links that cannot be used."""
+
+import re
+
+import pytest
+
+from tests.browser.visits import Visit
+from workbench.lesson import catalog
+from workbench.timeline import Timeline
+
+pytestmark = pytest.mark.browser
+LESSONS = list(catalog().values())
+
+
+def first_words(lesson) -> str:
+    return Timeline(lesson, lesson.params()).complete()[lesson.first_step].caption.text
+
+
+def test_every_lesson_opens_from_the_course_page_and_from_the_one_before(visit, server):
+    me = visit()
+    cards = me.page.locator(".cards li")
+    assert [card.get_attribute("data-lesson") for card in cards.all()] == [lesson.name for lesson in LESSONS]
+    assert cards.locator(".done").all_inner_texts() == [""] * len(LESSONS)
+    me.page.locator(f"[data-lesson={LESSONS[0].name}] a").click()
+    for lesson, behind in zip(LESSONS, [*LESSONS[1:], None], strict=True):
+        me.page.wait_for_url(re.compile(f"lesson={lesson.name}"))
+        me.says(first_words(lesson))
+        me.scene()
+        if behind is not None:
+            me.page.locator("nav.beside [rel=next]").click()
+    assert me.page.locator("nav.beside [rel=next]").count() == 0
+    me.page.locator("nav.beside [rel=prev]").click()
+    me.page.wait_for_url(re.compile(f"lesson={LESSONS[-2].name}"))
+    me.says(first_words(LESSONS[-2]))
+    me.scene()
+    until(me, lambda: len(server.students) == len(server._viser.get_clients()) == 1, "pages that were left are closed")
+    me.page.locator("nav.top a").first.click()
+    me.page.locator(".done", has_text="✓ opened").nth(len(LESSONS) - 1).wait_for()
+    until(me, lambda: not server.students and not server._viser.get_clients(), "the last one too")
+
+
+def until(me: Visit, holds, why: str) -> None:
+    for _ in range(600):
+        if holds():
+            return
+        me.page.wait_for_timeout(100)
+    raise AssertionError(why)
+
+
+def test_a_lesson_is_done_when_all_its_questions_are_answered_in_this_browser(visit):
+    lesson = catalog()["transforms"]
+    me = visit(f"?lesson={lesson.name}")
+    said = me.page.locator("form.question output")
+    for k in range(len(lesson.questions)):
+        me.page.get_by_role("button", name="Skip and show me").nth(k).click()
+        said.nth(k).get_by_text("The answer: ").wait_for()
+        me.go("?course")
+        done = f"{k + 1} of {len(lesson.questions)} questions answered"
+        me.page.locator(f"[data-lesson={lesson.name}] .done", has_text=done).wait_for()
+        assert me.page.locator("li.all").count() == int(k + 1 == len(lesson.questions))
+        me.go(f"?lesson={lesson.name}")
+    other = visit("?course")
+    assert "answered" not in other.page.locator(".cards").inner_text()
+
+
+def test_two_browsers_have_a_place_each(visit):
+    run = Timeline(catalog()["icp"], catalog()["icp"].params()).complete()
+    one, two = visit("?lesson=icp&step=1"), visit("?lesson=icp&step=3")
+    one.says(run[1].caption.text)
+    two.says(run[3].caption.text)
+    one.act("last")
+    one.says(run[-1].caption.text)
+    two.says(run[3].caption.text)
+
+
+def test_the_theme_is_kept_on_every_page(visit):
+    me = visit("?lesson=icp")
+    me.says(first_words(catalog()["icp"]))
+    me.page.keyboard.press("t")
+    me.page.wait_for_selector("[data-theme=dark]")
+    me.go("?course")
+    me.page.wait_for_selector("[data-theme=dark]")
+    me.go("?lesson=pinhole")
+    me.page.wait_for_selector("[data-theme=dark]")
+    me.page.frame_locator("#scene iframe").locator("[data-mantine-color-scheme=dark]").wait_for(state="attached")
+
+
+def test_a_link_to_no_lesson_is_told_on_the_course_page(visit):
+    me = visit("?lesson=nope")
+    me.page.get_by_role("alert").get_by_text("this link names the lesson 'nope', which is not here").wait_for()
+    assert me.page.locator(".cards li").count() == len(LESSONS)
