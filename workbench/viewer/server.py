@@ -12,6 +12,7 @@ import re
 import secrets
 import socket as sockets
 import threading
+import warnings
 from collections.abc import AsyncIterator, Mapping
 from typing import Any
 
@@ -42,6 +43,7 @@ MOST_A_SECOND = 200
 """Wishes of a page; what is more waits, and of its kind the latest is what counts."""
 ROOM = 3.0
 """Seconds between two looks at what is held in memory."""
+warnings.filterwarnings("ignore", "Queued a .* on a closed connection")  # a browser that left while it was drawn for
 _TOKEN = re.compile(r"[0-9a-f]{24}")
 
 
