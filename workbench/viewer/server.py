@@ -28,6 +28,7 @@ from workbench import links
 from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
 from workbench.page.article import article_html
+from workbench.page.code import source_html
 from workbench.page.document import SCRIPTS, STATIC, lesson_document
 from workbench.typeset import math_font_css
 from workbench.viewer.patience import Patience, more_files
@@ -152,11 +153,19 @@ class Server:
     @contextlib.asynccontextmanager
     async def _lifespan(self, app: Starlette) -> AsyncIterator[None]:
         self._loop = asyncio.get_running_loop()
-        keeping = [asyncio.create_task(one) for one in (Patience(self._uvicorn).keep(), self._keep_room())]
+        keeping = [
+            asyncio.create_task(one) for one in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
+        ]
         async with self.scenes.running():
             yield
         for task in keeping:
             task.cancel()
+
+    async def _warm_up(self) -> None:
+        """Make what every page needs before the first one asks."""
+        await self.scenes.fetch()
+        await self.runs.asking.do(math_font_css)
+        await self.runs.asking.do(source_html, article_html)
 
     async def _keep_room(self) -> None:
         """Hold what is kept within its bound, and see to it that what is stuck holds nobody up."""
