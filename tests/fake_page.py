@@ -7,9 +7,10 @@ import re
 import time
 from collections.abc import Callable
 from typing import Any
+from urllib.parse import urlsplit
 
-import httpx
 import msgspec
+import viser
 import websockets
 
 CAMERA = {
@@ -41,12 +42,10 @@ class FakePage:
 
     async def open(self, *, scene: bool = True, read: bool = True) -> "FakePage":
         """Open it as a browser does."""
-        host = {name: value for name, value in self.headers.items() if name in ("Host", "Cookie")}
-        async with httpx.AsyncClient(timeout=60) as http:
-            page = await http.get(f"{self.address}{self.query}", headers=host)
-            page.raise_for_status()
-        self.lesson = re.findall(r'data-lesson="([^"]+)"', page.text)[0]
-        self.token = re.findall(r'data-token="([^"]+)"', page.text)[0]
+        page = await self._page()
+        self.lesson = re.findall(r'data-lesson="([^"]+)"', page)[0]
+        self.knobs = json.loads(re.findall(r"const LESSON = (\{.*?\});</script>", page)[0])["knobs"]
+        self.token = re.findall(r'data-token="([^"]+)"', page)[0]
         self.live = await self.socket(f"live?token={self.token}")
         await self.say(verb="open", query=self.query, lesson=self.lesson)
         if read:
@@ -55,10 +54,22 @@ class FakePage:
             await self.open_scene(read=read)
         return self
 
+    async def _page(self) -> str:
+        """Return the page; by hand, since a client that could do more would cost more than a page."""
+        where = urlsplit(self.address)
+        headers = {"Host": where.netloc, "Connection": "close"}
+        headers |= {name: value for name, value in self.headers.items() if name in ("Host", "Cookie")}
+        reader, writer = await asyncio.open_connection(where.hostname, where.port)
+        lines = [f"GET {where.path}{self.query} HTTP/1.1", *(f"{k}: {v}" for k, v in headers.items()), "", ""]
+        writer.write("\r\n".join(lines).encode())
+        head, _, body = (await reader.read()).partition(b"\r\n\r\n")
+        writer.close()
+        if head.split()[1] != b"200":
+            raise ConnectionError(head.split(b"\r\n")[0].decode())
+        return body.decode()
+
     async def open_scene(self, *, read: bool = True) -> None:
         """Let the scene come up."""
-        import viser
-
         name = websockets.Subprotocol(f"viser-v{viser.__version__}")
         self.scene = await self.socket(f"scene/{self.token}/", subprotocols=[name])
         await self.scene.send(msgspec.msgpack.encode(CAMERA))
@@ -68,13 +79,13 @@ class FakePage:
     async def socket(self, path: str, **options: Any) -> Any:
         """Open a websocket of this page."""
         headers = {name: value for name, value in self.headers.items() if name not in ("Origin", "Host")}
-        server = httpx.URL(self.address)
+        server = urlsplit(self.address)
         address = f"ws{self.address.removeprefix('http')}{path}"
         if "Host" in self.headers:
             address = re.sub(r"//[^/]+", f"//{self.headers['Host']}", address)
         return await websockets.connect(
             address,
-            host=server.host,
+            host=server.hostname,
             port=server.port,
             origin=self.headers["Origin"] or None,  # type: ignore[arg-type]
             additional_headers=headers,

@@ -108,15 +108,19 @@ class SceneProxy:
         async with httpx.AsyncClient(base_url=f"http://{self._inner}") as self._http:
             yield
 
-    async def page(self, request: Request) -> Response:
-        """Return viser's client, compressed where the browser can read that; asked for once."""
+    async def fetch(self) -> tuple[int, bytes, dict[str, str]]:
+        """Return viser's client as it sends it: status, compressed body, headers; asked for once."""
         if self._page is None:
             asked = self._http.build_request("GET", "/", headers={"accept-encoding": "gzip"})
             answer = await self._http.send(asked, stream=True)
             body = b"".join([part async for part in answer.aiter_raw()])
             names = ("content-type", "content-encoding")
             self._page = answer.status_code, body, {n: answer.headers[n] for n in names if n in answer.headers}
-        status, body, headers = self._page
+        return self._page
+
+    async def page(self, request: Request) -> Response:
+        """Return viser's client, compressed where the browser can read that."""
+        status, body, headers = await self.fetch()
         if headers.get("content-encoding") == "gzip" and "gzip" not in request.headers.get("accept-encoding", ""):
             import gzip
 

@@ -118,29 +118,30 @@ class Scheduler:
         threading.Thread(target=self._work, name="computing", daemon=True).start()
 
     def _work(self) -> None:
+        while self._one_slice():
+            pass
+
+    def _one_slice(self) -> bool:
+        """Compute for a slice when there is something to compute; False when this thread is to end."""
         here = threading.current_thread()
-        while True:
-            with self._changed:
-                while (found := self._next()) is None:
-                    if not self._open:
-                        return
-                    self._changed.wait(self._patience())
-                if not self._open:
-                    return
-                job, calm = found
-                job.running, self._began[here] = True, time.monotonic()
-                self._resting += calm
-            self._slice(job)
-            with self._changed:
-                self._resting -= calm
-                late = time.monotonic() - self._began.pop(here) > STUCK
-                told = self._served(job)
-                self._changed.notify()
-            for tell in told:
-                with contextlib.suppress(RuntimeError):  # whoever it was has gone
-                    tell()
-            if late and self._one_too_many():
-                return
+        with self._changed:
+            while (found := self._next()) is None and self._open:
+                self._changed.wait(self._patience())
+            if found is None or not self._open:
+                return False
+            job, calm = found
+            job.running, self._began[here] = True, time.monotonic()
+            self._resting += calm
+        self._slice(job)
+        with self._changed:
+            self._resting -= calm
+            late = time.monotonic() - self._began.pop(here) > STUCK
+            told = self._served(job)
+            self._changed.notify()
+        for tell in told:
+            with contextlib.suppress(RuntimeError):  # whoever it was has gone
+                tell()
+        return not (late and self._one_too_many())
 
     def _next(self) -> tuple[_Job, bool] | None:
         """Return the run whose turn it is, and whether nobody waits for it."""

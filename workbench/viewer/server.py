@@ -12,6 +12,7 @@ import re
 import secrets
 import socket as sockets
 import threading
+import warnings
 from collections.abc import AsyncIterator, Mapping
 from typing import Any
 
@@ -28,6 +29,7 @@ from workbench.authoring.reloading import Edited, carried
 from workbench.errors import InputError
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson, catalog
+from workbench.page.code import source_html
 from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES
 from workbench.page.thumbnail import thumbnail
 from workbench.typeset import math_font_css
@@ -47,6 +49,7 @@ MOST_A_SECOND = 200
 """Wishes of a page; what is more waits, and of its kind the latest is what counts."""
 ROOM = 3.0
 """Seconds between two looks at what is held in memory."""
+warnings.filterwarnings("ignore", "Queued a .* on a closed connection")  # a browser that left while it was drawn for
 _TOKEN = re.compile(r"[0-9a-f]{24}")
 
 
@@ -165,11 +168,19 @@ class Server:
     @contextlib.asynccontextmanager
     async def _lifespan(self, app: Starlette) -> AsyncIterator[None]:
         self._loop = asyncio.get_running_loop()
-        keeping = [asyncio.create_task(one) for one in (Patience(self._uvicorn).keep(), self._keep_room())]
+        keeping = [
+            asyncio.create_task(one) for one in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
+        ]
         async with self.scenes.running():
             yield
         for task in keeping:
             task.cancel()
+
+    async def _warm_up(self) -> None:
+        """Make what every page needs before the first one asks."""
+        await self.scenes.fetch()
+        await self.runs.asking.do(math_font_css)
+        await self.runs.asking.do(source_html, article_html)
 
     async def _keep_room(self) -> None:
         """Hold what is kept within its bound, and see to it that what is stuck holds nobody up."""

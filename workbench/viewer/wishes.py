@@ -6,8 +6,8 @@ from typing import Any
 
 LONGEST = 20_000
 """Characters of a message from a browser."""
-MOST = 50
-"""Wishes that wait; each kind once, each question once."""
+MOST_ANSWERS = 8
+"""Predictions that wait, of different questions; of everything else the latest waits."""
 ANEW = frozenset({"open", "run", "reset"})
 """Wishes after which it no longer matters where a page was."""
 MOVES = frozenset({"seek", "change", "click"})
@@ -42,7 +42,7 @@ class Wishes:
         if verb == "change" and before is not None:
             values = before.get("values"), wish.get("values")
             wish = {**wish, "values": {k: v for part in values if isinstance(part, dict) for k, v in part.items()}}
-        if len(self._waiting) < MOST:
+        if verb != "predict" or sum(one == verb for one, _ in self._waiting) < MOST_ANSWERS:
             self._waiting[kind] = dict(wish)
 
     def take(self) -> list[dict[str, Any]]:

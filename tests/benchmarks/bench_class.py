@@ -1,0 +1,225 @@
+"""A class at one live server: how long a student waits, and what the server spends.
+
+    python -m tests.benchmarks.bench_class [--students 100] [--seconds 15] [--only mixed] [--threads 2]
+
+The server runs in a process of its own, the students, each a page and its scene, in this one. "words" is from the wish to
+the last byte of the step's words, "scene" to the last byte of its scene. CPU and memory are the server's. The machine is
+the same for both, so the students' own work is in all times; the load average says what else it did.
+"""
+
+import argparse
+import asyncio
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import psutil
+
+from tests.fake_page import FakePage
+
+ROOT = Path(__file__).parents[2]
+LESSONS = ("transforms", "pinhole", "icp", "ransac", "curvature", "disparity")
+GOALS = {
+    "one lesson": "p95 below 50 ms",
+    "mixed, knobs": "median below 100 ms, p95 below 1 s",
+    "mixed, steps": "p95 below 50 ms",
+    "mixed, new page": "below 500 ms",
+    "silent, steps": "as before",
+    "silent, new page": "as before",
+}
+SERVE = """
+import sys
+from workbench.viewer.runs import Runs
+from workbench.viewer import server
+made = server.Runs
+server.Runs = lambda most_bytes: made(most_bytes, threads=int(sys.argv[1]))
+running = server.Server()
+print(running.address, flush=True)
+sys.stdin.read()
+running.stop()
+"""
+
+
+@dataclass
+class Waits:
+    """What students waited, in ms."""
+
+    words: list[float] = field(default_factory=list)
+    scene: list[float] = field(default_factory=list)
+
+    def add(self, words: float, scene: float = float("nan")) -> None:
+        self.words.append(1000 * words)
+        self.scene.append(1000 * scene)
+
+
+class Served:
+    """The server in a process of its own."""
+
+    def __init__(self, threads: int):
+        environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", SERVE, str(threads)], cwd=ROOT, env=environment, text=True,
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        )  # fmt: skip
+        assert self._process.stdout is not None
+        self.address = self._process.stdout.readline().strip()
+        self._seen = psutil.Process(self._process.pid)
+
+    def spent(self) -> tuple[float, float, float]:
+        """Return seconds of a clock, seconds of CPU, and MB in memory."""
+        times = self._seen.cpu_times()
+        return time.perf_counter(), times.user + times.system, self._seen.memory_info().rss / 2**20
+
+    def stop(self) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.close()
+        self._process.wait(30)
+
+
+async def arrived(server: Served, query: str) -> tuple[FakePage, float]:
+    """Open a page; return it and the seconds until its first step."""
+    began = time.perf_counter()
+    page = await FakePage(server.address, query).open()
+    await page.until(lambda page: bool(page.step))
+    return page, page.came - began
+
+
+async def stepping(page: FakePage, until: float, waits: Waits, every: float = 1.0) -> None:
+    """Step on once in a while, from the first again at the end."""
+    await asyncio.sleep(every * np.random.default_rng(id(page) % 2**31).uniform())
+    while time.perf_counter() < until:
+        began = time.perf_counter()
+        k = page.step.get("k", 0) + 1
+        waits.add(*await page.seek(k if k < page.run["known"] else 0))
+        await asyncio.sleep(max(0.0, every - (time.perf_counter() - began)))
+
+
+async def turning(page: FakePage, until: float, waits: Waits, rng: np.random.Generator) -> None:
+    """Move one knob, once a second, and wait for the picture; a student who looks at what comes."""
+    knobs = [knob for knob in page.knobs if knob["kind"] in ("float", "int") and not knob["parts"][1:]]
+    await asyncio.sleep(rng.uniform())
+    while time.perf_counter() < until:
+        knob = knobs[rng.integers(len(knobs))]
+        low, high = knob["low"], knob["high"]
+        near = float(knob["default"]) + 0.1 * (high - low) * rng.uniform(-1, 1)  # sizes stay near the built-in
+        value = np.clip(near, low, high)
+        value = round(value) if knob["kind"] == "int" else float(value)
+        before, began = page.run["run"], time.perf_counter()
+        await page.say(verb="change", values={knob["name"]: value})
+        if value != page.run["params"][knob["name"]]:
+            await page.until(lambda page: page.run["run"] != before and page.step.get("run") == page.run["run"], 300)  # noqa: B023
+            waits.add(page.came - began, max(0.0, page.scene_came - began))
+        await asyncio.sleep(max(0.0, 1.0 - (time.perf_counter() - began)))
+
+
+async def one_lesson(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
+    """All on one lesson, stepping once a second."""
+    found = {"one lesson": Waits()}
+    pages = [(await arrived(server, "?lesson=icp"))[0] for _ in range(given.students)]
+    await asyncio.gather(*(page.until(lambda page: page.run["finished"]) for page in pages))
+    await measured(server, given, [lambda end, page=page: stepping(page, end, found["one lesson"]) for page in pages])
+    await asyncio.gather(*(page.close() for page in pages))
+    return found
+
+
+async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
+    """All on mixed lessons, moving knobs once a second; beside them one who only steps, and new pages."""
+    found = {name: Waits() for name in ("mixed, knobs", "mixed, steps", "mixed, new page")}
+    names = given.lessons
+    pages = [(await arrived(server, f"?lesson={names[i % len(names)]}"))[0] for i in range(given.students)]
+    walker = (await arrived(server, "?lesson=transforms"))[0]
+    await walker.until(lambda page: page.run["finished"])
+    tasks: list[Callable[[float], Awaitable[None]]] = [
+        lambda end, page=page, i=i: turning(page, end, found["mixed, knobs"], np.random.default_rng(i))
+        for i, page in enumerate(pages)
+    ]
+    tasks += [lambda end: stepping(walker, end, found["mixed, steps"], 0.25)]
+    tasks += [lambda end: coming(server, "?lesson=transforms", end, found["mixed, new page"])]
+    await measured(server, given, tasks)
+    await asyncio.gather(*(page.close() for page in (*pages, walker)))
+    return found
+
+
+async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
+    """30 browsers that say nothing, 30 that reload all the time, and one who steps."""
+    found = {name: Waits() for name in ("silent, steps", "silent, new page")}
+    walker = (await arrived(server, "?lesson=transforms"))[0]
+    await walker.until(lambda page: page.run["finished"])
+    quiet = [await walker.socket(f"live?token={i:024x}") for i in range(30)]
+
+    async def reloading(end: float) -> None:
+        while time.perf_counter() < end:
+            page = await FakePage(server.address, "?lesson=icp").open(read=False)
+            await asyncio.sleep(2.0)
+            page.live.transport.abort()
+            page.scene.transport.abort()
+
+    tasks: list[Callable[[float], Awaitable[None]]] = [reloading for _ in range(30)]
+    tasks += [lambda end: stepping(walker, end, found["silent, steps"], 0.25)]
+    tasks += [lambda end: coming(server, "?lesson=transforms", end, found["silent, new page"])]
+    await measured(server, given, tasks)
+    await asyncio.gather(*(socket.close() for socket in quiet), walker.close())
+    return found
+
+
+async def coming(server: Served, query: str, end: float, waits: Waits) -> None:
+    """Open a new page now and then."""
+    while time.perf_counter() < end:
+        page, seconds = await arrived(server, query)
+        waits.add(seconds)
+        await page.close()
+        await asyncio.sleep(1.0)
+
+
+async def measured(server: Served, given: argparse.Namespace, tasks: list[Callable[[float], Awaitable[None]]]) -> None:
+    """Let all do their work at once, and note what the server spent."""
+    began, cpu, _ = server.spent()
+    own = time.process_time()
+    await asyncio.gather(*(task(began + given.seconds) for task in tasks))
+    ended, spent, memory = server.spent()
+    seconds = ended - began
+    given.spent = (spent - cpu) / seconds, (time.process_time() - own) / seconds, memory
+
+
+SCENARIOS: dict[str, Any] = {"one": one_lesson, "mixed": mixed, "silent": silent}
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--students", type=int, default=100)
+    parser.add_argument("--seconds", type=float, default=15.0)
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--only", nargs="+", choices=sorted(SCENARIOS), default=list(SCENARIOS))
+    parser.add_argument(
+        "--lessons", nargs="+", default=["transforms", "pinhole", "icp", "ransac", "curvature", "disparity"]
+    )
+    given = parser.parse_args()
+    print(f"{given.students} students, {given.threads} threads that compute, {os.cpu_count()} cores\n")
+    print(f"{'':<18} {'n':>6}   words ms: median    p95    max   scene p95   goal (words)")
+    for name in given.only:
+        before = os.getloadavg()[0]
+        server = Served(given.threads)
+        try:
+            found = asyncio.run(SCENARIOS[name](server, given))
+        finally:
+            server.stop()
+        for who, waits in found.items():
+            words, scene = np.array(waits.words or [np.nan]), np.array(waits.scene or [np.nan])
+            print(
+                f"{who:<18} {len(waits.words):6d} {np.median(words):18.0f} {np.quantile(words, 0.95):6.0f}"
+                f" {words.max():6.0f} {np.quantile(scene, 0.95):11.0f}   {GOALS[who]}"
+            )
+        cores, ours, memory = given.spent
+        print(f"  server: {cores:.2f} cores, {memory:,.0f} MB; students: {ours:.2f} cores; load before {before:.1f}, "
+              f"after {os.getloadavg()[0]:.1f}\n", flush=True)  # fmt: skip
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,406 @@
+"""Browsers that answer nothing, take nothing or send garbage: others go on, and when they have gone nothing is left."""
+
+import asyncio
+import contextlib
+import gc
+import json
+import socket
+import sys
+import threading
+import time
+import weakref
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
+
+import msgspec
+import pytest
+import websockets
+
+from tests import fake
+from tests.fake_page import CAMERA, FakePage
+from workbench import links
+from workbench.knobs import fields_of
+from workbench.lesson import catalog
+from workbench.timeline import Timeline
+from workbench.viewer import patience, scene_proxy
+from workbench.viewer import server as server_module
+from workbench.viewer.runs import Runs
+from workbench.viewer.server import Server
+from workbench.viewer.student import Student
+
+HERE = "?lesson=fake"
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    server = Server(links.Place(fake.lesson, fake.Params()))
+    yield server
+    server.stop()
+
+
+@contextlib.asynccontextmanager
+async def visiting(server: Server, query: str = HERE) -> AsyncIterator[FakePage]:
+    page = await FakePage(f"{server.address}/", query).open()
+    try:
+        await page.until(lambda page: page.run.get("finished"))
+        yield page
+    finally:
+        await page.close()
+
+
+async def goes_on(page: FakePage) -> None:
+    """See a page make a few steps."""
+    for k in (1, 4, 2, 0):
+        await page.seek(k)
+        assert page.step["step"]["caption"] == Timeline(fake.lesson, fake.Params()).complete()[k].caption.text
+
+
+async def until(holds: Callable[[], bool]) -> None:
+    async with asyncio.timeout(60):
+        while not holds():
+            await asyncio.sleep(0.02)
+
+
+def meanwhile(server: Server, attack: Callable[[FakePage], Awaitable[None]]) -> None:
+    """Attack a server while somebody works there; then see that nothing is left of anybody."""
+
+    async def all_of_it() -> None:
+        async with visiting(server) as page:
+            await attack(page)
+            await goes_on(page)
+        await until(lambda: not server.students and not server._scenes and not server.scenes.open)
+
+    asyncio.run(all_of_it())
+    assert len(server.runs.scheduler) == 0
+
+
+def test_silent_sockets_delay_nobody_and_are_closed_after_a_while(server, monkeypatch):
+    monkeypatch.setattr(server_module, "FIRST_WORD", 1.0)
+    monkeypatch.setattr(scene_proxy, "FIRST_WORD", 1.0)
+
+    async def attack(page: FakePage) -> None:
+        quiet = [await page.socket(f"live?token={k:024x}") for k in range(150)]
+        quiet += [await page.socket(f"scene/{k:024x}/", subprotocols=["viser-v1.1.1"]) for k in range(150)]
+        await goes_on(page)
+        async with asyncio.timeout(60):
+            await asyncio.gather(*(one.wait_closed() for one in quiet))
+
+    meanwhile(server, attack)
+
+
+def test_connections_that_say_nothing_are_closed(monkeypatch):
+    monkeypatch.setattr(patience, "PATIENCE", 1.0)
+    monkeypatch.setattr(patience.Patience.__init__, "__defaults__", (1.0,))
+    server = Server(links.Place(fake.lesson, fake.Params()))
+    try:
+        quiet = [socket.create_connection(("127.0.0.1", server.port), timeout=30) for _ in range(20)]
+        for one in quiet[10:]:
+            one.sendall(b"GET / HTTP/1.1\r\nHost: 127.0")
+        for one in quiet:
+            with contextlib.suppress(ConnectionResetError):
+                assert one.recv(1) == b""
+            one.close()
+    finally:
+        server.stop()
+
+
+def test_a_page_that_takes_nothing_is_sent_the_latest_when_it_takes_again():
+    took = []
+
+    async def attack() -> None:
+        takes = asyncio.Event()
+        runs = Runs()
+
+        async def send(text: str) -> None:
+            took.append(json.loads(text))
+            await takes.wait()
+
+        student = Student({"fake": fake.lesson}, runs, send)
+        working = asyncio.create_task(student.work())
+        student.hear('{"verb": "open", "query": "?lesson=fake", "lesson": "fake"}')
+        await until(lambda: bool(took))
+        for k in range(5000):
+            student.hear(json.dumps({"verb": "change", "values": {"angle": k / 100}}))
+            student.hear(json.dumps({"verb": "seek", "k": k % 6}))
+            student.hear(json.dumps({"verb": "predict", "question": f"{k}"}))
+        assert len(student._wishes) <= 12
+        assert len(took) == 1
+        takes.set()
+        await until(lambda: any(one.get("k") == 4999 % 6 for one in took))
+        assert [one["params"]["angle"] for one in took if one["tell"] == "run"][-1] == 49.99
+        assert len(took) < 20
+        working.cancel()
+        runs.close()
+
+    asyncio.run(attack())
+
+
+def test_a_connection_that_takes_nothing_is_closed_after_a_while(monkeypatch):
+    monkeypatch.setattr(patience.Patience.__init__, "__defaults__", (1.0,))
+    server = Server(links.Place(fake.lesson, fake.Params()))
+    try:
+        slow = socket.create_connection(("127.0.0.1", server.port), timeout=60)
+        asking = f"GET /scene/{'0' * 24}/ HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n\r\n".encode()
+        slow.sendall(asking * 30)  # 25 MB to come
+        connections = server._uvicorn.server_state.connections
+        deadline = time.monotonic() + 60
+        while not connections:
+            assert time.monotonic() < deadline
+        most = 0
+        while connections:
+            assert time.monotonic() < deadline, "it is still open"
+            most = max([most, *(one.transport.get_write_buffer_size() for one in tuple(connections))])
+            time.sleep(0.01)
+        assert most < 4e6, "no more waits than one answer"
+        slow.close()
+    finally:
+        server.stop()
+
+
+def test_a_scene_that_takes_nothing_is_not_buffered_without_bound(server):
+    async def attack(page: FakePage) -> None:
+        slow = await FakePage(f"{server.address}/", HERE).open(scene=False)
+        await slow.open_scene(read=False)
+        slow.scene.transport.pause_reading()
+        await until(lambda: slow.token in server._scenes)
+        await slow.say(verb="change", values={"points": 20_000, "wobble": True})
+        await slow.until(lambda page: page.run["params"]["points"] == 20_000 and page.run["finished"])
+        buffer = server._scenes[slow.token]._websock_connection._state.message_buffer
+        held = []
+        for _ in range(20):
+            for k in range(6):
+                await slow.seek(k)
+            held.append(len(buffer.message_from_id))
+        assert max(held[10:]) <= max(held[:10]) + 50, "names of what came and went, no more"
+        assert max(held) < 1000
+        await slow.close()
+
+    meanwhile(server, attack)
+
+
+GARBAGE = ("", "{", "[]", "null", "7", '"open"', '{"verb": 1}', '{"verb": "__init__"}', '{"verb": ["seek"]}', "[" * 19_000,
+           '{"verb": "click"}', '{"verb": "seek"}' + " " * 30_000, "\x00")  # fmt: skip
+ODD = (
+    None,
+    True,
+    -1,
+    2**70,
+    -(2**70),
+    1e308,
+    "x" * 5000,
+    "../../etc/passwd",
+    [],
+    [[]],
+    {},
+    {"self": 1, "": []},
+    [1, 2, 3],
+)
+
+
+@pytest.mark.parametrize("verb", ["open", "seek", "run", "change", "reset", "pin", "predict", "handles", "theme"])
+def test_garbage_in_every_wish_is_ignored(server, verb, capfd):
+    keys = ("query", "lesson", "k", "run", "step", "values", "question", "given", "on", "dark")
+
+    async def attack(page: FakePage) -> None:
+        bad = await FakePage(f"{server.address}/", HERE).open()
+        for text in GARBAGE:
+            await bad.live.send(text)
+        await bad.live.send(b"\xff\x00")
+        for value in ODD:
+            await bad.say(verb=verb, **dict.fromkeys(keys, value))
+            await bad.say(verb=verb, values=dict.fromkeys(("self", *fake.Params.__dataclass_fields__), value))
+        for question in fake.lesson.questions:
+            for value in ODD:
+                await bad.say(verb="predict", question=question.name, given=value)
+                await asyncio.sleep(0.005)
+        await bad.say(verb="open", query=HERE, lesson="fake")
+        await bad.seek(3)
+        assert bad.step["step"]["caption"]
+        await bad.close()
+
+    meanwhile(server, attack)
+    said = capfd.readouterr().err
+    assert "could not be fulfilled" not in said, said
+
+
+VISER = ("GuiUpdateMessage", "GuiFormSubmitMessage", "FileTransferStartUpload", "FileTransferPart", "ShareUrlRequest",
+         "LocalStorageGetItemResponseMessage", "GetRenderResponseMessage", "CommandTriggerMessage", "RunJavascriptMessage",
+         "PointCloudMessage", "SceneNodeClickMessage", "Nonsense")  # fmt: skip
+
+
+def test_a_scene_is_told_nothing_but_what_turns_clicks_and_drags_it():
+    pack = msgspec.msgpack.encode
+    assert scene_proxy.clean(pack(CAMERA)) is not None
+    for kind in VISER:
+        assert scene_proxy.clean(pack(CAMERA | {"type": kind, "uuid": "x", "updates": {"value": 1}})) is None
+    for key in CAMERA:
+        for value in (None, "x", [], {}, float("nan"), float("inf"), [float("nan")] * 3, b"\xff" * 100):
+            assert scene_proxy.clean(pack(CAMERA | {key: value})) is None, (key, value)
+    for frame in (b"", b"\xc1", b"\xff" * 50, b"\x91" * 5000, pack([]), pack("x"), b"\xdd\xff\xff\xff\xff"):
+        assert scene_proxy.clean(frame) is None
+    extra = msgspec.msgpack.decode(scene_proxy.clean(pack(CAMERA | {"more": "x" * 100})) or b"")
+    assert extra == CAMERA
+
+
+def test_garbage_in_a_scene_is_ignored(server, capfd):
+    async def attack(page: FakePage) -> None:
+        bad = await FakePage(f"{server.address}/", HERE).open()
+        await until(lambda: bad.token in server._scenes)
+        for kind in VISER:
+            await bad.scene.send(msgspec.msgpack.encode({"type": kind, "uuid": "x", "value": "x"}))
+        for frame in (b"", b"\xff", "text", b"\x91" * 5000, msgspec.msgpack.encode(CAMERA | {"position": None})):
+            await bad.scene.send(frame)
+        await goes_on(bad)
+        assert bad.token in server._scenes
+        await bad.close()
+
+    meanwhile(server, attack)
+    assert "Traceback" not in capfd.readouterr().err
+
+
+def test_a_flood_of_wishes_is_one_of_each_kind(server, monkeypatch):
+    runs = []
+    get = server.runs.timelines.get
+    monkeypatch.setattr(server.runs.timelines, "get", lambda *asked: runs.append(asked) or get(*asked))
+
+    async def attack(page: FakePage) -> None:
+        bad = await FakePage(f"{server.address}/", HERE).open(scene=False)
+        wishes = [json.dumps({"verb": "change", "values": {"angle": k / 100}}) for k in range(3000)]
+        for wish in wishes:
+            await bad.live.send(wish)
+        await bad.until(lambda page: page.run and page.run["params"]["angle"] == 29.99 and page.run["finished"])
+        await bad.close()
+
+    meanwhile(server, attack)
+    assert 0 < len(runs) < 1500, "the latest of those that wait is what counts"
+
+
+def test_too_many_pages_are_told_so_and_disturb_nobody(server, monkeypatch):
+    monkeypatch.setattr(server, "_most_pages", 3)
+
+    async def attack(page: FakePage) -> None:
+        others = [await FakePage(f"{server.address}/", HERE).open() for _ in range(2)]
+        with pytest.raises(Exception, match="503"):
+            await FakePage(f"{server.address}/", HERE).open()
+        for other in others:
+            await other.close()
+        await until(lambda: len(server.students) == 1)
+        last = await FakePage(f"{server.address}/", HERE).open()
+        await last.until(lambda page: page.step)
+        await last.close()
+
+    meanwhile(server, attack)
+
+
+def test_a_page_is_not_taken_over_by_its_token(server):
+    async def attack(page: FakePage) -> None:
+        thief = await page.socket(f"live?token={page.token}")
+        with pytest.raises(websockets.ConnectionClosed):
+            await thief.recv()
+        for token in ("", "x", "../../etc/passwd", "0" * 23, "A" * 24):
+            other = await page.socket(f"live?token={token}")
+            with pytest.raises(websockets.ConnectionClosed):
+                await other.recv()
+
+    meanwhile(server, attack)
+
+
+def test_large_frames_close_only_the_socket_they_came_from(server):
+    async def attack(page: FakePage) -> None:
+        bad = await FakePage(f"{server.address}/", HERE).open()
+        await bad.live.send("x" * 2**20)
+        await until(lambda: bad.gone)
+        await bad.close()
+
+    meanwhile(server, attack)
+
+
+def test_reloading_browsers_leave_nothing(server):
+    async def attack(page: FakePage) -> None:
+        async def reload() -> None:
+            one = await FakePage(f"{server.address}/", HERE).open(read=False)
+            one.live.transport.abort()
+            one.scene.transport.abort()
+
+        await asyncio.gather(*(reload() for _ in range(30)))
+
+    meanwhile(server, attack)
+
+
+def test_when_all_have_gone_threads_and_runs_are_back():
+    before = threading.active_count()
+    server = Server(links.Place(fake.lesson, fake.Params()), most_bytes=1)
+    students: list[weakref.ref] = []
+
+    async def attack(page: FakePage) -> None:
+        students.extend(weakref.ref(one) for one in server.students.values())
+        for angle in (10, 20, 30):
+            await page.say(verb="change", values={"angle": angle})
+            await page.until(lambda page, angle=angle: page.run["params"]["angle"] == angle and page.run["finished"])
+        await page.say(verb="change", values={"angle": 90.0})
+
+    meanwhile(server, attack)
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and (any(one() for one in students) or server.runs.timelines.alive()):
+        server.runs.make_room([], [])
+        gc.collect()
+        time.sleep(0.05)
+    assert not any(one() for one in students)
+    assert not server.runs.timelines.alive()
+    server.stop()
+    while time.monotonic() < deadline and threading.active_count() > before:
+        time.sleep(0.05)
+    assert threading.active_count() <= before
+
+
+def test_no_wish_link_or_knob_opens_a_file(server):
+    """Thirteen fields by nine paths, through every verb and link, while an audit hook notes what is opened."""
+    names = ["scan", "query", "lesson", "run", "step", "question", "given", "k", "on", "dark", "verb", "preset", "file"]
+    lessons = (fake.lesson, *catalog().values())
+    names += sorted(
+        {field.name for lesson in lessons for field in fields_of(lesson.params) if field.sensitive} - {"scan"}
+    )
+    paths = ["/etc/passwd", "../../../etc/passwd", "file:///etc/passwd", "/proc/self/environ", "~/.ssh/id_rsa", "/dev/zero",
+             "..%2f..%2fetc%2fpasswd", "/etc/passwd\x00.npy", "http://127.0.0.1:1/x.npy"]  # fmt: skip
+    marks = ("passwd", "environ", "id_rsa", "/dev/zero", "127.0.0.1:1")
+    opened: list[str] = []
+    watching = True
+
+    def hook(event: str, args: tuple) -> None:
+        if watching and event == "open" and any(mark in str(args[0]) for mark in marks):
+            opened.append(str(args[0]))
+
+    sys.addaudithook(hook)
+    open("/etc/passwd").close()
+    assert opened, "the hook sees what is opened"
+    opened.clear()
+    assert len(names) >= 13
+
+    async def attack(page: FakePage) -> None:
+        bad = await FakePage(f"{server.address}/", HERE).open()
+        await bad.until(lambda page: page.step)
+        for path in paths:
+            for name in names:
+                for verb in ("open", "run", "change", "predict", "seek"):
+                    await bad.say(**{"verb": verb, name: path})
+                await bad.say(verb="change", values={name: path})
+                await bad.say(verb="open", query=f"?lesson=fake&{name}={path}", lesson="fake")
+                await bad.say(verb="open", query=f"?lesson=icp&{name}={path}", lesson=path)
+        await bad.say(verb="open", query=HERE, lesson="fake")
+        await bad.seek(1)
+        assert "/etc" not in json.dumps(bad.run)
+        await bad.close()
+        reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
+        for path in (*paths, "/page/../../../etc/passwd", "/page/..%2f..%2fpage.css", "/scene/x/../../etc/passwd"):
+            asked = path.replace("\x00", "%00")
+            writer.write(f"GET /{asked.lstrip('/')} HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n\r\n".encode())
+            assert (await reader.readuntil(b"\r\n")).split()[1] in (b"404", b"200", b"307")
+            head = await reader.readuntil(b"\r\n\r\n")
+            length = int(head.lower().partition(b"content-length: ")[2].partition(b"\r\n")[0])
+            assert b"root:" not in await reader.readexactly(length)
+        writer.close()
+
+    try:
+        meanwhile(server, attack)
+    finally:
+        watching = False
+    assert opened == []
