@@ -62,7 +62,7 @@ def lesson_document(
     return (
         f"{document_head(heading, lesson.summary, root, head)}"
         f'<body{" class=alone" if alone else ""} data-home="{home}" data-lesson="{escape(lesson.name)}">'
-        f'<a class="skip" href="#stage">To the stage</a><main>{text}{_stage(home, data, bool(lesson.sweeps), still)}</main>'
+        f'<a class="skip" href="#stage">To the stage</a><main>{text}{_stage(home, data, bool(lesson.sweeps) and not alone, still)}</main>'
         f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"
         + "".join(f'<script src="{root}{name}"></script>' for name in scripts)
         + "</body></html>\n"
@@ -154,7 +154,7 @@ def _stage(home: str, data: dict[str, Any], swept: bool, still: str) -> str:
         f'<div id="bar" role="group" aria-label="Steps">{buttons}'
         '<input id="step" type="range" min="0" max="0" value="0" aria-label="Step"><output id="count"></output>'
         f'<select id="speed" aria-label="Speed">{speeds}</select>{more}</div>'
-        '<p id="caption" role="status" aria-live="polite"></p>'
+        '<p id="caption" role="status" aria-live="polite" tabindex="0"></p>'
         '<div id="tiles" role="group" aria-label="Curves, pictures and code of this step"></div>'
         '<div id="large" role="dialog" aria-label="Enlarged" hidden></div></section>'
     )
