@@ -244,6 +244,7 @@ def publish(
 ) -> None:
     """Write static tutorial pages that play in any browser, without Python."""
     from workbench.progress import bar
+    from workbench.publish.runs import swept_files
     from workbench.publish.site import publish as publish_site
     from workbench.publish.site import sizes_told
 
@@ -256,7 +257,7 @@ def publish(
         given[one.name] = word
     with bar(sys.stderr, "Publishing") as progress:
         files = publish_site(out, chosen, base_url=base_url, force=force, remove_others=not names, progress=progress)
-    sys.stdout.write(sizes_told(out, files) + "\n")
+    sys.stdout.write(sizes_told(out, files, swept_files(chosen)) + "\n")
 
 
 def main(args: Sequence[str] | None = None) -> int:

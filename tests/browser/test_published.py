@@ -2,6 +2,7 @@
 
 import functools
 import http.server
+import io
 import re
 import threading
 from dataclasses import replace
@@ -9,25 +10,36 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from axe_playwright_python.sync_playwright import Axe
+from PIL import Image
 
 from tests import fake
-from workbench.lesson import catalog
+from workbench.lesson import Sweep, catalog
 from workbench.publish.site import publish
+from workbench.scene import Points, in_space
 from workbench.timeline import Timeline
 
 pytestmark = pytest.mark.browser
+FAKE = replace(
+    fake.lesson,
+    presets=(
+        *fake.lesson.presets[:2],
+        replace(fake.lesson.presets[0], name="still", params=fake.Params(angle=0.0, colors="role")),
+    ),
+    sweeps=(Sweep("angle", (0.0, 90.0, 180.0)),),
+)
+SCENE_IS_THERE = "source.open_ !== null && !document.querySelector('#scene').hasAttribute('aria-busy')"
 
 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory):
-    """A site of all lessons: ICP and the small one with a preset and their questions, the others with one run each."""
+    """A site of all lessons: ICP and the small one with presets and their questions, the others with one run each."""
     out = tmp_path_factory.mktemp("site")
-    whole = [fake.lesson, catalog()["icp"]]
-    alone = [lesson for lesson in catalog().values() if lesson not in whole]
+    icp = catalog()["icp"]
+    alone = [lesson for lesson in catalog().values() if lesson is not icp]
     publish(
         out,
-        [replace(lesson, presets=lesson.presets[:1]) for lesson in whole]
-        + [replace(lesson, presets=(), questions=()) for lesson in alone],
+        [FAKE, replace(icp, presets=icp.presets[:1], sweeps=())]
+        + [replace(lesson, presets=(), questions=(), sweeps=(), page=None) for lesson in alone],
     )
     return out
 
@@ -49,20 +61,26 @@ class QuietHandler(http.server.SimpleHTTPRequestHandler):
 
 
 @pytest.fixture
-def page(chromium):
-    page = chromium.new_page(viewport={"width": 1280, "height": 800})
-    trouble: list[str] = []
-    page.on("console", lambda m: trouble.append(m.text) if m.type == "error" else None)
-    page.on("pageerror", lambda error: trouble.append(str(error)))
-    page.on("requestfailed", lambda request: trouble.append(f"failed: {request.url[:200]}"))
-    page.on(
-        "request",
-        lambda r: (
-            None if r.url.startswith(("file:", "data:", "blob:", "http://127.0.0.1:")) else trouble.append(r.url[:200])
-        ),
-    )
-    yield page
-    page.close()
+def opened(chromium):
+    """Opens pages; at the end none of them may have said an error, or asked another host."""
+    pages, trouble = [], []
+
+    def new(url: str, *, width: int = 1280, height: int = 800, until: str = SCENE_IS_THERE, **options):
+        page = chromium.new_page(viewport={"width": width, "height": height}, **options)
+        pages.append(page)
+        page.on("console", lambda m: trouble.append(m.text) if m.type == "error" else None)
+        page.on("pageerror", lambda error: trouble.append(str(error)))
+        page.on("requestfailed", lambda request: trouble.append(f"failed: {request.url[:200]}"))
+        ours = ("file:", "data:", "blob:", "http://127.0.0.1:")
+        page.on("request", lambda r: None if r.url.startswith(ours) else trouble.append(r.url[:200]))
+        page.goto(url)
+        if until:
+            page.wait_for_function(until)
+        return page
+
+    yield new
+    for page in pages:
+        page.close()
     assert trouble == []
 
 
@@ -72,55 +90,61 @@ def barriers(page) -> list[tuple[str, str]]:
     return [(v["id"], v["nodes"][0]["html"][:120]) for v in found if v["impact"] in ("serious", "critical")]
 
 
-@pytest.mark.parametrize("file", ["index.html", "fake/index.html"])
-def test_no_serious_barrier_for_anybody(page, address, file):
-    page.goto(f"{address}/{file}")
-    if file != "index.html":
-        page.wait_for_function("document.querySelector('#caption').textContent.length > 10")
+def caption(page) -> str:
+    return page.locator("#caption").inner_text()
+
+
+FRAMES = """() => new Promise((drawn) => {
+  const { contentWindow } = stage.frame;
+  let left = 6;
+  const frame = () => left-- ? contentWindow.requestAnimationFrame(frame) : drawn();
+  frame();
+})"""
+
+
+def seen(page) -> np.ndarray:
+    """Return what the scene looks like when nothing moves any more."""
+    before = None
+    while True:
+        page.evaluate(FRAMES)
+        picture = np.asarray(Image.open(io.BytesIO(page.locator("#scene").screenshot())).convert("RGB")).astype(int)
+        if before is not None and np.array_equal(before, picture):
+            return picture
+        before = picture
+
+
+@pytest.mark.parametrize("file", ["index.html", "fake/index.html", "fake/runs/half.html"])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_no_serious_barrier_for_anybody(opened, address, file, scheme):
+    page = opened(f"{address}/{file}", until="" if file == "index.html" else SCENE_IS_THERE, color_scheme=scheme)
     assert barriers(page) == []
-
-
-EVERY_STEP = """() => {
-  const slider = document.querySelector("#step");
-  return Array.from({length: Number(slider.max) + 1}, (_, k) => {
-    slider.value = k;
-    slider.dispatchEvent(new Event("input"));
-    return [document.querySelector("#caption").textContent,
-            [...document.querySelectorAll("#series figcaption")].map((one) => one.textContent)];
-  });
-}"""
-
-
-def said(caption: str, head: str = "") -> dict[str, float]:
-    """Return the numbers above the curves of a chart, by name."""
-    return {
-        found["name"]: float(found["value"].replace("−", "-").replace(",", ""))
-        for part in caption.removeprefix(f"{head}: ").split(" · ")
-        if (found := NAMED.match(part)) is not None
-    }
 
 
 NAMED = re.compile(r"(?P<name>.+?) (?P<value>−?[0-9.,]+(e−?[0-9]+)?)( \S+)?$")
 
 
+def numbers(text: str) -> dict[str, float]:
+    """Return the numbers of a line of the text of a run, by name."""
+    found = [NAMED.match(part) for part in text.split(" · ")]
+    return {one["name"]: float(one["value"].replace("−", "-").replace(",", "")) for one in found if one is not None}
+
+
 @pytest.mark.parametrize("name", catalog())
-def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out, name):
+def test_a_run_plays_steps_back_and_says_what_the_timeline_says(opened, out, name):
     lesson = catalog()[name]
     timeline = Timeline(lesson, lesson.params()).complete()
     last = len(timeline) - 1
-    page.set_viewport_size({"width": 640, "height": 400})  # fewer pixels are drawn sooner
-    page.goto((out / name / "index.html").as_uri())
-    page.frame_locator("#scene iframe").locator("canvas").first.wait_for()
+    page = opened((out / name / "index.html").as_uri(), width=640, height=480)  # fewer pixels are drawn sooner
 
     def shows(k: int) -> None:
-        page.wait_for_function(
-            "k => document.querySelector('#scene iframe').contentDocument.querySelector('input')?.value == k + 0.5",
-            arg=k,
-            polling=50,  # milliseconds; frames are slow without a graphics card
-        )
-        assert page.locator("#caption").inner_text() == timeline[k].caption.text
+        page.wait_for_function("k => page.k === k", arg=k)
+        assert caption(page) == timeline[k].caption.text
+        assert page.locator("#count").inner_text() == f"{k} / {last}"
+        nodes = page.evaluate("[...feed.shown.keys()].filter((name) => name.startsWith('/scene/'))")
+        paths = {re.sub(r"~\d+$", "", node.removeprefix("/scene/")) for node in nodes if not node.endswith("/image")}
+        assert paths == {path.replace("/", "·") for path, one in timeline[k].scene.items() if in_space(one)}
 
-    page.get_by_role("button", name="First", exact=True).click()
+    page.locator("[data-act=first]").click()
     shows(0)
     page.keyboard.press("n")
     shows(1)
@@ -130,91 +154,298 @@ def test_a_replay_plays_steps_back_and_shows_the_numbers_of_the_run(page, out, n
     shows(1)
     page.keyboard.press("End")
     shows(last)
-    page.get_by_role("button", name="Back", exact=True).click()
+    page.locator("[data-act=back]").click()
     shows(last - 1)
-    page.keyboard.press("p")
-    shows(last - 2)
     page.locator("#speed").select_option("8")
-    page.get_by_role("button", name="Play", exact=True).click()
+    page.locator("[data-act=play]").click()
     shows(last)
-    page.get_by_role("button", name="Play", exact=True).wait_for()  # it stops at the end
+    page.wait_for_function("!transport.playing")  # it stops at the end
 
-    shown = page.evaluate(EVERY_STEP)
-    assert [caption for caption, _ in shown] == [step.caption.text for step in timeline.known()]
-    for k, (_, captions) in enumerate(shown):
-        charts: dict[str, dict[str, float]] = {}
-        for one in timeline.series().values():
-            known = {one.scalar.name: one.values[k]} if np.isfinite(one.values[k]) else {}
-            charts.setdefault(one.scalar.chart, {}).update(known)
-        assert [said(caption, chart) for caption, chart in zip(captions, charts, strict=True)] == [
-            pytest.approx(c, rel=0.0051) for c in charts.values()
-        ]
+    said = page.evaluate("page.run.steps.map((_, k) => { page.seek(k); return $('#caption').textContent })")
+    assert said == [step.caption.text for step in timeline.known()]
+    page.evaluate("$('#text').open = true")
+    page.wait_for_function("n => document.querySelectorAll('#text li').length === n", arg=last + 1)
+    lines = page.evaluate("$$('#text li').map((li) => [$('span', li).textContent, $('small', li).textContent])")
+    for k, (words, told) in enumerate(lines):
+        assert words == timeline[k].caption.text
+        known = {one.scalar.name: one.values[k] for one in timeline.series().values() if np.isfinite(one.values[k])}
+        assert numbers(told) == pytest.approx(known, rel=0.0051)
     assert barriers(page) == []
 
 
-@pytest.mark.parametrize("width", [1440, 390])
-def test_a_run_further_down_is_brought_into_view_and_keeps_the_keys(page, out, width):
-    page.set_viewport_size({"width": width, "height": 700})
-    page.goto((out / "icp" / "index.html").as_uri())
-    page.frame_locator("#scene iframe").locator("canvas").first.wait_for()
-    page.locator("[data-run]").last.click()
-    page.locator("[data-run][aria-pressed=true]").last.wait_for()
-    page.wait_for_function("document.querySelector('#scene').getBoundingClientRect().top >= -1")
-    page.frame_locator("#scene iframe").locator("canvas").first.wait_for()
-    page.wait_for_function("document.activeElement.dataset.run !== undefined")
-    before = page.evaluate("scrollY")
-    page.keyboard.press("End")
-    page.wait_for_function("document.querySelector('#step').value === document.querySelector('#step').max")
-    assert page.evaluate("scrollY") == before
+def test_any_step_looks_the_same_wherever_one_comes_from(opened, out):
+    page = opened(f"{(out / 'fake' / 'index.html').as_uri()}#run=default&step=0", width=1100, reduced_motion="reduce")
+    forward = []
+    for k in range(6):
+        page.evaluate("k => page.seek(k)", k)
+        forward.append(seen(page))
+    assert np.abs(forward[0] - forward[5]).mean() > 0.5
+    for k in (5, 2, 4, 0, 3, 1):
+        page.evaluate("k => page.seek(k)", k)
+        assert np.abs(seen(page) - forward[k]).mean() < 0.1, k
+    page.evaluate("page.open('still', 0)")
+    page.wait_for_function("source.open_.name === 'still'")
+    assert np.abs(seen(page) - forward[0]).mean() > 0.01  # its cloud has another colour
+    page.evaluate("page.open('default', 2)")
+    page.wait_for_function("source.open_.name === 'default'")
+    assert np.abs(seen(page) - forward[2]).mean() < 0.1
 
 
-def test_a_question_is_answered_and_its_run_shown(page, out):
-    page.goto((out / "fake" / "index.html").as_uri())
+MOVES = """() => {
+  const turned = [], send = feed.send;
+  let time = 0; // a frame every 50 ms, on however slow a machine
+  performance.now = () => time;
+  window.requestAnimationFrame = (draw) => setTimeout(() => draw(time += 50));
+  window.cancelAnimationFrame = clearTimeout;
+  feed.send = (messages) => {
+    const turns = messages.filter((one) => one.type === "SetOrientationMessage" && one.name === "/scene/box");
+    turned.push(...turns.map((one) => one.wxyz[3]));
+    send.call(feed, messages);
+  };
+  return turned;
+}"""
+
+
+@pytest.mark.parametrize("motion", ["no-preference", "reduce"])
+def test_what_only_moves_glides_unless_that_is_unwanted(opened, out, motion):
+    page = opened(f"{(out / 'fake' / 'index.html').as_uri()}#run=default&step=1", reduced_motion=motion)
+    turned = page.evaluate_handle(MOVES)
+    page.locator("[data-act=next]").click()
+    timeline = Timeline(FAKE, FAKE.params()).complete()
+    T = [timeline[k].scene["box"].T_world_object for k in (1, 2)]  # type: ignore[union-attr]
+    start, end = (np.sin(np.arctan2(t[1, 0], t[0, 0]) / 2) for t in T)  # type: ignore[index]
+    page.wait_for_function("([turned, end]) => Math.abs(turned.at(-1) - end) < 1e-6", arg=[turned, float(end)])
+    ways = np.array(turned.json_value())
+    between = ways[(ways > start + 1e-6) & (ways < end - 1e-6)]
+    assert (len(between) > 0) == (motion == "no-preference")
+    assert (np.diff(ways) >= 0).all()
+    page.evaluate("turned => { turned.length = 0; page.seek(5) }", turned)  # a jump
+    page.wait_for_function("turned => turned.length > 0", arg=turned)
+    assert len(turned.json_value()) == 1
+
+
+def test_the_scene_is_really_drawn_and_follows_the_theme(opened, out):
+    page = opened((out / "icp" / "index.html").as_uri(), color_scheme="dark")
+    target = Timeline(catalog()["icp"], catalog()["icp"].params())
+    target.extend()
+    assert any(isinstance(one, Points) for one in target[0].scene.values())
+    dark = seen(page)
+    assert (np.abs(dark - [20, 21, 23]).max(-1) < 12).mean() > 0.5  # most of it is backdrop
+    assert ((dark[..., 0] > 180) & (dark[..., 2] < 60)).sum() > 100  # orange points
+    page.keyboard.press("t")
+    light = seen(page)
+    assert (light.min(-1) > 245).mean() > 0.5
+    assert ((light[..., 2] > 140) & (light[..., 0] < 40)).sum() > 100  # blue points
+
+
+def test_a_question_is_answered_wrong_and_right_and_its_run_shown(opened, out):
+    page = opened((out / "fake" / "index.html").as_uri())
     form = page.locator("form.question").nth(1)
     form.get_by_label("the first").check()
     form.get_by_role("button", name="Answer", exact=True).click()
     form.locator("output", has_text="You said the first; the run says the second. The second is.").wait_for()
+    page.wait_for_function("page.k === page.known() - 1")
     number = page.locator("form.question").first
     number.get_by_role("button", name="Answer", exact=True).click()
     number.locator("output", has_text="type an answer first").wait_for()
     number.locator("input[type=number]").fill("0")
     number.get_by_role("button", name="Answer", exact=True).click()
     number.locator("output", has_text="Right").wait_for()
+    page.reload()
+    number.locator("output", has_text="Right").wait_for()  # it stays answered in this browser
 
 
-def test_replays_load_when_they_are_opened_and_not_before(page, out):
+def test_runs_load_when_they_are_opened_and_not_before(opened, out):
+    page = opened("about:blank", until="")
     loaded: list[str] = []
     page.on("request", lambda request: loaded.append(request.url.rsplit("/", 1)[-1]))
     page.goto((out / "fake" / "index.html").as_uri())
-    page.locator("#caption", has_text="points turned").wait_for()
+    page.wait_for_function(SCENE_IS_THERE)
     assert "default.js" in loaded
     assert "half.js" not in loaded
-    page.get_by_role("button", name="Half a turn").click()
-    page.wait_for_function("document.querySelector('[data-run=half]').ariaPressed == 'true'")
+    page.locator("button[data-run=half]").click()
+    page.wait_for_function("source.open_.name === 'half'")
+    assert page.locator("button[data-run=half]").get_attribute("aria-pressed") == "true"
     assert "half.js" in loaded
     assert loaded.count("viser.js") == 1
 
 
-def test_one_run_alone_plays_too_and_pauses(page, out):
-    page.goto((out / "icp" / "runs" / "default.html").as_uri())
-    page.frame_locator("#scene iframe").locator("canvas").first.wait_for()
-    page.keyboard.press("Home")
-    page.get_by_role("button", name="Play", exact=True).click()
-    page.get_by_role("button", name="Pause", exact=True).wait_for()
-    page.wait_for_function("document.querySelector('#step').value >= 2", polling=50)
-    page.get_by_role("button", name="Pause", exact=True).click()
-    page.get_by_role("button", name="Play", exact=True).wait_for()
-    paused = page.locator("#step").input_value()
+def test_the_last_click_wins_also_when_an_earlier_run_comes_later(opened, address):
+    page = opened(f"{address}/fake/index.html")
+    held: list = []
+    page.route("**/half.js", lambda route: held.append(route))
+    page.locator("button[data-run=half]").click()
+    while not held:
+        page.wait_for_timeout(50)
+    assert page.locator("#scene").get_attribute("aria-busy") == "true"  # a sign that it is on its way
+    page.locator("button[data-run=short]").click()
+    page.wait_for_function("source.open_.name === 'short'")
+    held[0].continue_()
+    page.wait_for_function("shelf.runs.has('half')")
+    page.wait_for_function(SCENE_IS_THERE)
+    assert page.evaluate("[page.run.name, source.open_.name]") == ["short", "short"]
+
+
+def test_the_address_is_the_place(opened, out):
+    timeline = Timeline(FAKE, FAKE.presets[0].params).complete()
+    page = opened(f"{(out / 'fake' / 'index.html').as_uri()}#run=half&step=4")
+    assert caption(page) == timeline[4].caption.text
+    page.locator("[data-act=back]").click()
+    page.wait_for_function("location.hash === '#run=half&step=3'")
+    page.reload()
+    page.wait_for_function(SCENE_IS_THERE)
+    assert caption(page) == timeline[3].caption.text
+    page.evaluate("location.hash = '#run=angle:180&step=-1'")  # the same run under its other name
+    page.wait_for_function("page.k === 5")
+    assert page.evaluate("page.run.name") == "half"
+    for wrong in ("#run=nope", "#run=__proto__", "#run=../../x"):
+        page.evaluate("hash => location.hash = hash", wrong)
+        page.locator("#caption.wrong", has_text="no run named").wait_for()
+        page.evaluate("page.open('half', 2)")
+        page.wait_for_function("page.k === 2 && document.querySelector('#caption').className !== 'wrong'")
+
+
+def test_a_sweep_is_a_knob_and_keeps_the_step(opened, out):
+    page = opened((out / "fake" / "index.html").as_uri())
+    page.locator("[data-act=next]").click()
+    page.locator("#set").click()
+    knob = page.get_by_label("Angle (deg)")
+    assert knob.get_attribute("aria-valuetext") == "90 deg"
+    knob.focus()
+    page.keyboard.press("ArrowLeft")
+    page.wait_for_function("source.open_.name === 'angle:0' && page.k === 1")
+    assert knob.get_attribute("aria-valuetext") == "0 deg"
+    page.wait_for_function("location.hash === '#run=angle:0&step=1'")
+    assert caption(page) == Timeline(FAKE, fake.Params(angle=0.0)).complete()[1].caption.text
+    assert page.locator("#drawer fieldset").count() == 1  # a knob that a static page cannot turn is not shown
+    page.get_by_role("button", name="Reset").click()
+    page.wait_for_function("source.open_.name === 'default'")
+    assert knob.get_attribute("aria-valuetext") == "90 deg"
+
+
+def test_a_pinned_run_stands_behind_the_next_in_its_curves_and_its_scene(opened, out):
+    page = opened(f"{(out / 'fake' / 'index.html').as_uri()}#run=default&step=5")
+    page.locator("#pin").click()
+    page.evaluate("page.open('half', 1)")
+    page.wait_for_function("source.open_.name === 'half'")
+    ghosts = page.evaluate("[...feed.shown.keys()].filter((name) => name.startsWith('/ghost/'))")
+    assert {"/ghost/source", "/ghost/box"} <= set(ghosts)
+    assert "/ghost/target" not in ghosts  # it is where it was
+    assert page.evaluate("page.run.pinned.length") > 0
+    page.locator("#pin").click()
+    page.wait_for_function("![...feed.shown.keys()].some((name) => name.startsWith('/ghost/'))")
+
+
+def test_one_run_alone_plays_and_takes_neither_focus_nor_scrolls_its_host(opened, out, tmp_path):
+    host = out / "host.html"
+    host.write_text(
+        '<input id="mine" autofocus><div style="height:3000px"></div>'
+        '<iframe src="icp/runs/default.html" width="800" height="500" title="ICP"></iframe>'
+    )
+    page = opened(host.as_uri(), until="")
+    page.locator("#mine").focus()
+    frame = page.frames[-1]
+    embedded = next(one for one in page.frames if one.url.endswith("default.html"))
+    embedded.wait_for_function(SCENE_IS_THERE)
+    page.frame_locator("iframe").frame_locator("#scene iframe").locator("canvas").first.wait_for()
+    page.wait_for_timeout(1500)  # milliseconds; what mounts late would take the focus now
+    assert page.evaluate("[document.activeElement.id, scrollY]") == ["mine", 0]
+    assert frame is not None
+    embedded.locator("[data-act=play]").click()
+    embedded.wait_for_function("page.k >= 2")
+    embedded.locator("[data-act=play]").click()
+    paused = embedded.evaluate("page.k")
     page.wait_for_timeout(1500)  # milliseconds; a step a second
-    assert page.locator("#step").input_value() == paused
+    assert embedded.evaluate("page.k") == paused
+    assert embedded.evaluate("document.documentElement.scrollHeight <= innerHeight")
+    host.unlink()
 
 
-def test_a_phone_sees_the_scene_and_the_caption_without_scrolling_sideways(chromium, out):
-    phone = chromium.new_page(viewport={"width": 390, "height": 844})
-    phone.goto((out / "icp" / "index.html").as_uri())
-    phone.wait_for_function("document.querySelector('#caption').textContent.length > 10")
+def test_a_phone_sees_the_scene_and_the_caption_without_scrolling_sideways(opened, out):
+    phone = opened((out / "icp" / "index.html").as_uri(), width=390, height=844, device_scale_factor=3)
     assert phone.evaluate("document.documentElement.scrollWidth") <= 390
-    box = phone.locator("#caption").bounding_box()
+    for place in ("#scene", "#caption", "[data-act=play]"):
+        box = phone.locator(place).bounding_box()
+        assert box is not None
+        assert box["y"] >= 0
+        assert box["y"] + box["height"] <= 844
+    phone.locator("button[data-run]").last.click()  # far below
+    phone.wait_for_function("document.querySelector('#scene').getBoundingClientRect().top >= -1")
+    phone.wait_for_function("document.querySelector('#caption').getBoundingClientRect().bottom <= innerHeight")
+    phone.wait_for_function(SCENE_IS_THERE)
+    phone.keyboard.press("End")
+    phone.wait_for_function("page.k === page.known() - 1")
+
+
+def test_what_can_be_taken_along_is_there(opened, out):
+    page = opened(f"{(out / 'fake' / 'index.html').as_uri()}#run=half&step=2")
+    page.locator("#take").click()
+    box = page.locator("#large")
+    box.get_by_text("#run=half&step=2").wait_for()
+    with page.expect_download() as download:
+        box.get_by_role("link", name="Download the recording").click()
+    assert download.value.suggested_filename == "fake-half.rrd"
+    assert (out / "fake" / "runs" / "half.html").as_uri() in box.inner_text()
+    assert "workbench show fake.py --angle=180" in box.inner_text()
+
+
+def test_where_no_script_runs_a_picture_and_the_text_stand(chromium, out):
+    page = chromium.new_page(java_script_enabled=False, viewport={"width": 1280, "height": 800})
+    page.goto((out / "fake" / "index.html").as_uri())
+    picture = page.locator("#view img")
+    picture.wait_for()
+    box = picture.bounding_box()
     assert box is not None
-    assert box["y"] < 844
-    phone.close()
+    assert box["width"] > 200
+    assert page.get_by_role("heading", name="Every primitive").is_visible()
+    page.close()
+
+
+def test_the_course_has_pictures_ticks_and_leads_from_lesson_to_lesson(opened, out):
+    page = opened((out / "index.html").as_uri(), until="")
+    assert page.locator("[data-card]").count() == len(catalog()) + 1
+    assert page.evaluate("$$('.cards img').slice(0, 3).every((one) => one.complete && one.naturalWidth === 320)")
+    page.get_by_role("link", name="Every primitive").click()
+    page.wait_for_function(SCENE_IS_THERE)
+    for i in range(2):
+        page.locator("form.question").nth(i).get_by_role("button", name="Skip and show me").click()
+        page.locator("form.question.answered").nth(i).wait_for()
+    first, second = page.evaluate("COURSE.slice(0, 2).map((one) => one.name)")
+    assert first == "fake"
+    page.locator("#around a[rel=next]").click()
+    page.wait_for_function("name => LESSON.name === name", arg=second)
+    page.locator("#around a[rel=prev]").wait_for()
+    page.locator("nav.top a").click()
+    page.locator("[data-card=fake].all", has_text="✓ done: 2 of 2 questions answered").wait_for()
+
+
+def test_the_same_page_plays_in_one_document_without_any_file(opened, out, tmp_path):
+    """What a notebook needs: everything inline, in an iframe with `srcdoc`, which has no address of its own."""
+    folder = out / "fake"
+    text = (folder / "runs" / "half.html").read_text()
+    text = re.sub(r'<link rel="stylesheet" href="([^"]+)">', lambda m: f"<style>{file(folder, m[1])}</style>", text)
+    inline = {
+        m[0]: f"<script>{file(folder, m[1])}</script>" for m in re.finditer(r'<script src="([^"]+)"></script>', text)
+    }
+    for tag, script in inline.items():
+        text = text.replace(tag, script)
+    data = f"<script>{file(folder, '../../viser.js')}</script><script>{file(folder, 'half.js')}</script>"
+    text = text.replace("</body>", f"{data}</body>").replace('"runs":""', '"runs":null')
+    host = tmp_path / "host.html"
+    escaped = text.replace("&", "&amp;").replace('"', "&quot;")
+    host.write_text(
+        f'<!doctype html><meta charset="utf-8"><iframe srcdoc="{escaped}" width="900" height="600"></iframe>'
+    )
+    page = opened(host.as_uri(), until="")
+    inside = page.frame_locator("iframe")
+    inside.locator("#scene iframe").wait_for()
+    frame = next(one for one in page.frames if one.parent_frame == page.main_frame)
+    frame.wait_for_function(SCENE_IS_THERE)
+    inside.locator("[data-act=next]").click()
+    frame.wait_for_function("page.k === 1")
+    timeline = Timeline(FAKE, FAKE.presets[0].params).complete()
+    assert inside.locator("#caption").inner_text() == timeline[1].caption.text
+
+
+def file(folder, name: str) -> str:
+    return (folder / "runs" / name).resolve().read_text(encoding="utf-8")

@@ -225,10 +225,12 @@ def test_a_dead_link_or_something_heavy_fails(tmp_path, monkeypatch):
         site.checked(tmp_path, ["c.rrd"])
 
 
-def test_the_summary_counts_replays_and_no_other_scripts(published):
+def test_the_summary_counts_runs_and_no_other_scripts(published):
     out, files = published
     told = site.sizes_told(out, list(files.items())).splitlines()
-    assert [line.partition(",")[0] for line in told[:3]] == ["4 pages", "2 replays", "2 recordings"]
+    assert [line.partition(",")[0] for line in told[:-1]] == ["4 pages", "2 runs", "2 recordings"]
+    told = site.sizes_told(out, [("x/runs/a.js", 2_000_000), ("x/runs/angle-0.js", 1_500_000)], {"x/runs/angle-0.js"})
+    assert "\n1 of these runs are of sweeps, 1.5 MB, the largest 1.50 MB\n" in told
 
 
 def test_every_page_of_every_lesson_is_small_and_its_runs_have_names_of_their_own():

@@ -152,7 +152,7 @@ def _stage(still: str) -> str:
         '<input id="step" type="range" min="0" max="0" value="0" aria-label="Step"><output id="count"></output>'
         '<select id="speed" aria-label="Speed" title="Steps per second"><option value="">Speed</option>'
         f"{speeds}</select></div>"
-        '<p id="caption" role="status" aria-live="polite"></p></section>'
+        '<p id="caption" role="status" aria-live="polite" tabindex="0"></p></section>'
         '<div id="tiles" role="group" aria-label="Curves, pictures and code of this step"></div>'
         '<div id="large" role="dialog" aria-label="Enlarged" hidden></div>'
     )

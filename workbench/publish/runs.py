@@ -4,7 +4,7 @@ import functools
 import hashlib
 import os
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -119,6 +119,11 @@ def files_of(lesson: Lesson, run: Run) -> tuple[str, ...]:
     """Return where in a site a run's replay, page of its own and recording are."""
     beside, recording = f"{lesson.name}/runs/{run.file}", recording_of(lesson, run)
     return f"{beside}.js", f"{beside}.html", *([f"{lesson.name}/runs/{recording}"] if recording else [])
+
+
+def swept_files(lessons: Iterable[Lesson]) -> set[str]:
+    """Return the run files that a site has for sweeps alone."""
+    return {files_of(lesson, run)[0] for lesson in lessons for run in runs_of(lesson) if not run.recorded}
 
 
 def recording_of(lesson: Lesson, run: Run) -> str | None:

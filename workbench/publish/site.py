@@ -1,6 +1,6 @@
 """Writes a static site: a course page and one page per lesson, with replays that play from disk, offline."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from html.parser import HTMLParser
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote, urlsplit
@@ -223,16 +223,17 @@ def _over(what: str, size: int, budget: int) -> str:
     return f"{what} has {size / 1e6:.2f} MB, over the budget of {budget / 1e6:.2f} MB"
 
 
-def sizes_told(out: Path, files: Sequence[tuple[str, int]]) -> str:
-    """Return a summary of what a site holds, by kind of file, and where to begin."""
-    kinds = {"pages": "*.html", "replays": "*/runs/*.js", "recordings": "*.rrd"}
-    lines = []
-    for kind, pattern in kinds.items():
-        sizes = [size for name, size in files if PurePosixPath(name).match(pattern)]
-        lines.append(
-            f"{len(sizes)} {kind}, {sum(sizes) / 1e6:.1f} MB, the largest {max(sizes, default=0) / 1e6:.2f} MB"
-        )
+def sizes_told(out: Path, files: Sequence[tuple[str, int]], swept: Collection[str] = ()) -> str:
+    """Return a summary of what a site holds, by kind of file, and where to begin; `swept` are the files of sweeps."""
+    kinds = {"pages": "*.html", "runs": "*/runs/*.js", "recordings": "*.rrd"}
+    lines = [_sizes(kind, [size for name, size in files if PurePosixPath(name).match(p)]) for kind, p in kinds.items()]
+    if swept:
+        lines.append(_sizes("of these runs are of sweeps", [size for name, size in files if name in swept]))
     return "\n".join([*lines, f"begin at {out / COURSE_PAGE}"])
+
+
+def _sizes(what: str, sizes: Sequence[int]) -> str:
+    return f"{len(sizes)} {what}, {sum(sizes) / 1e6:.1f} MB, the largest {max(sizes, default=0) / 1e6:.2f} MB"
 
 
 def links_in(page: str) -> Iterator[str]:

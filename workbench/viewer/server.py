@@ -180,7 +180,7 @@ class Server:
         """Make what every page needs before the first one asks."""
         await self.scenes.fetch()
         await self.runs.asking.do(math_font_css)
-        await self.runs.asking.do(source_html, article_html)
+        await self.runs.asking.do(source_html, lesson_page)
 
     async def _keep_room(self) -> None:
         """Hold what is kept within its bound, and see to it that what is stuck holds nobody up."""

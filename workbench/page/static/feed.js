@@ -40,7 +40,7 @@ const feed = window.feed = { // viser's page in the frame looks for it
 
   // what stands in front of viser's page: its worker, which would open a websocket, is this page; nothing takes the focus
   before: "<script>window.Worker=class{constructor(){this.postMessage=(said)=>said.type==='set_server'&&parent.feed.connect(this)}" +
-    "terminate(){}};HTMLElement.prototype.focus=()=>{};history.replaceState=()=>{}</script>",
+    "terminate(){}};HTMLElement.prototype.focus=()=>{};history.replaceState=()=>{}<\/script>",
 
   connect(client) {
     this.client = client;

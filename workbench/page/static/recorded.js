@@ -10,7 +10,7 @@ const source = {
   client: null,        // the promise of the window of viser's page
   decoded: new Map(),  // run -> its nodes, the last few
 
-  get sweep() { return RECORDED.sweeps.length > 0; },
+  get sweep() { return RECORDED.sweeps.length > 0 && !document.body.classList.contains("alone"); },
 
   start() {
     this.client = shelf.page().then(([before, after]) => {

@@ -8,7 +8,9 @@ const text = {
     const box = $("#text");
     if (!box) return;
     box.addEventListener("toggle", () => this.show());
-    addEventListener("beforeprint", () => this.fill());
+    let open = false;
+    addEventListener("beforeprint", () => { open = box.open; box.open = true; this.fill(); });
+    addEventListener("afterprint", () => { box.open = open; });
   },
 
   // keeps the list up to date where it is open
