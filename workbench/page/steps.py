@@ -56,7 +56,7 @@ class Steps:
         return {"steps": steps, **self.series(), "things": self.things}
 
     def _made(self, step: Step) -> dict[str, Any]:
-        legend = legend_html(step.scene, self.timeline.lesson.view.grid)
+        legend = legend_html(step.scene, self.timeline.lesson.view_of(self.timeline.params).grid)
         return {
             "caption": step.caption.text,
             "tone": step.caption.tone,

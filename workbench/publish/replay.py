@@ -35,7 +35,7 @@ class Renderer:
 
         The page holds the data's place as `window.__VISER_EMBED_DATA__=""`. Step k stands from second k to second k + 1.
         """
-        view = timeline.lesson.view
+        view = timeline.lesson.view_of(timeline.params)
         self._server.scene.reset()
         camera = self._server.initial_camera
         camera.position, camera.look_at, camera.up, camera.fov = (

@@ -18,7 +18,7 @@ from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
 from workbench.flags import show_command
 from workbench.knobs import Pick, fields_of
-from workbench.lesson import Lesson
+from workbench.lesson import Lesson, View
 from workbench.page.charts import series_of
 from workbench.page.steps import Steps
 from workbench.picking import picked_params
@@ -50,7 +50,7 @@ class Student:
         self._wake = asyncio.Event()
         self._client: viser.ClientHandle | None = None
         self._sink: ViserSink | None = None
-        self._staged: Lesson | None = None
+        self._staged: tuple[Lesson, View] | None = None
         self._steps: Steps | None = None
         self._sent: set[int] = set()  # numbers of things of this run that the page has
         self._told: Any = None  # what was last said of the run
@@ -245,8 +245,7 @@ class Student:
             return None
         try:
             with Blaming(f"lesson {look.lesson.name}", look.lesson.draw), self._client.atomic():
-                if self._staged is not look.lesson:
-                    self._set_up(look.lesson)
+                self._set_up(look.lesson, look.params)
                 self._sink.show(look.scene)
                 if self._wants_handles and self._handles is None:
                     self._handles = Handles(self._client.scene, look.lesson.params, self._moved)
@@ -259,19 +258,25 @@ class Student:
             self._client.flush()
         return None
 
-    def _set_up(self, lesson: Lesson) -> None:
-        """Empty the stage, and make it the lesson's: camera, grid, and clicks that set its params."""
+    def _set_up(self, lesson: Lesson, params: Any) -> None:
+        """Empty the stage for a lesson that is new on it; the camera goes where the lesson or a named run wants it."""
         assert self._client is not None
         assert self._sink is not None
+        before, view = self._staged, lesson.view_of(params)
+        if before is not None and before[0] is lesson:
+            if before[1] != view and lesson.names(params):  # a knob that moves leaves the camera where it is
+                set_stage(self._client, view)
+                self._staged = (lesson, view)
+            return
         self._sink.show({})
-        set_stage(self._client, lesson.view)
+        set_stage(self._client, view)
         self._sink.repaint(BACKDROPS[self._dark])
         if self._handles is not None:
             self._handles.close()
             self._handles = None
         can_be_picked = any(isinstance(field.knob.by, Pick) for field in fields_of(lesson.params))
         listen_for_clicks(self._client.scene, self._clicks if can_be_picked else None)
-        self._staged = lesson
+        self._staged = (lesson, view)
 
     def _clicks(self, p_origin: np.ndarray, v_ray: np.ndarray) -> None:
         """Note a click in the scene; called in viser's thread."""
