@@ -46,7 +46,7 @@ class TestPresets:
 
     def test_the_sweep_has_starts_from_which_it_comes_home_and_others(self):
         (sweep,) = lesson.sweeps
-        assert [end(run(params)).home for params in lesson.swept(sweep)] == [angle < 80 for angle in sweep.values]
+        assert [end(run(params)).home for params in lesson.swept(sweep)] == [angle < 100 for angle in sweep.values]
 
     def test_plane_takes_a_sixth_of_the_iterations(self):
         slow, fast = end(preset("home")).icp.iteration, end(preset("plane")).icp.iteration
