@@ -68,7 +68,8 @@ class Preset(Generic[P]):
     """A named set of params: what to look for, and why it happens, in one line.
 
     `step` is where it opens: an index, negative counts from the end; None opens at the lesson's first step worth seeing.
-    `view` is its own camera, where the lesson's does not show what it is about.
+    `view` is its own camera, where the lesson's does not show what it is about. `breaks` says that it goes wrong on purpose:
+    its captions stay calm.
     """
 
     name: str
@@ -77,6 +78,7 @@ class Preset(Generic[P]):
     params: P
     step: int | None = None
     view: View | None = None
+    breaks: bool = False
 
 
 @dataclass(frozen=True)
@@ -226,6 +228,11 @@ class Lesson(Generic[P, S]):
     def preset_of(self, params: P) -> Preset[P] | None:
         """Return the preset that has these params, the first if there are several."""
         return next((preset for preset in self.presets if preset.params == params), None)
+
+    def names(self, params: P) -> bool:
+        """Tell whether these are the params of the default run, of a preset or of a question."""
+        runs = (*self.presets, *self.questions)
+        return params == self.params() or any(one.params == params for one in runs)
 
     def validated(self, params: P) -> P:
         """Return params when they are this lesson's and in range; raise InputError otherwise."""

@@ -4,7 +4,7 @@ import threading
 import weakref
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -194,8 +194,10 @@ class Timeline:
             wrong = _no_scene(shown)
             if wrong:
                 raise AuthorError(f"lesson {self.lesson.name}: {at(draw)}{wrong}")
-            caption_of(shown)
-            return dict(shown)
+            caption = caption_of(shown)
+            preset = self.lesson.preset_of(self.params) if caption.tone == "wrong" else None
+            calm = {"caption": replace(caption, tone="info")} if preset is not None and preset.breaks else {}
+            return {**shown, **calm}
 
     def _incomplete(self) -> str | None:
         """Say what a run that came to its end lacks, None when nothing: a step, and what the default run is to show."""

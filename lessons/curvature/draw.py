@@ -18,21 +18,21 @@ def draw(state: State) -> Scene:
     subject, now, stage = state.subject, state.now, state.stage
     edge = ring.edge_length(now)
     scene: dict[str, Primitive] = {
-        "surface": Mesh(subject.p, subject.faces, _color(state), name=subject.name),
+        "surface": Mesh(subject.p, subject.faces, _color(state), opacity=0.6 if stage == "principal" else 1.0),
         "vertex": Points(
             now.p[[now.vertex]] + 0.1 * edge * now.normals[now.vertex],
             "highlight",
-            0.15 * edge,
+            0.1 * edge,
             name=f"vertex {now.vertex:,}",
         ),
         "caption": caption(state),
     }
     if len(subject.edges) <= MOST_EDGES:
-        scene["edges"] = Segments(subject.p[subject.edges], "neutral", 1, opacity=0.5, name="edges")
+        scene["edges"] = Segments(subject.p[subject.edges], "neutral", 1, opacity=0.4)
     if stage == "ring":
         scene |= ring.angles(now)
-    elif stage == "defect":
-        scene |= ring.flattened(now)
+    elif stage in ("unfolding", "defect"):
+        scene |= ring.flattened(now, state.unfolded)
     elif stage == "gaussian":
         scene |= ring.cell(now)
     elif stage == "normal":

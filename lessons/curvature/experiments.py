@@ -6,11 +6,18 @@ import numpy as np
 
 from lessons.curvature.state import Params, State, at_stage
 from workbench.geometry.curvature import gaussian_curvature
-from workbench.lesson import Preset, Question
+from workbench.lesson import Preset, Question, View
 from workbench.numerals import percent
 
-GAUSSIAN, MEAN, PRINCIPAL, TOTAL = 3, 5, 6, 8
+UNFOLDING = (0.15, 0.35, 0.55, 0.75, 0.9)  # how far a ring is laid flat in the steps before it is
+DEFECT = 2 + len(UNFOLDING)
+GAUSSIAN, MEAN, PRINCIPAL, TOTAL = DEFECT + 1, DEFECT + 3, DEFECT + 4, DEFECT + 6
+VIEW = View(eye=(2.05, -2.4, 1.9), target=(0.0, 0.0, -0.05), grid=None, axes=False)
+TWICE = View(eye=(4.1, -4.8, 3.8), target=(0.0, 0.0, -0.1), grid=None, axes=False)
+CLOSE = View(eye=(1.75, -2.35, 2.0), target=(0.52, -0.6, 0.8), grid=None, axes=False)
+SIDE = View(eye=(2.95, 1.65, 1.4), target=(0.0, -0.1, -0.05), grid=None, axes=False)
 
+UNFOLD = Params(surface="sphere", vertices=60)
 CYLINDER = Params(surface="cylinder", vertices=800)
 CATENOID = Params(surface="catenoid", vertices=800)
 DOUBLE = Params(size=2.0)
@@ -28,6 +35,12 @@ TORUS_SUM = Params(vertices=1000, jitter=0.25, noise=0.01)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
+        "unfold", "The gap, from close by",
+        "One ring of a coarse ball is cut along an edge and laid flat. Every triangle keeps its shape: what the angles lack"
+        " stays open.",
+        UNFOLD, 1, CLOSE,
+    ),
+    Preset(
         "cylinder", "A rolled sheet",
         "A tube of radius r = 0.5 m, as rolled from paper; H is 1/2r = 1 m⁻¹. Go one stage back and ask the angles.",
         CYLINDER, MEAN,
@@ -36,12 +49,12 @@ PRESETS: tuple[Preset[Params], ...] = (
         "catenoid", "Catenoid: H = 0, K < 0",
         "It bends as much to one side as to the other: the two cancel in H = (k₁ + k₂)/2 and not in K = k₁ k₂, negative"
         " everywhere.",
-        CATENOID, PRINCIPAL,
+        CATENOID, PRINCIPAL, SIDE,
     ),
     Preset(
         "double", "Twice as large",
         "Every length is doubled. Which numbers follow, and which have no unit and stay? Compare with the default run.",
-        DOUBLE, GAUSSIAN,
+        DOUBLE, GAUSSIAN, TWICE,
     ),
     Preset(
         "inside-out", "Inside out",
@@ -52,24 +65,24 @@ PRESETS: tuple[Preset[Params], ...] = (
         "no-area", "A defect is no curvature",
         "Taken for K, the defect is over 50 times too small here, and about four times smaller still on a mesh four times"
         " as fine.",
-        NO_AREA, GAUSSIAN,
+        NO_AREA, GAUSSIAN, breaks=True,
     ),
     Preset(
         "no-half", "The forgotten half",
         "The cotangent sum over area gives 2 H n. Without the half the unit sphere has H = 2 m⁻¹, and H² − K = 3 tears k₁"
         " and k₂ apart.",
-        NO_HALF, MEAN,
+        NO_HALF, MEAN, breaks=True,
     ),
     Preset(
         "border", "A vertex on the border",
         "Its angles are taken from π: what is missing says how the border turns, so K and H are left open (grey) there.",
-        BORDER, 2,
+        BORDER, DEFECT,
     ),
     Preset(
         "border-2pi", "2π on the border",
         "A flat square should add up to 2π. Taken from 2π, each border vertex adds π that is not there, and the sum is"
         " far off.",
-        BORDER_2_PI, TOTAL,
+        BORDER_2_PI, TOTAL, breaks=True,
     ),
     Preset(
         "coarse", "Coarse", "With 60 vertices the relative error of K is about 10 % (RMS): few triangles have to tell how"
@@ -85,23 +98,23 @@ PRESETS: tuple[Preset[Params], ...] = (
         "noise", "Noise, amplified",
         "3 mm (sigma) off a tube of 40 cm, hardly visible, and K is off by more than its own size (RMS). A finer mesh makes"
         " it worse: last step.",
-        NOISE, GAUSSIAN,
+        NOISE, GAUSSIAN, breaks=True,
     ),
     Preset(
         "irregular", "Irregular triangles",
         "Vertices stray along the surface, never off it: no two triangles are alike. Will a finer mesh help the angles? The"
         " fit? See the last step.",
-        IRREGULAR, GAUSSIAN,
+        IRREGULAR, GAUSSIAN, breaks=True,
     ),
     Preset(
         "sphere-sum", "A bumpy sphere",
         "Noise and jitter put K off by more than its own size (RMS). What do the defects still add up to?",
-        SPHERE_SUM, GAUSSIAN,
+        SPHERE_SUM, GAUSSIAN, breaks=True,
     ),
     Preset(
         "torus-sum", "A bumpy torus",
         "The same noise and jitter on a surface with a handle: gaps and overlaps cancel to the last digit.",
-        TORUS_SUM, TOTAL,
+        TORUS_SUM, TOTAL, breaks=True,
     ),
 )  # fmt: skip
 

@@ -12,15 +12,15 @@ from pathlib import Path
 import numpy as np
 
 from lessons.curvature.draw import draw
-from lessons.curvature.experiments import PRESETS, QUESTIONS
-from lessons.curvature.mesh import EYE, subject_of
+from lessons.curvature.experiments import GAUSSIAN, PRESETS, QUESTIONS, UNFOLDING, VIEW
+from lessons.curvature.mesh import subject_of
 from lessons.curvature.state import Params, State, Subject
 from lessons.curvature.study import error_of, study_of
 from workbench.algorithms.curvature import Defects, Gaussian, MeanNormals, Measured, measure_curvature
 from workbench.geometry import curvature
 from workbench.geometry.laplacian import mixed_areas
 from workbench.geometry.meshes import on_boundary
-from workbench.lesson import Lesson, View
+from workbench.lesson import Lesson, Sweep
 
 
 def run(
@@ -45,6 +45,8 @@ def run(
     ):
         errors = errors | new_errors(subject, now)
         state = State(params=params, subject=subject, now=now, errors=errors)
+        if now.stage == "defect":
+            yield from (replace(state, unfolded=share) for share in UNFOLDING)
         yield state
     if state is not None and subject.truth is not None:
         yield replace(state, study=study_of(params, gaussian, normals))
@@ -88,8 +90,10 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=500,
-    view=View(eye=EYE, target=(0.0, 0.0, -0.45), grid=0.5, grid_height=-1.0, axes=False),
+    view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,
-    first_step=3,
+    first_step=GAUSSIAN,
+    sweeps=(Sweep("vertices", (60, 120, 250, 500, 1000, 2000)),),
+    telling="K and its truth",
 )

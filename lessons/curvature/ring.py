@@ -9,6 +9,7 @@ from workbench.numerals import brief
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
 
 LIFT = 0.03  # how far things float above the surface, in edges
+FARTHEST = 1.3  # metres from the vertex that a circle's centre is drawn
 CIRCLE = 2 * np.pi * np.arange(97) / 96
 
 
@@ -31,7 +32,7 @@ def angles(now: Measured) -> dict[str, Primitive]:
     radius = 0.35 * np.linalg.norm(v, axis=1).min()
     used, name = np.unique(now.faces[now.ring_faces], return_inverse=True)
     scene: dict[str, Primitive] = {
-        "ring": Mesh(now.p[used] + lift, name.reshape(-1, 3), "highlight", opacity=0.55, flat=True, name="its ring"),
+        "ring": Mesh(now.p[used] + lift, name.reshape(-1, 3), "highlight", opacity=0.55, flat=True),
     }
     arcs = []
     for i, angle in enumerate(now.angles):
@@ -42,43 +43,65 @@ def angles(now: Measured) -> dict[str, Primitive]:
         arcs.append(segments(centre + radius * (np.cos(turn) * a + np.sin(turn) * b)))
         middle = np.cos(angle / 2) * a + np.sin(angle / 2) * b
         scene[f"angle {i}"] = Label(f"{np.degrees(angle):.1f}°", centre + 1.75 * radius * middle, "highlight")
-    scene["arcs"] = Segments(np.concatenate(arcs), "highlight", 3, name="angles at the vertex")
+    scene["arcs"] = Segments(np.concatenate(arcs), "highlight", 3)
     return scene
 
 
-def flattened(now: Measured) -> dict[str, Primitive]:
-    """Return the ring laid flat above the vertex: where it does not close, the gap is the defect."""
+def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
+    """Return the ring, cut along an edge and laid flat above the vertex to a share of the way; no triangle is bent.
+
+    Where it is flat and does not close, the gap is the defect.
+    """
     n, edge, defect = now.normals[now.vertex], edge_length(now), float(now.defects[now.vertex])
     inner = len(now.ring) == len(now.angles)
-    lengths = np.linalg.norm(now.p[now.ring] - now.p[now.vertex], axis=1)
-    lengths = np.append(lengths, lengths[0]) if inner else lengths
+    rim = now.p[now.ring] - now.p[now.vertex]
+    rim = np.vstack([rim, rim[:1]]) if inner else rim
+    lengths = np.linalg.norm(rim, axis=1)
     turned = np.concatenate([[0.0], np.cumsum(now.angles)])
-    right = now.p[now.ring[0]] - now.p[now.vertex]
-    right -= (right @ n) * n
+    right = rim[0] - (rim[0] @ n) * n
     right /= np.linalg.norm(right)
-    up, centre = np.cross(n, right), now.p[now.vertex] + 1.3 * edge * n
+    up, centre = np.cross(n, right), now.p[now.vertex] + (LIFT + share) * edge * n
+    rise = 0.02 * share * edge * (defect < 0)  # for each radian: keeps faces apart that overlap
 
-    def at(turn: np.ndarray, radius: np.ndarray | float, height: float = 0.0) -> np.ndarray:
-        # A slow rise keeps faces apart that overlap.
-        radius = np.broadcast_to(radius, turn.shape)[:, None]
-        rise = (height + 0.02 * turn)[:, None] * edge * n
-        return centre + radius * (np.cos(turn)[:, None] * right + np.sin(turn)[:, None] * up) + rise
+    def flat(turn: np.ndarray) -> np.ndarray:
+        return np.cos(turn)[:, None] * right + np.sin(turn)[:, None] * up
 
-    fan = np.vstack([centre, at(turned, lengths)])
+    def at(along: np.ndarray, turn: np.ndarray, radius: np.ndarray | float, height: float = 0.0) -> np.ndarray:
+        return centre + np.reshape(radius, (-1, 1)) * along + (height * edge + rise * turn)[:, None] * n
+
+    along = flat(turned)
+    if share < 1:
+        along = _unbent((1 - share) * rim / lengths[:, None] + share * along, now.angles)
+    fan = np.vstack([centre, at(along, turned, lengths)])
     k = np.arange(1, len(turned))
-    full = turned[-1] + defect
-    gap = np.linspace(min(turned[-1], full), max(turned[-1], full), 25)
-    word = "gap" if defect > 0 else "overlap"
     spokes = np.stack([np.broadcast_to(centre, (len(turned), 3)), fan[1:]], axis=1)
-    end = at(np.array([full]), lengths[0] if inner else lengths[-1])
-    return {
-        "flat ring": Mesh(fan, np.stack([0 * k, k, k + 1], 1), "highlight", opacity=0.5, flat=True, name="laid flat"),
-        "flat edges": Segments(spokes, "highlight", 2, name="its edges"),
-        "gap": Segments(segments(at(gap, 0.8 * lengths.min(), 0.02)), "source", 5, name="angle defect"),
-        "gap edge": Segments(np.stack([centre[None], end], 1), "source", 3, name="where it would close"),
-        "gap label": Label(f"{word} {abs(np.degrees(defect)):.2f}°", at(np.array([full]), 1.1 * lengths.max())[0]),
+    scene: dict[str, Primitive] = {
+        "flat ring": Mesh(fan, np.stack([0 * k, k, k + 1], 1), "highlight", opacity=0.5, flat=True),
+        "flat edges": Segments(spokes, "highlight", 2),
         "stalk": Segments(np.array([[now.p[now.vertex], centre]]), "correspondence", 1),
     }
+    if share < 1:
+        return scene
+    full = np.array([turned[-1] + defect])
+    gap = np.linspace(min(turned[-1], full[0]), max(turned[-1], full[0]), 25)
+    end = at(flat(full), full, lengths[-1])
+    word = "gap" if defect > 0 else "overlap"
+    return scene | {
+        "gap": Segments(segments(at(flat(gap), gap, 0.8 * lengths.min(), 0.02)), "source", 5, name="angle defect"),
+        "gap edge": Segments(np.stack([centre[None], end], 1), "source", 3),
+        "gap label": Label(
+            f"{word} {abs(np.degrees(defect)):.2f}°", at(flat(full), full, 1.1 * lengths.max())[0], "source"
+        ),
+    }
+
+
+def _unbent(along: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """Return directions near those given, each at its angle from the one before, so that triangles keep their shape."""
+    found = [along[0] / np.linalg.norm(along[0])]
+    for wanted, angle in zip(along[1:], angles, strict=True):
+        aside = wanted - (wanted @ found[-1]) * found[-1]
+        found.append(np.cos(angle) * found[-1] + np.sin(angle) * aside / max(float(np.linalg.norm(aside)), 1e-12))
+    return np.array(found)
 
 
 def cell(now: Measured) -> dict[str, Primitive]:
@@ -94,8 +117,8 @@ def cell(now: Measured) -> dict[str, Primitive]:
     faces = (start + np.array([[0, 1, 2, 0, 2, 3]])).reshape(-1, 3)
     rim = np.concatenate([np.stack([q[[1, 2]], q[[2, 3]]]) for q in quads]) + lift
     return {
-        "cell": Mesh(p, faces, "highlight", opacity=0.6, flat=True, name="its area"),
-        "cell rim": Segments(rim, "highlight", 3, name="rim of its area"),
+        "cell": Mesh(p, faces, "highlight", opacity=0.6, flat=True),
+        "cell rim": Segments(rim, "highlight", 3),
         "cell label": Label(f"A = {brief(now.areas[now.vertex])} m²", _lifted(now, 0.5), "highlight"),
     }
 
@@ -145,8 +168,13 @@ def circles(now: Measured) -> dict[str, Primitive]:
         else:
             path = here + 1.25 * (CIRCLE / np.pi - 1)[:, None] * t
         radius = f"radius {brief(1 / abs(k))} m" if abs(k) > 1e-3 else "straight"
-        scene[f"circle {name}"] = Segments(segments(path), role, 4, name=f"bends as {name}")
-        scene[f"label {name}"] = Label(f"{name} = {brief(k)} m⁻¹, {radius}", path[30 if name == "k₁" else 66], role)
+        scene[f"circle {name}"] = Segments(segments(path), role, 4)
+        seen = abs(k) * FARTHEST > 1.0
+        centre = here - n / k if seen else path[66]
+        scene[f"label {name}"] = Label(f"{name} = {brief(k)} m⁻¹, {radius}", centre, role)
+        if seen:
+            scene[f"centre {name}"] = Points(centre[None], role, 0.025 / abs(k) ** 0.5)
+            scene[f"radius {name}"] = Segments(np.array([[here, centre]]), role, 2)
     return scene
 
 

@@ -101,6 +101,7 @@ class State:
         now: What is measured so far.
         errors: Relative errors so far, by name; none for an own mesh.
         study: Errors on ever finer meshes, in the last step.
+        unfolded: How far the ring of the vertex is laid flat, up to 1.
     """
 
     params: Params
@@ -108,11 +109,12 @@ class State:
     now: Measured
     errors: dict[str, float]
     study: Study | None = None
+    unfolded: float = 1.0
 
     @property
     def stage(self) -> str:
         """The stage by name."""
-        return "finer" if self.study is not None else self.now.stage
+        return "finer" if self.study is not None else "unfolding" if self.unfolded < 1 else self.now.stage
 
     @property
     def on_border(self) -> bool:

@@ -43,6 +43,13 @@ def _ring(state: State) -> Caption:
     return Caption(text + " In a plane they would add up to 360°.")
 
 
+def _unfolding(state: State) -> Caption:
+    return Caption(
+        f"Cut along one edge, the ring unfolds, {100 * state.unfolded:.0f} % of the way: each of its"
+        f" {len(state.now.angles)} triangles keeps its shape and its angle."
+    )
+
+
 def _defect(state: State) -> Caption:
     defects = state.now.defects
     assert defects is not None
@@ -172,6 +179,7 @@ def _finer(state: State) -> Caption:
 _CAPTIONS = {
     "mesh": _mesh,
     "ring": _ring,
+    "unfolding": _unfolding,
     "defect": _defect,
     "gaussian": _gaussian,
     "normal": _normal,

@@ -2,53 +2,93 @@
 
 import numpy as np
 
-from lessons.icp.basin import thin_rows
-from lessons.icp.state import Scans, State
+from lessons.icp.basin import ANGLES, thin_rows
+from lessons.icp.state import Error, Scans, State
 from lessons.icp.words import caption
 from workbench.geometry.motions import apply, inverse
-from workbench.numerals import length
+from workbench.numerals import angle, length
 from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments
 
 MOST_LINES = 750, 200  # of small clouds and of large ones, whose recordings the lines would fill
 LARGE = 5000
-ARROW = np.array([[[0.0, 0.0, 0.0], [0.62, 0.0, 0.0]], [[0.62, 0.0, 0.0], [0.54, 0.035, 0.0]],
-                  [[0.62, 0.0, 0.0], [0.54, -0.035, 0.0]]])  # fmt: skip
+TIP, DIAL = 0.62, 0.7  # metres of the picture from its middle: of the arrows, and of the dial of starts
+ARROW = np.array([[[0.0, 0.0, 0.0], [TIP, 0.0, 0.0]], [[TIP, 0.0, 0.0], [0.54, 0.035, 0.0]],
+                  [[TIP, 0.0, 0.0], [0.54, -0.035, 0.0]]])  # fmt: skip
+HALF = np.radians(0.42 * (ANGLES[1] - ANGLES[0]))  # of a start's arc on the dial
 
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    scans, now = state.scans, state.icp
-    T_world_source = scans.frame.shown_motion(now.T_target_source)
+    scans = state.scans
     scene: dict[str, Primitive] = {
         "target": Points(scans.p_target_shown, "target", _radius(len(scans.p_target)), name="target"),
-        "source": Points(
-            scans.p_source_shown, _source_color(scans), _radius(len(scans.p_source)), T_world_source, name="source"
-        ),
-        "source arrow": Segments(
-            ARROW, "source", 4, _arrow_pose(scans, now.T_target_source), name="fixed to the source"
-        ),
         "caption": caption(state),
-        "grid": Segments(scans.grid, "neutral", 1, opacity=0.3, name=f"grid {length(scans.cell)}"),
+        "grid": Segments(scans.grid, "neutral", 1, opacity=0.2, name=f"grid {length(scans.cell)}"),
     }
     if scans.frame.scale != 1.0:
         size = f"a square of the grid is {length(scans.cell)} of the scans"
         scene["size"] = Label(size, np.array([0.0, 0.0, -0.75]))
     if scans.T_truth is not None:
-        scene["true arrow"] = Segments(
-            ARROW, "truth", 2.5, _arrow_pose(scans, scans.T_truth), 0.8, name="where it belongs"
-        )
-    if state.tries:
-        T_world_try = scans.frame.shown_motion(
-            state.tries[-1].T_target_truth @ scans.T_truth
-        )  # T_truth is T_target_source
-        scene["try"] = Points(
-            scans.p_source_shown[thin_rows(scans)], "highlight", 0.008, T_world_try, name="end from another start"
-        )
-        scene |= _basin(state)
-    else:
-        scene["matches"] = _matches(state, T_world_source)
-        scene |= _curves(state)
+        scene["true arrow"] = Segments(ARROW, "truth", 2.5, _arrow_pose(scans, scans.T_truth), 0.8)
+    return scene | (_from_another_start(state) if state.tries else _of_the_run(state))
+
+
+def _of_the_run(state: State) -> dict[str, Primitive]:
+    scans, T_target_source = state.scans, state.icp.T_target_source
+    T_world_source = scans.frame.shown_motion(T_target_source)
+    p, radius = scans.p_source_shown, _radius(len(scans.p_source))
+    return {
+        "source": Points(p, _source_color(scans), radius, T_world_source, name="source"),
+        **_arrow("source", scans, T_target_source, "source", state.error if state.known else None),
+        "matches": _matches(state, T_world_source),
+        **_curves(state),
+    }
+
+
+def _from_another_start(state: State) -> dict[str, Primitive]:
+    scans, last = state.scans, state.tries[-1]
+    assert scans.T_truth is not None
+    T_target_source = last.T_target_truth @ scans.T_truth
+    T_world_try = scans.frame.shown_motion(T_target_source)
+    p = scans.p_source_shown[thin_rows(scans)]
+    return {
+        "try": Points(p, "highlight", 0.008, T_world_try, name="end from another start"),
+        **_arrow("try", scans, T_target_source, "highlight", last.error),
+        **_dial(state),
+        **_basin(state),
+    }
+
+
+def _arrow(path: str, scans: Scans, T_target_source: np.ndarray, color: Role, error: Error | None):
+    """Return an arrow fixed to the source, which points along the picture's x axis at the truth; its turn stands at it."""
+    pose = _arrow_pose(scans, T_target_source)
+    scene: dict[str, Primitive] = {f"{path} arrow": Segments(ARROW, color, 4, pose)}
+    if error is not None:
+        at = np.array([TIP + 0.06, 0.0, 0.0])
+        scene[f"{path} arrow name"] = Label(f"{angle(error.rotation)} off", at, color, pose)
     return scene
+
+
+def _dial(state: State) -> dict[str, Primitive]:
+    """Return the starts around the target, each an arc where its arrow starts, green where ICP comes home from there."""
+    home = np.array([state.scans.at_home(one.error) for one in state.tries])
+    starts = np.radians([one.start_angle for one in state.tries])[:, None]
+    height = float(state.scans.grid[0, 0, 2])
+
+    def at(turn: np.ndarray, radius: float) -> np.ndarray:
+        return np.stack([radius * np.cos(turn), radius * np.sin(turn), np.full_like(turn, height)], axis=-1)
+
+    arcs = np.stack([at(starts + HALF * np.array([-1, -1 / 3, 1 / 3]), DIAL),
+                     at(starts + HALF * np.array([-1 / 3, 1 / 3, 1]), DIAL)], axis=2)  # fmt: skip
+    color = Classes(
+        np.repeat(~home, 3).astype(np.uint8), ("truth", "neutral"), ("comes home from here", "does not come home")
+    )
+    now = state.tries[-1].start_angle
+    return {
+        "dial": Segments(arcs.reshape(-1, 2, 3), color, 9),
+        "dial now": Segments(np.stack([at(starts[-1], 0.45), at(starts[-1], DIAL)], axis=1), "highlight", 3),
+        "dial name": Label(f"start {now:.0f}° away", at(starts[-1, 0], DIAL + 0.1), "highlight"),
+    }
 
 
 def _curves(state: State) -> dict[str, Primitive]:
@@ -95,7 +135,7 @@ def _matches(state: State, T_world_source: np.ndarray) -> Segments:
     )
     refused = ~now.kept[rows]
     color = Classes(refused.astype(np.uint8), ("correspondence", "wrong"), ("match", "refused by the gate"))
-    return Segments(ends, color, 1.6, name="matches")
+    return Segments(ends, color, 2, name="matches")
 
 
 def _source_color(scans: Scans):

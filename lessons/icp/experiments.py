@@ -8,7 +8,7 @@ import numpy as np
 from lessons.icp.basin import ANGLES
 from lessons.icp.state import Params, State
 from lessons.icp.words import off
-from workbench.lesson import Preset, Question
+from workbench.lesson import Preset, Question, View
 from workbench.numerals import length, percent
 
 HOME = Params()
@@ -28,6 +28,9 @@ RINGS = Params(
 )
 RINGS_VOXEL = replace(RINGS, thinning="voxel", voxel=1.0)
 RINGS_SPREAD = replace(RINGS, thinning="voxel", planes="spread")
+VIEW = View(eye=(1.6, -0.85, 1.0), target=(0.05, 0.02, 0.0), grid=None, axes=False)
+WALL = View(eye=(1.9, -1.9, 1.3), target=(0.0, -0.1, 0.0), grid=None, axes=False)
+STREET = View(eye=(0.55, -0.95, 1.0), target=(0.0, 0.0, -0.05), grid=None, axes=False)
 END = -1 - len(ANGLES)  # the last step of ICP itself, before the tries
 
 PRESETS: tuple[Preset[Params], ...] = (
@@ -40,7 +43,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "far", "From 120° away",
         "ICP sees the distances of its matches and nothing else. Compare what it sees, the RMSE, with the rotation error.",
-        FAR, 0,
+        FAR, 0, breaks=True,
     ),
     Preset(
         "plane", "Point-to-plane, from 35° away",
@@ -51,19 +54,19 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "symmetric", "A vase turned about its axis",
         "A surface of revolution, started 90° away about its own axis: watch the turn of each fit and the arrows.",
-        VASE, 0,
+        VASE, 0, breaks=True,
     ),
     Preset(
         "slide", "Two planes slide",
         "A floor and a wall hold everything but the slide along their common line: the rotation is found, and of the"
         " 0.3 m of shift at least 0.2 m stay.",
-        CORNER, 0,
+        CORNER, 0, WALL, breaks=True,
     ),
     Preset(
         "overlap-fixed", "Part seen by one scan only",
         "A fixed gate of 0.1 m lets in matches of points that the target never saw, and they pull: at the end look at the"
         " rotation error.",
-        OVERLAP, 0,
+        OVERLAP, 0, breaks=True,
     ),
     Preset(
         "overlap-adaptive", "The same with d < 3 medians",
@@ -75,13 +78,13 @@ PRESETS: tuple[Preset[Params], ...] = (
         "overlap-tight", "The same with a 0.02 m gate",
         "A tight gate drops them too, but look at the basin: from 60° on, too few good matches pass and no start comes"
         " home.",
-        OVERLAP_TIGHT, -1,
+        OVERLAP_TIGHT, -1, breaks=True,
     ),
     Preset(
         "outliers", "Three in ten are outliers",
         "Squared distances listen most to the farthest points: with every match in use the outliers pull the source over"
         " 4° astray.",
-        OUTLIERS, 0,
+        OUTLIERS, 0, breaks=True,
     ),
     Preset(
         "outliers-trimmed", "Outliers, trimmed to 65 %",
@@ -92,18 +95,18 @@ PRESETS: tuple[Preset[Params], ...] = (
         "rings-chance", "A lidar's rings, thinned by chance",
         "The scanner moved 0.5 m, and its rings moved with it. Most planes are laid through one ring, so rings lock onto"
         " rings: over 0.4 m stay.",
-        RINGS, 0,
+        RINGS, 0, STREET, breaks=True,
     ),
     Preset(
         "rings-voxel", "The rings, thinned by voxels",
         "The means of the points in each voxel, 1 % of the width: dense rings and sparse walls count alike, and less than"
         " 10 cm stay.",
-        RINGS_VOXEL, 0,
+        RINGS_VOXEL, 0, STREET, breaks=True,
     ),
     Preset(
         "rings-spread", "The rings, and no plane through a line",
         "Finer voxels of 0.2 %, and a point whose neighbours lie along a line does not pull: no more than 2 cm stay.",
-        RINGS_SPREAD, 0,
+        RINGS_SPREAD, 0, STREET,
     ),
 )  # fmt: skip
 

@@ -10,12 +10,12 @@ from pathlib import Path
 
 from lessons.icp.basin import align_of, gate_of, tries_of
 from lessons.icp.draw import draw
-from lessons.icp.experiments import PRESETS, QUESTIONS
+from lessons.icp.experiments import PRESETS, QUESTIONS, VIEW
 from lessons.icp.scans import scans_of
 from lessons.icp.state import Params, State, Try
 from workbench.algorithms.icp import Align, Match, PlaneStep, icp
 from workbench.geometry.alignment import align_rigid, degrees_between, point_to_plane_step
-from workbench.lesson import Lesson, View
+from workbench.lesson import Lesson, Sweep
 
 MAX_ITERATIONS, TOLERANCE = 150, 1e-5
 
@@ -70,7 +70,9 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=300,
-    view=View(eye=(1.5, -1.9, 1.0), target=(0.0, 0.0, 0.1), grid=None),
+    view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,
+    sweeps=(Sweep("start_angle", tuple(float(angle) for angle in range(0, 181, 30))),),
+    telling="Rotation error",
 )

@@ -35,17 +35,25 @@ class Params:
     start_shift: Annotated[float, Knob("How far it starts shifted along x", 0, 1, unit="m", step=0.01)] = 0.0
     fit: Annotated[Fit, Knob("What each fit minimises, over which kind of motion")] = "point-to-point"
     gate: Annotated[GateName, Knob("Which matches a fit may use")] = "trimmed"
-    keep: Annotated[float, Knob("Share of the closest matches that trimming keeps", 0.3, 1, step=0.05)] = 0.9
+    keep: Annotated[
+        float, Knob("Share of the closest matches that trimming keeps", 0.3, 1, step=0.05, needs={"gate": ("trimmed",)})
+    ] = 0.9
     max_distance: Annotated[
         float,
         Knob(
-            "Matches farther apart are refused; lidar and own scans count as 1.2 m wide", 0.01, 2, unit="m", step=0.01
+            "Matches farther apart are refused; lidar and own scans count as 1.2 m wide",
+            0.01,
+            2,
+            unit="m",
+            step=0.01,
+            needs={"gate": ("max-distance",)},
         ),
     ] = 0.1
     planes: Annotated[
         Planes,
         Knob(
-            "Point-to-plane, lidar and own scans: all target points pull, or only where neighbours spread, not in a line"
+            "Point-to-plane, lidar and own scans: all target points pull, or only where neighbours spread, not in a line",
+            needs={"fit": ("point-to-plane",)},
         ),
     ] = "spread"
     overlap: Annotated[
@@ -67,7 +75,15 @@ class Params:
         Thinning, Knob("Lidar and own scans: both by the means of voxels, or only the source, by chance")
     ] = "voxel"
     voxel: Annotated[
-        float, Knob("Edge of those voxels, of the target's longest extent", 0.1, 5, unit="%", step=0.1)
+        float,
+        Knob(
+            "Edge of those voxels, of the target's longest extent",
+            0.1,
+            5,
+            unit="%",
+            step=0.1,
+            needs={"thinning": ("voxel",)},
+        ),
     ] = 0.2
     own_points: Annotated[
         int, Knob("At most so many points of a lidar or own source are used, drawn by chance", 100, 50_000, step=100)

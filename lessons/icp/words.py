@@ -8,12 +8,6 @@ from workbench.algorithms.icp import Stop
 from workbench.numerals import angle, length, percent
 from workbench.scene import Caption
 
-FITS = {
-    "point-to-point": "the rigid motion with the least squared distance to the partners",
-    "point-to-plane": "the step with the least squared distance to the partners' tangent planes",
-    "similarity": "the similarity with the least squared distance to the partners",
-    "affine": "the affine map with the least squared distance to the partners",
-}
 SETTLED = (Stop.CONVERGED, Stop.CIRCLING)
 
 
@@ -44,7 +38,7 @@ def _of_match(state: State) -> str:
 
 
 def _of_fit(state: State) -> str:
-    text = f"Fit {state.icp.iteration}: {FITS[state.params.fit]} turns the source by {angle(state.turned)};"
+    text = f"Fit {state.icp.iteration} turns the source by {angle(state.turned)}:"
     text += f" RMSE {length(state.rmse_before)} → {length(state.icp.rmse)}"
     if not state.known:
         return f"{text}."

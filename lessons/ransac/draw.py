@@ -2,17 +2,19 @@
 
 import numpy as np
 
-from lessons.ransac.shapes import frames, outline
+from lessons.ransac.shapes import frames, outline, slab
 from lessons.ransac.state import State, Subject
 from lessons.ransac.words import caption
 from workbench.algorithms.ransac import Fit
 from workbench.geometry.clipping import plane_in_box
 from workbench.geometry.polylines import fan
+from workbench.numerals import brief
 from workbench.scene import Classes, Curve, Label, Mesh, Picture, Points, Primitive, Role, Scalar, Scene, Segments
 
 MOST_LINES = 150
 EPIPOLAR_ROWS = 8
 IN_OR_OUT: tuple[tuple[Role, ...], tuple[str, ...]] = (("target", "wrong"), ("inlier", "outlier"))
+BAND = np.array([[0, 1, 2], [1, 3, 2]])
 RIVAL_COLORS: dict[str, Role] = {"least squares": "other", "Huber": "neutral"}
 
 
@@ -59,22 +61,39 @@ def _sample(state: State) -> dict[str, Primitive]:
 
 
 def _models(state: State) -> dict[str, Primitive]:
-    """Draw the truth, the rivals, the best so far, and the model under test."""
+    """Draw the truth, the best so far and the model under test, one of them with its slab, and at the end the rivals."""
     subject, now = state.subject, state.now
     scene: dict[str, Primitive] = {}
     if subject.truth is not None:
         scene |= _model(subject, "truth", subject.truth, color="truth", width=3.0, name="truth")
-    for rival in state.rivals:
+    for rival in state.rivals if now.phase in ("refit", "stop") and not subject.sizes else ():
         color = RIVAL_COLORS[rival.name]
         scene |= _model(subject, f"rival {rival.name}", rival.estimate, color=color, width=2.0, name=rival.name)
+    tested = now.estimate if now.phase in ("model", "inliers") else None
     if now.best is not None:
-        opacity = 0.45 if now.phase in ("best", "refit", "stop") else 0.2
+        opacity = 0.0 if tested is not None else 0.35 if now.phase in ("best", "refit", "stop") else 0.15
         scene |= _model(
             subject, "best", now.best.estimate, color="source", width=3.0, opacity=opacity, name="best so far"
         )
-    if now.estimate is not None and now.phase in ("model", "inliers"):
+        scene |= _slab(state, now.best.estimate, "source")
+    if tested is not None:
         name = f"{subject.model.name} of the sample"
-        scene |= _model(subject, "trial", now.estimate, color="highlight", width=2.5, opacity=0.4, name=name)
+        scene |= _model(subject, "trial", tested, color="highlight", width=2.5, opacity=0.3, name=name)
+        scene |= _slab(state, tested, "highlight")
+    return scene
+
+
+def _slab(state: State, estimate: np.ndarray, color: Role) -> dict[str, Primitive]:
+    """Draw where a point is near enough to vote."""
+    edges, band = slab(state.subject, estimate, state.inlier_distance)
+    if not len(edges):
+        return {}
+    name = f"± {brief(1000 * state.inlier_distance)} mm"
+    scene: dict[str, Primitive] = {"slab": Segments(edges, color, 1.5)}
+    if len(band):
+        scene["slab/band"] = Mesh(band, BAND, color, opacity=0.25, flat=True)
+    at = edges.reshape(-1, 3)
+    scene["slab name"] = Label(name, at[np.argmax(at @ [1.0, -0.6, -0.4])], color)
     return scene
 
 
@@ -98,7 +117,7 @@ def _background(subject: Subject) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {}
     borders = frames(subject)
     if len(borders):
-        scene["frame"] = Segments(borders, "neutral", 1.5, name="image borders" if subject.sizes else "window")
+        scene["frame"] = Segments(borders, "neutral", 1.5)
     for k, (word, place) in enumerate(zip(("first image", "second image"), subject.places, strict=False)):
         if not subject.sizes:
             break

@@ -4,10 +4,14 @@ from collections.abc import Iterable, Sequence
 
 from lessons.ransac.state import Params, State
 from workbench.algorithms.ransac import iterations_needed
-from workbench.lesson import Preset, Question
+from workbench.lesson import Preset, Question, View
 from workbench.numerals import length, percent
 
+VIEW = View(eye=(0.8, -3.4, 1.6), target=(0.0, 0.0, 0.33), grid=None, axes=False)
+FLAT = View(eye=(0.0, -3.0, 0.7), target=(0.0, 0.0, 0.7), grid=None, axes=False)
+IMAGES = View(eye=(0.0, -2.6, 0.25), target=(0.0, 0.0, 0.25), grid=None, axes=False)
 HALF = Params()
+LINE = Params(model="line", points=150, noise=0.025, inlier_distance=0.05, seed=6)
 THIRTY = Params(outliers=0.3, seed=2)
 SEVENTY = Params(outliers=0.7, seed=2)
 TIGHT = Params(inlier_distance=0.004, steps="improvements")
@@ -22,6 +26,12 @@ MATCHES = Params(model="fundamental matrix", outliers=0.3, points=200, inlier_pi
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
+        "line", "A line, seen flat",
+        "Two points determine a line. Whoever lies in the band around it votes for it: the band reaches the inlier distance"
+        " to either side.",
+        LINE, 1, FLAT,
+    ),
+    Preset(
         "thirty", "30 % outliers: a dozen or two",
         "A third of all samples is clean, so a dozen or two are enough; the same outliers drag least squares 15 cm off.",
         THIRTY, 2,
@@ -35,12 +45,12 @@ PRESETS: tuple[Preset[Params], ...] = (
         "tight", "Inlier distance too small",
         "4 mm is a quarter of the noise: three in four true points are refused, 500 samples do not suffice, and the"
         " answer rests on the few that are left.",
-        TIGHT, -1,
+        TIGHT, -1, breaks=True,
     ),
     Preset(
         "loose", "Inlier distance too large",
         "0.3 m is 20 sigma: clutter votes too, a dozen samples satisfy the formula, and the plane ends 4 cm off.",
-        LOOSE, -1,
+        LOOSE, -1, breaks=True,
     ),
     Preset(
         "msac", "Too large, but nearness counts",
@@ -52,13 +62,13 @@ PRESETS: tuple[Preset[Params], ...] = (
         "two-planes", "Two planes",
         "A table beside a wall with twice as many points: the table is what we want. Watch on which of the two each new best"
         " lies.",
-        WALL, 2,
+        WALL, 2, breaks=True,
     ),
     Preset(
         "collinear", "Three points on one line",
         "You picked three points of a taut wire: a whole pencil of planes goes through them. The sample is lost, and"
         " still counts as drawn.",
-        WIRE, 1,
+        WIRE, 1, breaks=True,
     ),
     Preset(
         "near-sample", "Three inliers, close together",
@@ -82,13 +92,13 @@ PRESETS: tuple[Preset[Params], ...] = (
         "prosac", "The most trusted first",
         "Matches have a quality, and PROSAC tries the most trusted first: a few dozen samples bring it near its end, where"
         " chance mostly needs hundreds.",
-        PROSAC, 0,
+        PROSAC, 0, IMAGES,
     ),
     Preset(
         "epipolar", "Two views: a fundamental matrix",
         "A match has only to lie near a line, not at a point, but seven at once must be free of outliers. Look what that"
         " takes even at 30 %.",
-        MATCHES, -1,
+        MATCHES, -1, IMAGES,
     ),
 )  # fmt: skip
 

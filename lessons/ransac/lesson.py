@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from lessons.ransac.draw import draw
-from lessons.ransac.experiments import PRESETS, QUESTIONS
+from lessons.ransac.experiments import PRESETS, QUESTIONS, VIEW
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params, Rival, State, Subject
 from workbench.algorithms.models import PLANE, from_points
@@ -24,7 +24,7 @@ from workbench.algorithms.samplers import prosac_samples, uniform_samples
 from workbench.algorithms.scores import Score, count_inliers, count_score, mlesac_score, msac_score
 from workbench.errors import InputError
 from workbench.geometry.lines_planes import plane_from_points
-from workbench.lesson import Lesson, View
+from workbench.lesson import Lesson, Sweep
 
 SHOWN_IN_PARTS = 3  # samples
 
@@ -169,8 +169,10 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=400,
-    view=View(eye=(1.0, -4.6, 2.0), target=(0.0, 0.0, 0.1), grid=0.5, grid_height=-0.35, axes=False),
+    view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=2,
+    sweeps=(Sweep("outliers", (0.0, 0.15, 0.3, 0.45, 0.6, 0.7)),),
+    telling="Error to the truth",
 )

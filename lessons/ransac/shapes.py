@@ -40,6 +40,22 @@ def _outline(subject: Subject, numbers: bytes, shape: tuple[int, ...], rows: tup
     return _epipolar(subject, estimate, np.array(rows))
 
 
+def slab(subject: Subject, estimate: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the outlines of a model moved to either side by a distance, and in a plane the corners of the band between.
+
+    The last number of a line, plane or circle is where it lies, in metres; of other models no slab is drawn.
+    """
+    nothing = np.zeros((0, 3))
+    if subject.model.name not in ("line", "plane", "circle"):
+        return NOTHING, nothing
+    if subject.model.name != "circle":  # whichever way its normal points
+        estimate = estimate * np.sign(estimate[np.argmax(np.abs(estimate[:-1]))])
+    sides = [estimate + side * distance * np.eye(len(estimate))[-1] for side in (1.0, -1.0)]
+    ends = [outline(subject, side, np.zeros(0, int)) for side in sides]
+    whole = subject.model.name == "line" and len(ends[0]) == len(ends[1]) == 1
+    return np.concatenate(ends), np.stack([side[0] for side in ends], axis=1).reshape(-1, 3) if whole else nothing
+
+
 @lru_cache(maxsize=64)
 def frames(subject: Subject) -> np.ndarray:
     """Return the borders of the two images, of the 2D window, or nothing."""

@@ -20,6 +20,8 @@ SamplerName = Literal["uniform", "PROSAC"]
 Steps = Literal["every part", "every sample", "improvements"]
 
 MOST_POINTS = 5000
+IN_METRES = {"model": ("line", "plane", "circle", "sphere")}
+IN_PIXELS = {"model": ("homography", "fundamental matrix")}
 
 
 @dataclass(frozen=True)
@@ -27,18 +29,22 @@ class Params:
     """Points with outliers, a model to fit, and how RANSAC looks for it."""
 
     model: Annotated[ModelName, Knob("What is fitted; the last two to matches between two images")] = "plane"
-    table: Annotated[Table, Knob("What stands beside the plane's points")] = "alone"
+    table: Annotated[Table, Knob("What stands beside the plane's points", needs={"model": ("plane",)})] = "alone"
     points: Annotated[int, Knob("Points or matches of the built-in scene", 50, MOST_POINTS, step=50)] = 600
     outliers: Annotated[float, Knob("Share of them that belongs to nothing", 0, 0.9, step=0.05)] = 0.5
-    noise: Annotated[float, Knob("Noise of each coordinate (sigma)", 0, 0.05, unit="m", step=0.001)] = 0.015
+    noise: Annotated[
+        float, Knob("Noise of each coordinate (sigma)", 0, 0.05, unit="m", step=0.001, needs=IN_METRES)
+    ] = 0.015
     inlier_distance: Annotated[
-        float, Knob("Points this near to a model are its inliers", 0.001, 0.5, unit="m", step=0.001)
+        float, Knob("Points this near to a model are its inliers", 0.001, 0.5, unit="m", step=0.001, needs=IN_METRES)
     ] = 0.03
-    noise_pixels: Annotated[float, Knob("Noise of each pixel of a match (sigma)", 0, 5, unit="px", step=0.1)] = 1.0
+    noise_pixels: Annotated[
+        float, Knob("Noise of each pixel of a match (sigma)", 0, 5, unit="px", step=0.1, needs=IN_PIXELS)
+    ] = 1.0
     inlier_pixels: Annotated[
         float,
         Knob("Matches this near to a model are its inliers; 95 % lie within 3.46 sigma for a homography, within 1.96 sigma"
-             " for a fundamental matrix", 0.1, 30, unit="px", step=0.1),
+             " for a fundamental matrix", 0.1, 30, unit="px", step=0.1, needs=IN_PIXELS),
     ] = 3.5  # fmt: skip
     score: Annotated[ScoreName, Knob("How good a candidate is, from the distances of all points")] = "count"
     sampler: Annotated[SamplerName, Knob("By chance alone, or the most trusted points first")] = "uniform"

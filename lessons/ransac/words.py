@@ -44,7 +44,7 @@ def _in_truth(state: State) -> str:
 def _degenerate(state: State) -> Caption:
     model = state.subject.model
     text = f"Sample {state.now.iteration} is degenerate: {model.degenerate_when}, so it gives no {model.name}."
-    return Caption(f"{text} It counts as drawn.", "wrong")
+    return Caption(f"{text} It counts as drawn.")
 
 
 def _model(state: State) -> Caption:
@@ -101,10 +101,10 @@ def _stop(state: State) -> Caption:
     if now.best is None:
         return Caption(text + _why_none(state), "wrong")
     text += f"{now.best.count:,} of {len(now.best.inliers):,} {state.subject.noun} are within {_limit(state)}"
-    text += f" of the {state.subject.model.name}, RMS distance {_distance(state, now.best.rms)}."
+    text += f" of the {state.subject.model.name}"
     if not np.isfinite(state.best_error):
-        return Caption(text + _proportion(state))
-    text += f" RMS error to the truth: RANSAC {_distance(state, state.best_error)}"
+        return Caption(f"{text}, RMS distance {_distance(state, now.best.rms)}.{_proportion(state)}")
+    text += f". RMS error to the truth: RANSAC {_distance(state, state.best_error)}"
     text += "".join(f", {rival.name} {_distance(state, rival.error)}" for rival in state.rivals) + "."
     if is_right(state):
         return Caption(text, "good")

@@ -143,6 +143,18 @@ BROKEN = [
         "seed: Annotated[tuple[float, float], Knob('A', 0, 9, by=Gizmo())] = (0.0, 0.0)",
         "Params.seed: a Gizmo sets 3 floats",
     ),
+    (
+        STATE,
+        'seed: Annotated[int, Knob("Which noise is drawn", 0, 99)] = 0',
+        'seed: Annotated[int, Knob("Which", 0, 99, needs={"b": (True,)})] = 0\n    b: Annotated[bool, Knob("B")] = True',
+        "seed = 99 changes 'points' although its needs are not met, at {'b': 'False'}",
+    ),
+    (
+        STATE,
+        'Knob("Which noise is drawn", 0, 99)',
+        'Knob("Which noise", 0, 99, needs={"mood": ("calm",)})',
+        "seed needs 'mood', which is no choice or switch of this lesson",
+    ),
     (RUNS, "Params(arc=60.0)", "Params(arc=400.0)", "preset 'arc': arc = 400: a number from 20 to 360 deg"),
     (RUNS, "Params())", "Params(), step=99)", "preset 'whole' opens at step 99, but its run has 5 steps"),
     (RUNS, '"exact"', '"no noise"', "preset 'no noise': a name is letters"),

@@ -21,7 +21,7 @@ def at(params: Params, stage: str) -> State:
 
 
 def scene(params: Params, stage: str):
-    return timeline(params)[STAGES.index(stage)].scene
+    return next(step.scene for step in timeline(params).known() if step.state.stage == stage)
 
 
 def part(kind: type[Kind], scene: Scene, path: str) -> Kind:

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from lessons.curvature.experiments import GAUSSIAN, MEAN, PRINCIPAL, TOTAL
+from lessons.curvature.experiments import DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL, UNFOLDING
 from lessons.curvature.lesson import lesson
 from lessons.curvature.state import Params, at_stage
 from tests.lessons.curvature_runs import STAGES, at, preset, scene, study_in, surface_field, timeline
@@ -17,11 +17,13 @@ from workbench.timeline import Timeline
 
 
 def test_stages_come_in_the_order_of_the_page():
-    assert [state.stage for state in timeline(Params()).states()] == STAGES
-    assert (STAGES[GAUSSIAN], STAGES[MEAN], STAGES[PRINCIPAL], STAGES[TOTAL]) == (
-        "gaussian", "mean", "principal", "total"
-    )  # fmt: skip
-    assert STAGES[lesson.first_step] == "gaussian"
+    stages = [state.stage for state in timeline(Params()).states()]
+    assert [stage for stage in stages if stage != "unfolding"] == STAGES
+    assert stages[2:DEFECT] == ["unfolding"] * len(UNFOLDING)
+    assert [stages[step] for step in (DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL)] == [
+        "defect", "gaussian", "mean", "principal", "total"
+    ]  # fmt: skip
+    assert stages[lesson.first_step] == "gaussian"
 
 
 # presets --------------------------------------------------------------------------------------------------------------
@@ -68,8 +70,9 @@ def test_a_defect_taken_for_k_is_far_too_small_and_smaller_on_finer_meshes():
     finer = at(dataclasses.replace(preset("no-area"), vertices=6000), "gaussian")
     outside = [np.percentile(state.now.K, 90) for state in (wrong, finer)]
     assert outside[0] / outside[1] == pytest.approx(4, rel=0.15)
-    assert caption_of(scene(preset("no-area"), "gaussian")).tone == "wrong"
-    assert caption_of(scene(preset("no-area"), "finer")).tone == "wrong"
+    for stage in ("gaussian", "finer"):
+        assert caption_of(lesson.draw(at(preset("no-area"), stage))).tone == "wrong"
+        assert caption_of(scene(preset("no-area"), stage)).tone == "info"  # it is meant to be
 
 
 def test_the_forgotten_half_doubles_h_and_tears_k1_and_k2_apart():
@@ -96,7 +99,7 @@ def test_two_pi_on_the_border_adds_pi_for_each_of_its_vertices():
     state = at(preset("border-2pi"), "total")
     border = int(state.subject.border.sum())
     assert state.now.total == pytest.approx(2 * np.pi + np.pi * border)
-    caption = caption_of(scene(preset("border-2pi"), "total"))
+    caption = caption_of(lesson.draw(at(preset("border-2pi"), "total")))
     assert caption.tone == "wrong"
     assert f"each of the {border} border vertices" in caption.text
     right = at(dataclasses.replace(preset("border-2pi"), mistake="none"), "total")

@@ -44,6 +44,23 @@ def test_the_flat_ring_keeps_lengths_and_angles_and_shows_the_defect():
         assert np.arccos(np.clip(cosine, -1, 1)) == pytest.approx(abs(now.defects[now.vertex]), rel=1e-3)
 
 
+def test_a_ring_unfolds_from_the_surface_and_bends_no_triangle():
+    for vertex in (-1, 30):
+        now = at(Params(vertex=vertex), "defect").now
+        folded = part(Mesh, ring.flattened(now, 0.0), "flat ring").p
+        lifted = folded[0] - now.p[now.vertex]
+        np.testing.assert_allclose(folded[1:-1], now.p[now.ring] + lifted, atol=1e-12)
+        np.testing.assert_allclose(folded[-1], folded[1], atol=1e-9)
+        for share in (0.0, 0.3, 0.9):
+            p = part(Mesh, ring.flattened(now, share), "flat ring").p
+            turned, n = np.concatenate([[0.0], np.cumsum(now.angles)]), now.normals[now.vertex]
+            overlaps = now.defects[now.vertex] < 0
+            spokes = p[1:] - p[0] - 0.02 * overlaps * share * ring.edge_length(now) * np.outer(turned, n)
+            along = spokes / np.linalg.norm(spokes, axis=1, keepdims=True)
+            turns = np.arccos(np.einsum("nx,nx->n", along[1:], along[:-1]))
+            np.testing.assert_allclose(turns, now.angles, atol=1e-6)
+
+
 @pytest.mark.parametrize("jitter", [0.0, 0.25])
 def test_the_drawn_cell_has_the_mixed_area(jitter):
     for vertex in range(0, 300, 23):
@@ -70,6 +87,9 @@ def test_osculating_circles_have_their_radius_and_touch_the_vertex():
         np.testing.assert_allclose(
             np.linalg.norm(circle.ends[:, 0] - centre, axis=1), 1 / abs(k[now.vertex]), rtol=1e-9
         )
+        if abs(k[now.vertex]) * ring.FARTHEST > 1:
+            drawn_at = part(Points, ring.circles(now), f"centre {name}").p[0]
+            np.testing.assert_allclose(drawn_at, centre, atol=1e-12)
         near = np.linalg.norm(circle.ends.reshape(-1, 3) - now.p[now.vertex], axis=1)
         assert near.min() < 1e-9
 

@@ -8,7 +8,7 @@ import pytest
 
 from lessons.icp.basin import ANGLES
 from lessons.icp.draw import draw
-from lessons.icp.experiments import HOME, end, rmse_falls
+from lessons.icp.experiments import END, HOME, end, rmse_falls
 from lessons.icp.lesson import lesson, run
 from lessons.icp.state import Params, State
 from tests.lessons.icp_runs import caption, preset, scene, states, timeline, tries, true, two_scans, until_stop
@@ -41,6 +41,12 @@ class TestPresets:
         assert end(found).icp.stop is Stop.CONVERGED
         assert end(found).error.rotation > 150
         assert caption_of(draw(found[-1])).tone == "wrong"
+        assert caption(lesson.preset("far").params, END).tone == "info"  # it is meant to be wrong
+        assert caption(Params(start_angle=121.0), END).tone == "wrong"
+
+    def test_the_sweep_has_starts_from_which_it_comes_home_and_others(self):
+        (sweep,) = lesson.sweeps
+        assert [end(run(params)).home for params in lesson.swept(sweep)] == [angle < 100 for angle in sweep.values]
 
     def test_plane_takes_a_sixth_of_the_iterations(self):
         slow, fast = end(preset("home")).icp.iteration, end(preset("plane")).icp.iteration
@@ -130,6 +136,15 @@ class TestBasin:
         home = apply(true(state), shown.p)
         np.testing.assert_allclose(placed, apply(attempt.T_target_truth, home), atol=1e-9)
 
+    def test_its_dial_is_green_where_icp_comes_home(self):
+        for name in ("home", "overlap-tight"):
+            params = lesson.preset(name).params
+            at_home = [states(params)[0].scans.at_home(one.error) for one in tries(name)]
+            dial = scene(params, -1)["dial"]
+            np.testing.assert_array_equal(dial.color.ids[1::3] == 0, at_home)
+            middles = dial.ends[1::3].mean(axis=1)
+            np.testing.assert_allclose(np.degrees(np.arctan2(middles[:, 1], middles[:, 0])), ANGLES, atol=1e-9)
+
     def test_without_a_truth_or_with_ones_own_function_there_is_none(self, two_files):
         assert not any(s.tries for s in states(two_files))
         assert not any(s.tries for s in run(HOME, match=nearest))
@@ -137,8 +152,9 @@ class TestBasin:
 
 class TestPicture:
     def test_a_moving_source_is_a_pose(self):
+        steps = range(len(timeline(HOME)) - len(ANGLES))
         for name in ("target", "source"):
-            assert len({id(scene(HOME, k)[name].p) for k in range(len(timeline(HOME)))}) == 1
+            assert len({id(scene(HOME, k)[name].p) for k in steps}) == 1
         poses = [scene(HOME, k)["source"].T_world_object for k in (0, 1)]
         assert not np.array_equal(poses[0], poses[1])
         again = scene(replace(HOME, start_angle=40.0), 0)
@@ -154,7 +170,7 @@ class TestPicture:
             np.testing.assert_array_equal(shown["matches"].color.ids, ~now.kept[rows])
 
     def test_the_arrow_lies_on_the_true_one_at_home(self):
-        shown = scene(HOME, -1)
+        shown = scene(HOME, END)
         np.testing.assert_allclose(shown["true arrow"].T_world_object, np.eye(4), atol=1e-12)
         np.testing.assert_allclose(shown["source arrow"].T_world_object, np.eye(4), atol=0.01)
         start = scene(HOME, 0)["source arrow"].T_world_object

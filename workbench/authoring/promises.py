@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 from workbench.authors import at, place
 from workbench.errors import InputError
 from workbench.flags import RESERVED
-from workbench.knobs import Field, fields_of, from_json, to_json
+from workbench.knobs import Field, changed, fields_of, from_json, to_json
 from workbench.lesson import Lesson, Preset, Question
 from workbench.questions import answer
 from workbench.scene import Scene, in_space, same
@@ -171,6 +171,33 @@ def every_knob_goes_to_its_ends(subject: Subject) -> Found:
             run = subject.fresh(replace(base, **{field.name: value}), f"the run at {where}", MOST_STEPS)
             fine = run.failure is None or run.stopped == subject.default().stopped  # which is told already
             yield None if fine else f"{run.stopped} (at {where})"
+
+
+@promise
+def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
+    """Where a knob says what it needs to have an effect, it has none while another knob is set otherwise."""
+    fields = {field.name: field for field in fields_of(subject.lesson.params)}
+    for field in fields.values():
+        for name, wanted in field.knob.needs.items():
+            if name not in fields or fields[name].kind not in ("choice", "bool"):
+                yield f"{subject.who}: {field.name} needs {name!r}, which is no choice or switch of this lesson"
+                continue
+            met = {other: values[0] for other, values in field.knob.needs.items()}
+            for other in [value for value in ends(fields[name]) if value not in wanted]:
+                yield from _has_no_effect(subject, field, replace(subject.lesson.params(), **{**met, name: other}))
+
+
+def _has_no_effect(subject: Subject, field: Field, base: Any) -> Found:
+    plain = subject.fresh(base, "a run", MOST_STEPS)
+    for value in ends(field):
+        turned = subject.fresh(replace(base, **{field.name: value}), f"a run at {field.name} = {value}", MOST_STEPS)
+        found = next(
+            (path for one, two in zip(plain.known(), turned.known(), strict=False)
+             if (path := _differs(one.scene, two.scene))), None
+        )  # fmt: skip
+        same_end = plain.stopped == turned.stopped and len(plain) == len(turned)
+        where = f"{field.name} = {value} changes {found or 'how the run ends'!r} although its needs are not met"
+        yield None if found is None and same_end else f"{subject.who}: {where}, at {changed(base)}"
 
 
 @promise

@@ -137,7 +137,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
     lesson = timeline.lesson
     if preset is not None and lesson.preset(preset).params != timeline.params:
         preset = None  # changed since: the name would promise another run
-    application = application_id(lesson.name)
+    application, view = application_id(lesson.name), lesson.view_of(timeline.params)
 
     scenes = [step.scene for step in steps]
     contents, clouds = contents_of(scenes), unions(scenes)
@@ -146,7 +146,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
 
     def fill(stream: Any) -> None:
         stream.send_recording_name(safe(_title(timeline, preset)))
-        stream.send_property("run", facts(layout=to_json(contents, lesson.view), **_facts(timeline, preset)))
+        stream.send_property("run", facts(layout=to_json(contents, view), **_facts(timeline, preset)))
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
         stream.log("page", document(plain_page(lesson.text())), static=True)
         send_captions(stream, [step.caption for step in steps])
@@ -162,7 +162,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         check = digest(knobs.to_json(timeline.params), captions, values)
         stream.send_property("result", facts(status=status, steps=len(steps), digest=check))
 
-    return stream_bytes(application, fill, one_run(lesson.view, contents, values))
+    return stream_bytes(application, fill, one_run(view, contents, values))
 
 
 def _run(lesson: Lesson, params: Any, tell: Progress) -> Timeline:
