@@ -3,7 +3,7 @@
 import html
 from typing import Any, cast
 
-from workbench.scene import PALETTE, Classes, Curve, Field, Primitive, Role, Scalar, Scene, color_map
+from workbench.scene import PALETTE, Classes, Field, Primitive, Role, Scene, color_map, in_space
 
 
 def escape(text: str) -> str:
@@ -17,10 +17,10 @@ def css_color(rgb: tuple[int, int, int]) -> str:
 
 
 def legend_html(scene: Scene, grid: float | None) -> str:
-    """Return the legend of a scene: every named thing with its colour, every colour map with its bar and unit."""
+    """Return the legend of a scene: what is in space, every named thing with its colour, every colour map with its bar."""
     rows: dict[str, None] = {}
     for primitive in scene.values():
-        for row in _legend_rows(primitive):
+        for row in _legend_rows(primitive) if in_space(primitive) else ():
             rows.setdefault(row)
     if grid is not None:
         rows.setdefault(f"<span>grid {grid:g} m</span>")
@@ -35,7 +35,7 @@ def _legend_rows(primitive: Primitive) -> list[str]:
         return [bar_html(field)]
     if isinstance(color, Classes):
         return [_dot(PALETTE[role], label) for role, label in zip(color.roles, color.names, strict=True)]
-    if isinstance(color, str) and name and not isinstance(primitive, Scalar | Curve):
+    if isinstance(color, str) and name:
         return [_dot(PALETTE[cast(Role, color)], name)]
     return []
 
