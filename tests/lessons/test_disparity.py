@@ -36,7 +36,12 @@ from tests.lessons.disparity_runs import BARE_PART, STRIPED_PART, off_in, preset
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.stereo import depth_from_disparity
 from workbench.picking import picked
-from workbench.scene import Caption, Curve, Field, Label, Picture, Points, Scalar, Segments
+from workbench.scene import Caption, Curve, Field, Label, Picture, Points, Primitive, Scalar, Segments
+
+
+def edge(picture: Primitive, side: str) -> np.ndarray:
+    assert isinstance(picture, Picture)
+    return picture.places(np.array([picture.rgb().shape[1] if side == "right" else 0.0, 0.0]))
 
 
 class TestPresets:
@@ -285,9 +290,8 @@ class TestPicture:
                 assert picture.T_world_object[2, 1] < -0.8  # rows run down
                 place = picture.places(np.array([31.0, 47.0]))
                 assert picked(picture, eye, place - eye) == (31, 47)
-        pair = [scene[f"{side}/picture"] for side in ("left", "right")]
-        ends = [picture.places(np.array([edge, 0.0])) for picture, edge in zip(pair, (-0.5, 184.5), strict=True)]
-        across = np.linalg.norm(ends[1] - ends[0]) / np.linalg.norm(ahead)
+            across = np.linalg.norm(edge(scene["right/picture"], "right") - edge(scene["left/picture"], "left"))
+            across /= np.linalg.norm(ahead)
         assert (
             across / (2 * np.tan(np.radians(22.5))) * 727 > 640
         )  # pixels where the scene is 727 high, as at 1440 x 900
