@@ -16,9 +16,10 @@ from workbench.scene import Field, Label, Picture, Primitive, Role, Segments
 R_WORLD_CAMERA = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 T_WORLD_LEFT = motion(R_WORLD_CAMERA, np.zeros(3))
 VIEW = View(eye=(0.97, -3.73, 3.69), target=(-1.17, 0.77, 1.22), grid=None, axes=False)
-LARGEST = (2.56, 1.92)
+NEARER = 1.6  # metres towards the eye: in front of the cloud, whatever strays in it
+LARGEST = (1.82, 1.365)
 """Metres, across and down, that a picture may have."""
-LEFT, RIGHT, ABOVE, BELOW = -1.33, 1.33, 0.92, -1.23
+LEFT, RIGHT, ABOVE, BELOW = -0.947, 0.947, 0.655, -0.876
 LEAST_FRAME = 2.5  # pixels
 
 
@@ -47,7 +48,7 @@ def pictures(state: State) -> dict[str, Primitive]:
 
 def _upright(image: np.ndarray | Field, title: str, x: float, y: float) -> Picture:
     h, w = (image.values if isinstance(image, Field) else image).shape[:2]
-    return Picture(image, title, min(LARGEST[0], LARGEST[1] * w / h), VIEW.facing(x, y))
+    return Picture(image, title, min(LARGEST[0], LARGEST[1] * w / h), VIEW.facing(x, y, NEARER))
 
 
 def _named(picture: Picture, name: str, color: Role) -> Label:

@@ -291,7 +291,7 @@ class TestPicture:
                 place = picture.places(np.array([31.0, 47.0]))
                 assert picked(picture, eye, place - eye) == (31, 47)
             across = np.linalg.norm(edge(scene["right/picture"], "right") - edge(scene["left/picture"], "left"))
-            across /= np.linalg.norm(ahead)
+            across /= (picture.T_world_object[:3, 3] - eye) @ ahead / np.linalg.norm(ahead)
         assert (
             across / (2 * np.tan(np.radians(22.5))) * 727 > 640
         )  # pixels where the scene is 727 high, as at 1440 x 900
