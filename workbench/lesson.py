@@ -62,6 +62,15 @@ class View:
         upwards = np.array([0.0, 1.0, 0.0]) if abs(up[1]) < 0.9 else np.array([0.0, 0.0, -above * np.sign(up[1])])
         return eye - above * 2e-3 * np.linalg.norm(away) * upwards
 
+    def facing(self, right: float, up: float, nearer: float = 0.0) -> np.ndarray:
+        """Return the pose (4, 4) of a picture that stands upright before the eye, metres right of and above the target."""
+        ahead = np.array(self.target) - self.seen_from()
+        axes = [np.cross(ahead, self.up), np.cross(ahead, np.cross(ahead, self.up)), ahead]
+        pose = np.eye(4)
+        pose[:3, :3] = np.column_stack([axis / np.linalg.norm(axis) for axis in axes])
+        pose[:3, 3] = np.array(self.target) + pose[:3, :3] @ (right, -up, -nearer)
+        return pose
+
 
 @dataclass(frozen=True)
 class Preset(Generic[P]):
@@ -228,11 +237,6 @@ class Lesson(Generic[P, S]):
     def preset_of(self, params: P) -> Preset[P] | None:
         """Return the preset that has these params, the first if there are several."""
         return next((preset for preset in self.presets if preset.params == params), None)
-
-    def names(self, params: P) -> bool:
-        """Tell whether these are the params of the default run, of a preset or of a question."""
-        runs = (*self.presets, *self.questions)
-        return params == self.params() or any(one.params == params for one in runs)
 
     def validated(self, params: P) -> P:
         """Return params when they are this lesson's and in range; raise InputError otherwise."""

@@ -245,6 +245,13 @@ class Picture:
             return self.image.rgb()
         return self.image if self.image.ndim == 3 else np.repeat(self.image[:, :, None], 3, 2)
 
+    def places(self, uv: np.ndarray) -> np.ndarray:
+        """Return where pixels (..., 2), column first, lie in the world, (..., 3); for a picture that stands in space."""
+        h, w = (self.image.values if isinstance(self.image, Field) else self.image).shape[:2]
+        xy = (uv - np.array([w - 1, h - 1]) / 2) * (self.width or 1.0) / w
+        T = np.eye(4) if self.T_world_object is None else self.T_world_object
+        return xy @ T[:3, :2].T + T[:3, 3]
+
 
 @dataclass(frozen=True, eq=False)
 class Scalar:

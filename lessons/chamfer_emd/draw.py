@@ -3,17 +3,20 @@
 import numpy as np
 import scipy
 
+from lessons.chamfer_emd.pairing import unrolled
 from lessons.chamfer_emd.state import Side, State
 from lessons.chamfer_emd.words import caption, left_label, right_label, significant
 from workbench.geometry.motions import motion
 from workbench.geometry.shape_distances import DEFINITIONS
+from workbench.lesson import View
 from workbench.numerals import brief, percent
 from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments, Table
 
 T_WORLD_LEFT = motion(np.eye(3), np.array([-1.25, 0.0, 0.0]))
 T_WORLD_RIGHT = motion(np.eye(3), np.array([1.25, 0.0, 0.0]))
 NEARER = 0.03  # metres towards the viewer, at which source points are drawn
-P_TITLE = np.array([0.0, 0.0, -1.2])
+VIEW = View(eye=(0.0, -4.75, -0.5), target=(0.0, 0.0, -0.5), grid=None, axes=False)
+P_TITLE = np.array([0.0, 0.0, 1.12])
 MOST_SERVED = 10  # the last bar of the histogram holds all counts from here on
 
 
@@ -26,16 +29,31 @@ def draw(state: State) -> Scene:
         "right/title": Label(right_label(state), P_TITLE, "source", T_WORLD_RIGHT),
         **_clouds(state),
         **_left_edges(state),
-        "right/pairs": Segments(
-            np.stack([right.flow.p_moving[right.matching.i_a], state.clouds.p_target[right.matching.i_b]], axis=1),
-            "correspondence", 1.5, T_WORLD_RIGHT, name="best one-to-one matching",
-        ),
+        "right/pairs": _pairs(right, T_WORLD_RIGHT),
+        **_owed(state),
+        **{f"left/{path}": one for path, one in unrolled(state, left, T_WORLD_LEFT, nearest=True).items()},
+        **{f"right/{path}": one for path, one in unrolled(state, right, T_WORLD_RIGHT, nearest=False).items()},
         **_busiest(left, state),
         **_curves(state),
         "numbers": _numbers_table(state),
         "yardsticks": _yardstick_table(state),
-    }  # fmt: skip
+    }
     return scene
+
+
+def _pairs(side: Side, T_world_side: np.ndarray) -> Segments:
+    ends = np.stack([side.flow.p_moving[side.matching.i_a], side.p_target[side.matching.i_b]], axis=1)
+    return Segments(ends, "correspondence", 1.5, T_world_side)
+
+
+def _owed(state: State) -> dict[str, Primitive]:
+    """Return, once both flows have ended, where the left one's mass belongs that is far from its place."""
+    left = state.left
+    far = left.matching.distances > state.params.near
+    if not state.last or not far.any():
+        return {}
+    ends = np.stack([left.flow.p_moving[left.matching.i_a], left.p_target[left.matching.i_b]], axis=1)[far]
+    return {"left/owed": Segments(ends, "truth", 1.0, T_WORLD_LEFT, 0.7, name="where the rest belongs")}
 
 
 def _clouds(state: State) -> dict[str, Primitive]:
@@ -46,14 +64,14 @@ def _clouds(state: State) -> dict[str, Primitive]:
     p_target, left, right = state.clouds.p_target, state.left, state.right
     radius = float(np.clip(0.3 / np.sqrt(len(p_target)), 0.016, 0.04))
     dot, idle = 0.5 * radius, left.served == 0
-    who = Classes(idle.astype(np.uint8), ("source", "wrong"), ("source", "source, nearest to no target point"))
+    who = Classes(idle.astype(np.uint8), ("source", "wrong"), ("source", "nobody's nearest"))
     # Where several share a place, the one that is somebody's nearest lies on top.
     p_left = nearer(left.flow.p_moving, np.where(idle, 0.75, 1.0))
     return {
         "left/target": Points(p_target, "target", radius, T_WORLD_LEFT, name="target"),
         "left/source": Points(p_left, who, dot, T_WORLD_LEFT, name="source"),
-        "right/target": Points(p_target, "target", radius, T_WORLD_RIGHT, name="target"),
-        "right/source": Points(nearer(right.flow.p_moving, 1.0), "source", dot, T_WORLD_RIGHT, name="source"),
+        "right/target": Points(p_target, "target", radius, T_WORLD_RIGHT),
+        "right/source": Points(nearer(right.flow.p_moving, 1.0), "source", dot, T_WORLD_RIGHT),
         **_clumps("left", left.flow.p_moving, dot, T_WORLD_LEFT),
         **_clumps("right", right.flow.p_moving, dot, T_WORLD_RIGHT),
     }
@@ -74,7 +92,7 @@ def _clumps(side: str, p: np.ndarray, dot: float, T_world_side: np.ndarray) -> d
     return {
         f"{side}/clumps of {2**k}": Points(
             nearer(p[first[doublings == k]], 0.5), "source", dot * np.sqrt(2.0**k), T_world_side, 0.6,
-            name="" if k < doublings.max() else "several source points at one place, by area",
+
         )
         for k in np.unique(doublings[doublings > 0]).tolist()
     }  # fmt: skip
@@ -85,10 +103,10 @@ def _left_edges(state: State) -> dict[str, Primitive]:
     edges: dict[str, Primitive] = {}
     if lowers != "target to source":
         ends = np.stack([p, p_target[near.a_to_b]], axis=1)
-        edges["left/to target"] = Segments(ends, "correspondence", 1.5, T_WORLD_LEFT, name="source to nearest target")
+        edges["left/to target"] = Segments(ends, "correspondence", 1.5, T_WORLD_LEFT)
     if lowers != "source to target":
         ends = np.stack([p_target, p[near.b_to_a]], axis=1)
-        edges["left/to source"] = Segments(ends, "other", 1.5, T_WORLD_LEFT, 0.8, name="target to nearest source")
+        edges["left/to source"] = Segments(ends, "other", 1.5, T_WORLD_LEFT, 0.8)
     return edges
 
 
@@ -100,7 +118,7 @@ def _busiest(left: Side, state: State) -> dict[str, Primitive]:
     p = left.flow.p_moving[i]
     word = f"nearest of {left.served[i]} target points"
     return {
-        "left/busiest": Points(p[None], "highlight", 0.035, T_WORLD_LEFT, name="nearest of the most target points"),
+        "left/busiest": Points(p[None], "highlight", 0.035, T_WORLD_LEFT),
         "left/busiest word": Label(word, p + np.array([0.0, -0.02, 0.08]), "highlight", T_WORLD_LEFT),
     }
 

@@ -12,13 +12,13 @@ from pathlib import Path
 from lessons.chamfer_emd import distances
 from lessons.chamfer_emd.clouds import clouds_of
 from lessons.chamfer_emd.distances import Measures, measured, numbers_of_yardsticks
-from lessons.chamfer_emd.draw import draw
+from lessons.chamfer_emd.draw import VIEW, draw
 from lessons.chamfer_emd.experiments import PRESETS, QUESTIONS
 from lessons.chamfer_emd.state import Params, State
 from workbench.algorithms import transport
 from workbench.algorithms.flow import Distance, Flow, flow
 from workbench.geometry import shape_distances
-from workbench.lesson import Lesson, View
+from workbench.lesson import Lesson, Sweep
 
 
 def run(
@@ -70,8 +70,10 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=600,
-    view=View(eye=(0.0, -7.4, 0.2), target=(0.0, 0.0, -0.7), grid=0.5, grid_height=-1.3, axes=False),
+    view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=8,
+    sweeps=(Sweep("lowers", ("both sides", "source to target", "target to source")),),
+    telling="Left flow",
 )

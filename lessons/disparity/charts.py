@@ -24,9 +24,6 @@ def beside(state: State) -> dict[str, Primitive]:
 def _pictures(state: State) -> dict[str, Primitive]:
     setup = state.setup
     shown: dict[str, Primitive] = {}
-    top = float(setup.max_disparity)
-    field = Field(state.disparity.astype(np.float32), 0.0, top, "Disparity", "px")
-    shown["map/disparity"] = Picture(field, "Disparity of the left picture (grey: unknown)")
     if state.piece is not None:
         known = state.piece[np.isfinite(state.piece)]
         slice_field = Field(_no_infinity(state.piece), 0.0, max(float(np.percentile(known, 98)), 1e-6), "Cost")

@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from lessons.disparity.charts import beside, framed
+from lessons.disparity.charts import beside
+from lessons.disparity.stage import R_WORLD_CAMERA, T_WORLD_LEFT, pictures
 from lessons.disparity.state import Setup, State
 from lessons.disparity.words import caption
 from workbench.algorithms.disparity import Stage
@@ -13,62 +14,37 @@ from workbench.geometry.motions import motion
 from workbench.geometry.polylines import segments
 from workbench.geometry.stereo import depth_cloud, depth_from_disparity, depth_interval, points_on_ray
 from workbench.numerals import brief, length
-from workbench.scene import Camera, Color, Field, Label, Picture, Points, Primitive, Scene, Segments
+from workbench.scene import Camera, Color, Field, Label, Points, Primitive, Scene, Segments
 
-# The left camera is at the world's origin and looks along +Y.
-R_WORLD_CAMERA = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-T_WORLD_LEFT = motion(R_WORLD_CAMERA, np.zeros(3))
 MOST_POINTS = 25_000
-DESK = 0.84
 BARS = 150
+SIZE = 0.008
 CLOUD_BY_ERROR = "depth cloud by its error"
 
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
     return {
-        **_cameras(state),
+        **pictures(state),
+        **_cameras(state.setup),
         **_cloud(state),
         **_followed(state),
         **_swept(state),
+        **_ruler(state.setup),
         **beside(state),
         "caption": caption(state),
     }
 
 
-def T_world_right(setup: Setup) -> np.ndarray:
-    """Return the pose of the right camera."""
-    return motion(R_WORLD_CAMERA, np.array([setup.pair.camera.baseline, 0.0, 0.0]))
-
-
-def _cameras(state: State) -> dict[str, Primitive]:
-    """Show both cameras, and before them on two desks the pictures that they took, with the windows compared."""
-    setup = state.setup
+def _cameras(setup: Setup) -> dict[str, Primitive]:
     h, w = setup.left.shape
-    u, v = setup.pixel
-    camera, window = setup.pair.camera, setup.params.window
-    K_right = camera.K
+    camera, K_right = setup.pair.camera, setup.pair.camera.K
     K_right[0, 2] += camera.doffs
-    partner = state.done - 1 if state.stage is Stage.COMPARE else state.chosen
-    marked_right = setup.pair.right
-    if math.isfinite(partner):
-        marked_right = framed(marked_right, (u - round(partner), v), window)
+    T_world_right = motion(R_WORLD_CAMERA, np.array([setup.scale * camera.baseline, 0.0, 0.0]))
     return {
-        "left/camera": Camera(camera.K, w, h, T_WORLD_LEFT, 0.22, color="target", name="left camera"),
-        "right/camera": Camera(K_right, w, h, T_world_right(setup), 0.22, color="source", name="right camera"),
-        "left/picture": Picture(framed(setup.pair.left, (u, v), window), "left picture", DESK, _desk(-0.4)),
-        "right/picture": Picture(marked_right, "right picture", DESK, _desk(0.52)),
-        "left/name": Label("left picture: click a pixel", _desk(-0.4)[:3, 3] + (0, 0.3, 0.24), "target"),
-        "right/name": Label("right picture", _desk(0.52)[:3, 3] + (0, 0.3, 0.24), "source"),
+        "left/camera": Camera(camera.K, w, h, T_WORLD_LEFT, 0.2, color="target"),
+        "right/camera": Camera(K_right, w, h, T_world_right, 0.2, color="source"),
     }
-
-
-def _desk(x: float) -> np.ndarray:
-    """Return the pose of a picture that leans back below the cameras."""
-    lean = math.radians(55.0)
-    down = np.array([0.0, -math.sin(lean), -math.cos(lean)])
-    across = np.array([1.0, 0.0, 0.0])
-    return motion(np.column_stack([across, down, np.cross(across, down)]), np.array([x, -0.8, -0.4]))
 
 
 def _cloud(state: State) -> dict[str, Primitive]:
@@ -82,11 +58,11 @@ def _cloud(state: State) -> dict[str, Primitive]:
     p_camera, seen = depth_cloud(near, setup.pair.camera)
     if not len(p_camera):
         return {}
-    radius = 0.6 * stride * float(np.median(p_camera[:, 2])) / setup.pair.camera.f
+    radius = 0.8 * stride * setup.scale * float(np.median(p_camera[:, 2])) / setup.pair.camera.f
     color, name = _cloud_color(state, seen)
     name = name if setup.metric else f"{name}; its size is made up"
     scene: dict[str, Primitive] = {
-        "cloud": Points(p_camera.astype(np.float32), color, radius, T_WORLD_LEFT, name=name),
+        "cloud": Points((setup.scale * p_camera).astype(np.float32), color, radius, T_WORLD_LEFT, name=name),
     }
     if state.uncertainty is not None:
         scene["bars"] = _bars(state, seen)
@@ -122,7 +98,12 @@ def _bars(state: State, seen: np.ndarray) -> Segments:
     near_far = depth_interval(d, camera.f, camera.baseline, error)
     ends = [back_project(uv, np.minimum(depth, 2 * setup.far), np.eye(4), camera.K) for depth in near_far]
     return Segments(
-        np.stack(ends, axis=1), "correspondence", 2.0, T_WORLD_LEFT, 0.9, name=f"± {brief(error)} px along the ray"
+        setup.scale * np.stack(ends, axis=1),
+        "correspondence",
+        2.0,
+        T_WORLD_LEFT,
+        0.9,
+        name=f"± {brief(error)} px along the ray",
     )
 
 
@@ -132,62 +113,69 @@ def _followed(state: State) -> dict[str, Primitive]:
     camera, (u, v) = setup.pair.camera, setup.pixel
     depths = _depth(state, np.arange(setup.max_disparity + 1.0))
     shown = np.isfinite(depths) & (depths <= setup.far) & np.isfinite(state.costs)
-    end = points_on_ray((u, v), np.array([setup.far]), camera)[0]
-    size = 0.012 * min(max(setup.far / 3.0, 1.0), 1.7)
     scene: dict[str, Primitive] = {
         "ray": Segments(
-            np.array([[np.zeros(3), end]]), "highlight", 2.0, T_WORLD_LEFT, name=f"ray of left pixel ({u}, {v})"
+            np.stack([np.zeros((1, 3)), _along(setup, np.array([setup.far]))], 1), "highlight", 2.0, T_WORLD_LEFT
         )
     }
     if shown.any():
-        costs = state.costs[shown]
-        low, high = float(costs.min()), float(costs.max())
-        field = Field(costs, low, max(high, low + 1e-6), "Cost of a candidate")
-        scene["candidates"] = Points(
-            points_on_ray((u, v), depths[shown], camera),
-            field,
-            size,
-            T_WORLD_LEFT,
-            name="candidates: one per disparity",
-        )
+        scene["candidates"] = Points(_along(setup, depths[shown]), "highlight", SIZE, T_WORLD_LEFT)
     chosen = float(state.depth[v, u])
     if 0 < chosen <= setup.far:
-        p = points_on_ray((u, v), np.array([chosen]), camera)
-        scene["chosen"] = Points(p, "highlight", 2.2 * size, T_WORLD_LEFT, name="chosen")
-        scene["label/chosen"] = Label(
-            f"d = {brief(state.chosen)} px{_away(setup, chosen)}",
-            p[0] + (0, -4 * size, 0),
-            "highlight",
-            T_WORLD_LEFT,
-        )
-        eye = np.array([camera.baseline, 0.0, 0.0])
-        scene["partner ray"] = Segments(np.array([[eye, p[0]]]), "source", 1.5, T_WORLD_LEFT, name="ray of its partner")
-    true = setup.true_depth[v, u]
-    if true <= setup.far:
-        p = points_on_ray((u, v), np.array([true]), camera)
-        scene["truth"] = Points(p, "truth", 1.7 * size, T_WORLD_LEFT, name="true point")
+        p = _along(setup, np.array([chosen]))
+        scene["chosen"] = Points(p, "highlight", 2.2 * SIZE, T_WORLD_LEFT)
+        if state.stage is not Stage.COMPARE:
+            text = f"d = {brief(state.chosen)} px{_away(setup, chosen)}"
+            scene["label/chosen"] = Label(text, p[0] + (0, -4 * SIZE, 0), "highlight", T_WORLD_LEFT)
+        eye = np.array([[setup.scale * camera.baseline, 0.0, 0.0]])
+        scene["partner ray"] = Segments(np.stack([eye, p], 1), "source", 1.5, T_WORLD_LEFT)
+    if setup.true_depth[v, u] <= setup.far:
+        scene["truth"] = Points(_along(setup, setup.true_depth[v, u : u + 1]), "truth", 1.7 * SIZE, T_WORLD_LEFT)
     return scene
+
+
+def _along(setup: Setup, depths: np.ndarray) -> np.ndarray:
+    """Return the points of the followed pixel's ray at these depths, as large as they are drawn."""
+    return setup.scale * points_on_ray(setup.pixel, depths, setup.pair.camera)
 
 
 def _swept(state: State) -> dict[str, Primitive]:
     """Show where everything would be that has the disparity just compared: a plane before the cameras."""
-    if state.stage is not Stage.COMPARE:
-        return {}
     setup = state.setup
-    h, w = setup.left.shape
     depth = float(_depth(state, np.array([state.done - 1.0]))[0])
-    if not depth <= setup.far:
+    if state.stage is not Stage.COMPARE or not depth <= setup.far:
         return {}
-    z = np.array([depth])
-    corners = np.concatenate(
-        [points_on_ray(uv, z, setup.pair.camera) for uv in ((0, 0), (w - 1, 0), (w - 1, h - 1), (0, h - 1))]
-    )
+    corners = _corners(setup, depth)
     return {
-        "swept": Segments(
-            segments(corners, closed=True), "other", 2.0, T_WORLD_LEFT, name="everything of this disparity"
-        ),
+        "swept": Segments(segments(corners, closed=True), "other", 2.5, T_WORLD_LEFT),
         "label/swept": Label(f"d = {state.done - 1} px{_away(setup, depth)}", corners[1], "other", T_WORLD_LEFT),
     }
+
+
+def _ruler(setup: Setup) -> dict[str, Primitive]:
+    """Show what the cameras see as a faint pyramid, along one edge of which the metres are counted."""
+    far = _corners(setup, setup.far / 1.25)
+    edges = np.stack([np.zeros((4, 3)), far], axis=1)
+    shown: dict[str, Primitive] = {
+        "seen": Segments(np.concatenate([edges, segments(far, closed=True)]), "correspondence", 1.0, T_WORLD_LEFT, 0.45)
+    }
+    if setup.metric:
+        rough = setup.far / 3
+        apart = next(step for step in (5, 2, 1) if step <= rough / 10 ** math.floor(math.log10(rough)))
+        apart *= 10 ** math.floor(math.log10(rough))
+        for i, z in enumerate(np.arange(1, setup.far / 1.25 / apart + 1e-9) * apart):
+            shown[f"label/depth {i}"] = Label(
+                length(z), _corners(setup, z)[2] + (0.05, 0.05, 0.0), "neutral", T_WORLD_LEFT
+            )
+    return shown
+
+
+def _corners(setup: Setup, depth: float) -> np.ndarray:
+    """Return what the corners of the left picture see at a depth, as large as it is drawn."""
+    h, w = setup.left.shape
+    z = np.array([depth])
+    around = ((0, 0), (w - 1, 0), (w - 1, h - 1), (0, h - 1))
+    return setup.scale * np.concatenate([points_on_ray(uv, z, setup.pair.camera) for uv in around])
 
 
 def _away(setup: Setup, depth: float) -> str:

@@ -15,6 +15,7 @@ import numpy as np
 from lessons.disparity.draw import draw
 from lessons.disparity.experiments import PRESETS, QUESTIONS
 from lessons.disparity.pairs import setup_of
+from lessons.disparity.stage import VIEW
 from lessons.disparity.state import Figures, Params, Setup, State
 from lessons.disparity.truth import judged
 from workbench.algorithms.cost_volume import (
@@ -28,7 +29,7 @@ from workbench.algorithms.disparity import Choose, DepthOf, Matching, Stage, mat
 from workbench.algorithms.disparity_map import winner_takes_all
 from workbench.algorithms.semiglobal import energy
 from workbench.geometry.stereo import depth_from_disparity
-from workbench.lesson import Lesson, View
+from workbench.lesson import Lesson, Sweep
 
 OTHER_COSTS: dict[str, CostVolume] = {
     "SSD": ssd_cost_volume,
@@ -115,8 +116,10 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=700,
-    view=View(eye=(0.5, -4.4, 2.4), target=(0.15, 0.8, -0.75), grid=0.5, grid_height=-0.62),
+    view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=15,
+    sweeps=(Sweep("window", (1, 3, 7, 13, 21)),),
+    telling="Cost at the followed pixel",
 )

@@ -15,6 +15,7 @@ from workbench.errors import InputError
 from workbench.knobs import Knob, Pick
 
 Scene = Literal["spheres", "planes", "posts", "plain wall", "repeated pattern", "boards at three depths", "Motorcycle"]
+MADE = ("spheres", "planes", "posts", "plain wall", "repeated pattern", "boards at three depths")
 Cost = Literal["SAD", "SSD", "census", "NCC"]
 Mistake = Literal["none", "pictures exchanged", "rows off by 2 px", "right picture darker", "f not rescaled"]
 
@@ -31,11 +32,13 @@ class Params:
         Knob("What a jump between neighbours costs, in usual matching costs; 0 leaves the paths out", 0, 4, step=0.1),
     ] = 1.0
     max_disparity: Annotated[int, Knob("Largest shift that is tried", 3, 127, unit="px")] = 31
-    baseline: Annotated[float, Knob("Distance between the cameras (made scenes)", 0.02, 0.5, unit="m", step=0.005)] = (
-        0.1
-    )
-    focal_length: Annotated[float, Knob("Focal length (made scenes)", 50, 8000, unit="px", step=10)] = 150.0
-    noise: Annotated[float, Knob("Noise of both sensors, in grey levels of 255 (made scenes)", 0, 40, step=0.5)] = 4.0
+    baseline: Annotated[
+        float, Knob("Distance between the cameras", 0.02, 0.5, unit="m", step=0.005, needs={"scene": MADE})
+    ] = 0.1
+    focal_length: Annotated[float, Knob("Focal length", 50, 8000, unit="px", step=10, needs={"scene": MADE})] = 150.0
+    noise: Annotated[
+        float, Knob("Noise of both sensors, in grey levels of 255", 0, 40, step=0.5, needs={"scene": MADE})
+    ] = 4.0
     disparity_error: Annotated[
         float, Knob("Added to every disparity before it becomes a depth", -3, 3, unit="px", step=0.25)
     ] = 0.0
@@ -88,7 +91,7 @@ class Params:
     ] = 0.0
     left: Annotated[Path | None, Knob("An own left picture, rectified; give both")] = None
     right: Annotated[Path | None, Knob("An own right picture of the same size")] = None
-    seed: Annotated[int, Knob("Which textures and which noise", 0, 99)] = 0
+    seed: Annotated[int, Knob("Which textures and which noise", 0, 99, needs={"scene": MADE})] = 0
 
     def __post_init__(self) -> None:
         if self.window % 2 == 0:
@@ -127,6 +130,11 @@ class Setup:
         """The true depth of every left pixel, metres: infinite where nothing shifts, NaN where the truth is not known."""
         true = self.pair.disparity
         return np.full(self.left.shape, np.nan) if true is None else self.pair.camera.depth(true)
+
+    @property
+    def scale(self) -> float:
+        """How large the scene is drawn: all there is to see fits the same stage, whatever its depth."""
+        return 2.3 / self.far
 
     @functools.cached_property
     def agreeing(self) -> tuple[float, float]:

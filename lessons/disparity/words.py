@@ -35,18 +35,13 @@ def caption(state: State) -> Caption:
 
 def _compared(state: State) -> str:
     d, n = state.done - 1, state.disparity.size
+    if d == 0:
+        return "d = 0: both pictures lie on each other as they are. So far each pixel keeps this one."
     fresh = int((state.disparity == d).sum())
-    start = (
-        f"d = {d}: left (u, v) against right (u − {d}, v). "
-        if d
-        else "d = 0: both pictures lie on each other as they are. "
+    return (
+        f"d = {d}: left (u, v) against right (u − {d}, v). {fresh:,} pixels ({percent(fresh / n, 1)}) fit better than at any"
+        " smaller shift."
     )
-    found = (
-        "so far each pixel keeps this one"
-        if d == 0
-        else f"{fresh:,} pixels ({percent(fresh / n, 1)}) fit better than at any smaller shift"
-    )
-    return f"{start}{found[0].upper()}{found[1:]}; the mean lowest cost is {brief(state.lowest)}."
 
 
 def _aggregated(state: State) -> str:
@@ -63,14 +58,10 @@ def _aggregated(state: State) -> str:
 
 def _path(state: State) -> str:
     assert state.direction is not None
-    fell = (
-        "" if state.before is None else f"energy {brief(state.before.energy, 4)} → {brief(state.energy, 4)} per pixel"
-    )
-    P1, P2 = state.jumps
-    return (
-        f"Path {state.done} of 8, {WAYS[state.direction]}: a step of 1 px costs P1 = {brief(P1)}, a jump P2 = {brief(P2)}; "
-        f"{fell}{_change(state, ', ')}."
-    )
+    assert state.before is not None
+    change = _change(state, "")
+    change = change or f"energy {brief(state.before.energy, 4)} → {brief(state.energy, 4)} per pixel"
+    return f"Path {state.done} of 8, {WAYS[state.direction]}: neighbours that disagree pay; {change}."
 
 
 def _checked(state: State) -> str:
@@ -184,13 +175,17 @@ def _of_error(state: State) -> Caption:
 
 
 def _tone(state: State) -> Tone:
-    """Judge the depths: good within 3 % in the median and with few wrong pixels, wrong beyond 10 % or with many."""
+    """Judge the depths: good within 3 % in the median and with few wrong pixels, wrong beyond 10 % or with many.
+
+    Who asks for a mistake, or leaves the paths out, gets what was asked for.
+    """
     found, true = known_depths(state)
     if not len(found):
         return "info"
-    relative = float(np.median(np.abs(found / true - 1.0)))
+    params, relative = state.setup.params, float(np.median(np.abs(found / true - 1.0)))
     if relative > 0.1 or state.wrong > 0.2:
-        return "wrong"
+        asked_for = params.mistake != "none" or params.disparity_error != 0 or params.smoothness == 0
+        return "info" if asked_for else "wrong"
     return "info" if relative > 0.03 or state.wrong > 0.05 else "good"
 
 

@@ -14,8 +14,10 @@ from workbench.geometry.cameras import camera_center, depths
 from workbench.geometry.distortion import Distortion, distort, invertible_radius
 from workbench.geometry.motions import apply, inverse
 from workbench.geometry.polylines import segments
+from workbench.lesson import View
 from workbench.numerals import fixed, pixels
 from workbench.scene import (
+    PALETTE,
     Axes,
     Camera,
     Classes,
@@ -26,15 +28,21 @@ from workbench.scene import (
     Picture,
     Points,
     Primitive,
+    Role,
     Scalar,
     Scene,
     Segments,
     Table,
 )
 
+VIEW = View(
+    eye=(-28.12, -7.88, 10.98), target=(0.995, 5.7, 7.6), fov_degrees=30.0, grid=None, grid_height=-0.02, axes=False
+)
+SCREEN = (VIEW.facing(4.7, 2.9, -10.0), 20.4)
+"""Where the photograph stands, enlarged, behind the street, and its width in metres."""
 FAR = 30.0  # metres that a ray is drawn
 CANDIDATES = np.array([2.0, 4.0, 8.0, 16.0])  # depths marked on the ray back
-WIDEST = 20.0  # metres from the middle of the plane Z = 1 m
+BEYOND = 0.12  # of the photograph's size: so far outside of it points are shown
 STEEL = (110, 118, 129)
 
 
@@ -43,13 +51,14 @@ def draw(state: State) -> Scene:
     now, shot, k = state.now, state.shot, state.params.point
     T_world_camera = inverse(shot.T_camera_world)
     h, w = shot.picture.shape[:2]
+    photograph = Picture(state.picture, "Photograph, calculated outlines orange", SCREEN[1], SCREEN[0])
     scene: dict[str, Primitive] = {
         **scenery(),
-        "camera": Camera(shot.K, w, h, T_world_camera, 1.0, state.picture, "neutral", name="true camera"),
-        "points": Points(now.p_world, _point_color(state), 0.06, name="points of the street"),
-        "followed": Points(now.p_world[k : k + 1], "highlight", 0.12, name="the followed point"),
-        "followed label": Label(name_of(k), now.p_world[k] + np.array([0.0, 0.0, 0.35]), "highlight"),
-        "picture": Picture(state.picture, "Picture: photograph grey, calculated orange, followed point purple"),
+        "camera": Camera(shot.K, w, h, T_world_camera, 1.0, state.picture, "neutral"),
+        "picture": photograph,
+        "points": Points(now.p_world, _point_color(state), 0.07, name="points of the street"),
+        "followed": Points(now.p_world[k : k + 1], "highlight", 0.16, name="followed"),
+        "followed label": Label(name_of(k), now.p_world[k] + np.array([0.0, 0.0, 0.4]), "highlight"),
         "error": Scalar(state.error, "median pixel error", "Error to the true picture", "px", "truth"),
         "caption": caption(state),
         **_tables(state),
@@ -62,8 +71,8 @@ def draw(state: State) -> Scene:
         )  # fmt: skip
     stage = {"camera": _camera, "divide": _divide, "distort": _distort, "pixels": _pixels, "back": _back}
     if now.stage in stage:
-        scene["camera frame"] = Axes(T_world_camera, 0.8, name="camera frame: x right, y down, z forward")
-        scene |= stage[now.stage](state, T_world_camera)
+        scene["camera frame"] = Axes(T_world_camera, 1.2)
+        scene |= stage[now.stage](state, photograph, T_world_camera)
     return scene
 
 
@@ -88,67 +97,62 @@ def _point_color(state: State):
     return Field(np.where(z > 0, z, np.nan), 0.0, float(span), "Depth Z (grey: behind)", "m")
 
 
-def _camera(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
+def _camera(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     """Lead from the camera to the followed point along the camera's own axes."""
-    k = state.params.point
-    x, y, z = apply(state.shot.T_camera_world, state.now.p_world[k])
+    x, y, z = apply(state.shot.T_camera_world, state.now.p_world[state.params.point])
     corners = np.array([[0.0, 0, 0], [0, 0, z], [x, 0, z], [x, y, z]])
-    names = (f"depth Z = {fixed(z, 2)} m", f"X = {fixed(x, 2)} m", f"Y = {fixed(y, 2)} m")
-    return {
-        "ways": Segments(
-            segments(corners), Classes(np.arange(3), ("z", "x", "y"), names), 4, T_world_camera, name="X, Y, Z"
-        ),
-    }
+    roles: tuple[Role, ...] = ("z", "x", "y")
+    colors = np.array([PALETTE[role] for role in roles], np.uint8)
+    parts: dict[str, Primitive] = {"ways": Segments(segments(corners), colors, 4, T_world_camera)}
+    for i, (role, name, way) in enumerate(zip(roles, "ZXY", (z, x, y), strict=True)):
+        parts[f"ways/{name}"] = Label(f"{name} = {depth(way)}", corners[i : i + 2].mean(axis=0), role, T_world_camera)
+    return parts
 
 
-def _divide(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
-    """Show all rays and where they cross the plane one metre in front."""
-    xy, k = state.now.xy, state.params.point
-    seen = _drawable(xy)
-    origin = np.broadcast_to(T_world_camera[:3, 3], state.now.p_world.shape)
-    rays = np.stack([origin, state.now.p_world], axis=1)
-    parts: dict[str, Primitive] = {"plane": _on_plane(xy[seen], "source", T_world_camera, "on the plane Z = 1 m")}
-    if seen.any():
-        parts["rays"] = Segments(rays[seen], "correspondence", 1.0, opacity=0.5, name="rays")
-    parts["followed ray"] = Segments(rays[k : k + 1], "highlight", 4, name="the followed ray")
-    return parts | _chosen_on_plane(xy, k, T_world_camera)
+def _divide(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict[str, Primitive]:
+    """Show all rays, and where they cross the picture."""
+    uv = pinhole.onto_pixels(state.now.xy, state.shot.K)
+    return _rays(state, state.now.xy, T_world_camera) | _landed(state, photograph, uv, "source", "calculated")
 
 
-def _distort(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
-    """Show how far the lens moves each point on the plane."""
-    xy, xy_bent, k = state.now.xy, state.now.xy_bent, state.params.point
-    seen = _drawable(xy_bent) & _drawable(xy)
-    moved = np.linalg.norm(xy_bent - xy, axis=1) * state.shot.K[0, 0]
-    top = float(moved[seen].max(initial=1.0))
-    color = Field(moved[seen], 0.0, top, "Moved by the lens", "px")
-    parts: dict[str, Primitive] = {"plane": _on_plane(xy_bent[seen], color, T_world_camera, "after the lens")}
-    if seen.any():
-        ends = np.stack([_lift(xy[seen]), _lift(xy_bent[seen])], axis=1)
-        parts["moves"] = Segments(ends, "correspondence", 2, T_world_camera, name="from ideal to distorted")
-    return parts | _chosen_on_plane(xy_bent, k, T_world_camera)
+def _distort(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict[str, Primitive]:
+    """Show how far the lens moves each point of the picture."""
+    ideal, bent = (pinhole.onto_pixels(xy, state.shot.K) for xy in (state.now.xy, state.now.xy_bent))
+    both = _near(photograph, ideal) & _near(photograph, bent)
+    parts = _rays(state, state.now.xy, T_world_camera) | _landed(state, photograph, bent, "source", "calculated")
+    if both.any():
+        ends = _on_screen(photograph, np.stack([ideal[both], bent[both]], axis=1))
+        parts["moves"] = Segments(ends, "other", 3, name="moved by the lens")
+    return parts
 
 
-def _pixels(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
-    """Show which points are in the picture, on the picture."""
-    uv, k = state.now.uv, state.params.point
-    h, w = state.shot.picture.shape[:2]
-    xy = pinhole.off_pixels(uv, state.shot.K)  # where on the true camera's picture these pixels are
-    seen = _drawable(xy)
-    inside = np.all((uv[seen] > -0.5) & (uv[seen] < np.array([w, h]) - 0.5), axis=1)
+def _pixels(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict[str, Primitive]:
+    """Show which points are in the picture, and the pixel of the followed one."""
+    uv, (h, w) = state.now.uv, state.shot.picture.shape[:2]
+    inside = np.all((uv > -0.5) & (uv < np.array([w, h]) - 0.5), axis=1)
     color = Classes(np.where(inside, 0, 1), ("source", "correspondence"), ("in the picture", "outside it"))
-    return {"plane": _on_plane(xy[seen], color, T_world_camera, "pixels")} | _chosen_on_plane(xy, k, T_world_camera)
+    parts = _rays(state, state.now.xy, T_world_camera) | _landed(state, photograph, uv, color, "")
+    if "landed" in parts:
+        k, place = state.params.point, _on_screen(photograph, uv[[state.params.point]])[0]
+        parts["pixel"] = Label(f"(u, v) = {pair(uv[k], 0)}", place + np.array([0.0, 0.0, 0.35]), "highlight")
+    vanishing = state.shot.vanishing
+    if state.params.point in (3, 4) and _near(photograph, vanishing[None])[0]:
+        place = _on_screen(photograph, vanishing[None])
+        parts["vanishing"] = Points(place, "truth", 0.2)
+        parts["vanishing/name"] = Label("K R d", place[0] + np.array([0.0, 0.0, 0.35]), "truth")
+    return parts
 
 
-def _back(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
+def _back(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     """Show the ray of the followed pixel, and where pixels with depths come from."""
     now, k = state.now, state.params.point
     parts: dict[str, Primitive] = {
-        "center": Points(now.p_center[None], "source", 0.1, name="calculated camera centre"),
+        "center": Points(now.p_center[None], "source", 0.16),
         "center label": Label("C", now.p_center + np.array([0.0, 0.0, 0.3]), "source"),
     }
     found = np.linalg.norm(np.nan_to_num(now.p_back, nan=np.inf), axis=1) < 1e4
     if found.any():
-        parts["back"] = Points(now.p_back[found], "source", 0.075, name="from pixel and depth")
+        parts["back"] = Points(now.p_back[found], "source", 0.09, name="from pixel and depth")
         wrong = np.linalg.norm(now.p_back - now.p_world, axis=1) > 1e-6
         if (found & wrong).any():
             ends = np.stack([now.p_world, now.p_back], axis=1)[found & wrong]
@@ -157,33 +161,49 @@ def _back(state: State, T_world_camera: np.ndarray) -> dict[str, Primitive]:
         z = depths(now.p_world[k : k + 1], state.shot.T_camera_world)[0]
         v = (now.p_back[k] - now.p_center) / z  # one metre of depth
         reach = max(FAR, 1.2 * z)
-        parts["followed ray"] = Segments(
-            np.stack([now.p_center, now.p_center + reach * v])[None], "highlight", 4, name="the followed ray"
-        )
+        parts["followed ray"] = Segments(np.stack([now.p_center, now.p_center + reach * v])[None], "highlight", 4)
         marks = now.p_center + CANDIDATES[:, None] * v
-        parts["candidates"] = Points(marks, "other", 0.09, name="2, 4, 8, 16 m deep: the same pixel")
+        parts["candidates"] = Points(marks, "other", 0.13)
+        for i, mark in enumerate(marks):
+            if abs(CANDIDATES[i] / z - 1) < 0.1:  # the followed point's name stands there
+                continue
+            parts[f"candidates/{i}"] = Label(f"{CANDIDATES[i]:g} m", mark + np.array([0.0, 0.0, 0.25]), "other")
+    return parts | _landed(state, photograph, now.uv[[k]], "source", "")
+
+
+def _rays(state: State, xy: np.ndarray, T_world_camera: np.ndarray) -> dict[str, Primitive]:
+    seen, k = np.isfinite(xy).all(axis=1), state.params.point
+    origin = np.broadcast_to(T_world_camera[:3, 3], state.now.p_world.shape)
+    rays = np.stack([origin, state.now.p_world], axis=1)
+    z = state.now.p_camera[k, 2]
+    if z < 0 and np.isfinite(xy[k]).all():  # divided all the same: on through the camera, to the plane in front of it
+        rays[k, 0] += (rays[k, 1] - rays[k, 0]) / z
+    parts: dict[str, Primitive] = {"followed ray": Segments(rays[k : k + 1], "highlight", 4)}
+    if seen.any():
+        parts["rays"] = Segments(rays[seen], "correspondence", 1.0, opacity=0.6)
     return parts
 
 
-def _lift(xy: np.ndarray) -> np.ndarray:
-    return np.column_stack([xy, np.ones(len(xy))])
+def _landed(state: State, photograph: Picture, uv: np.ndarray, color, name: str) -> dict[str, Primitive]:
+    """Show pixels on the photograph, the followed one larger."""
+    near, k = _near(photograph, uv), state.params.point if len(uv) > 1 else 0
+    if isinstance(color, Classes):
+        color = Classes(color.ids[near], color.roles, color.names)
+    parts: dict[str, Primitive] = {"plane": Points(_on_screen(photograph, uv[near]), color, 0.11, name=name)}
+    if near[k]:
+        parts["landed"] = Points(_on_screen(photograph, uv[[k]], 0.2), "highlight", 0.2)
+    return parts
 
 
-def _drawable(xy: np.ndarray) -> np.ndarray:
-    """Say which points of the plane are worth a place in the scene: known, and not miles away."""
-    return np.abs(np.nan_to_num(xy, nan=np.inf)).max(axis=1) < WIDEST
+def _near(photograph: Picture, uv: np.ndarray) -> np.ndarray:
+    """Say which pixels are in the photograph or close to it."""
+    h, w = photograph.rgb().shape[:2]
+    low, high = -BEYOND * np.array([w, h]), (1 + BEYOND) * np.array([w, h])
+    return np.all((uv > low) & (uv < high), axis=1)
 
 
-def _on_plane(xy: np.ndarray, color, T_world_camera: np.ndarray, name: str) -> Points:
-    return Points(_lift(xy), color, 0.013, T_world_camera, name=name)
-
-
-def _chosen_on_plane(xy: np.ndarray, k: int, T_world_camera: np.ndarray) -> dict[str, Primitive]:
-    if not _drawable(xy)[k]:
-        return {}
-    return {
-        "followed on plane": Points(_lift(xy[k : k + 1]), "highlight", 0.025, T_world_camera, name="its place there")
-    }
+def _on_screen(photograph: Picture, uv: np.ndarray, nearer: float = 0.1) -> np.ndarray:
+    return photograph.places(uv) - nearer * SCREEN[0][:3, 2]
 
 
 def _lens_curves(lens: Distortion, r_chosen: float, stage: pinhole.Stage) -> dict[str, Primitive]:

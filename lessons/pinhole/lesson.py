@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lessons.pinhole.draw import draw
+from lessons.pinhole.draw import VIEW, draw
 from lessons.pinhole.experiments import PRESETS, QUESTIONS
 from lessons.pinhole.models import model_of, overlaid
 from lessons.pinhole.shot import shot_of
@@ -18,7 +18,7 @@ from workbench.algorithms import pinhole
 from workbench.algorithms.pinhole import Center, Distort, Project
 from workbench.data.street import street
 from workbench.geometry import cameras, distortion
-from workbench.lesson import Lesson, View
+from workbench.lesson import Lesson, Sweep
 
 
 def run(
@@ -73,8 +73,10 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=200,
-    view=View(eye=(7.6, -12.5, 6.6), target=(0.3, 0.6, 0.4), grid=2.0, grid_height=-0.02),
+    view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=2,
+    sweeps=(Sweep("dolly", (0.5, 1.0, 2.0, 4.0, 10.0, 50.0)), Sweep("k1", (-0.6, -0.3, 0.0, 0.3, 0.6))),
+    telling="The followed point",
 )

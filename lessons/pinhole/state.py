@@ -11,6 +11,7 @@ from workbench.geometry.distortion import Distortion
 from workbench.knobs import Gizmo, Knob, Pick
 
 Edit = Literal["none", "cropped", "half size", "cropped, then half size"]
+EDITS = ("cropped", "half size", "cropped, then half size")
 Mistake = Literal[
     "none",
     "pose inverted",
@@ -43,7 +44,9 @@ class Params:
     p1: Annotated[float, Knob("Tangential along y: a lens off centre", -0.1, 0.1, step=0.005)] = 0.0
     p2: Annotated[float, Knob("Tangential along x", -0.1, 0.1, step=0.005)] = 0.0
     edit: Annotated[Edit, Knob("What was done to the picture after it was taken")] = "none"
-    k_follows: Annotated[bool, Knob("Change K as the picture was changed", label="K follows the edit")] = True
+    k_follows: Annotated[
+        bool, Knob("Change K as the picture was changed", label="K follows the edit", needs={"edit": EDITS})
+    ] = True
     mistake: Annotated[Mistake, Knob("Calculate with a classic mistake; the picture stays true")] = "none"
     point: Annotated[int, Knob("The point that is followed: click one in the scene", 0, 83, by=Pick("points"))] = 2
 

@@ -16,10 +16,13 @@ SAME = 1e-6  # m: what rounding leaves of a way out and back
 
 
 def caption(state: State) -> Caption:
-    """Return the followed point's numbers at this stage, and what is wrong, if anything is."""
-    wrong = blame(state)
+    """Return the followed point's numbers at this stage, and what is wrong, if anything is.
+
+    A mistake that was asked for is no alarm.
+    """
+    wrong, params = blame(state), state.params
     text = _STAGES[state.now.stage](state) + (wrong or _remark(state))
-    return Caption(text, "wrong" if wrong else "info")
+    return Caption(text, "wrong" if wrong and params.mistake == "none" and params.k_follows else "info")
 
 
 def blame(state: State) -> str:

@@ -224,6 +224,40 @@ class TestPicture:
                 T = T_WORLD_LEFT if path.startswith("left/") else T_WORLD_RIGHT
                 assert np.array_equal(primitive.T_world_object, T), path
 
+    def test_the_pairs_are_unrolled_fans_on_the_left_and_one_to_one_on_the_right(self):
+        for params in (Params(), lesson.preset("unequal").params, lesson.preset("sphere").params):
+            state, shown = states(params)[-1], scene(params, -1)
+            n, m = len(state.clouds.p_source), len(state.clouds.p_target)
+            for side in ("left", "right"):
+                for row, count in (("target row", m), ("source row", n)):
+                    places = shown[f"{side}/{row}"].p
+                    assert len(np.unique(places[:, 0])) == count
+                    assert len({*places[:, 2]}) == 1
+            nearest, matched = (shown[f"{side}/pairing"].ends for side in ("left", "right"))
+            assert len(nearest) == m
+            serving = len(np.unique(nearest[:, 1, 0]))
+            assert shown["left/pairing words"].text == f"{serving} of {n} serve all {m}"
+            assert serving == np.count_nonzero(state.left.served) < n
+            assert len(np.unique(matched[:, 1, 0])) == n
+            assert len(matched) == n if n == m else len(matched) >= m
+            order = np.argsort(shown["right/target row"].p[:, 0])
+            angles = np.arctan2(*(state.clouds.p_target - state.clouds.p_target.mean(axis=0)).T[[2, 0]])[order]
+            assert (np.diff(angles) >= -1e-6).all()
+
+    def test_the_end_state_shows_where_the_mass_astray_belongs(self):
+        state, shown = states(Params())[-1], scene(Params(), -1)
+        ends = shown["left/owed"].ends
+        assert len(ends) == round(80 * state.left.numbers.astray)
+        assert np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).min() > Params().near
+        assert "left/owed" not in scene(Params(), -2)
+
+    def test_it_is_flat_seen_straight_and_without_a_floor(self):
+        view = lesson.view
+        away = np.array(view.target) - view.eye
+        assert away[0] == away[2] == 0.0
+        assert view.grid is None
+        assert not view.axes
+
     def test_the_target_is_sent_once(self):
         params = Params()
         assert scene(params, 0)["left/target"].p is scene(params, 9)["right/target"].p
@@ -259,6 +293,8 @@ class TestPicture:
         assert f"{squared(before.left.numbers.chamfer)} → {squared(now.left.numbers.chamfer)}" in text
         assert f"{metres(before.right.numbers.earth_movers)} → {metres(now.right.numbers.earth_movers)}" in text
         assert timeline(Params())[-1].caption.tone == "wrong"
+        assert timeline(lesson.preset("idle").params)[-1].caption.tone == "info"  # one side alone was asked for
+        assert {timeline(preset.params)[0].caption.tone for preset in lesson.presets} == {"info"}
         assert timeline(Params(start="larger", amount=0.05))[-1].caption.tone == "good"
 
     def test_an_end_state_that_covers_its_target_looks_covered(self):

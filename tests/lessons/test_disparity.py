@@ -29,13 +29,19 @@ from lessons.disparity.experiments import (
     of_stage,
 )
 from lessons.disparity.lesson import lesson
-from lessons.disparity.pairs import setup_of
+from lessons.disparity.pairs import ROWS_OFF, setup_of
 from lessons.disparity.state import Params
 from lessons.disparity.truth import depth_errors
 from tests.lessons.disparity_runs import BARE_PART, STRIPED_PART, off_in, preset, states, timeline, truth_of, visible_in
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.stereo import depth_from_disparity
-from workbench.scene import Caption, Curve, Field, Picture, Points, Scalar, Segments
+from workbench.picking import picked
+from workbench.scene import Caption, Curve, Field, Label, Picture, Points, Primitive, Scalar, Segments
+
+
+def edge(picture: Primitive, side: str) -> np.ndarray:
+    assert isinstance(picture, Picture)
+    return picture.places(np.array([picture.rgb().shape[1] if side == "right" else 0.0, 0.0]))
 
 
 class TestPresets:
@@ -182,8 +188,9 @@ class TestPresets:
         assert np.array_equal(right[DEPTH].disparity, wrong[DEPTH].disparity, equal_nan=True)
         known = np.isfinite(right[DEPTH].depth)
         assert np.allclose(wrong[DEPTH].depth[known], 4 * right[DEPTH].depth[known])
-        assert timeline(lesson.preset("f-not-rescaled").params)[DEPTH].caption.tone == "wrong"
-        assert isinstance(timeline(lesson.preset("f-not-rescaled").params)[DEPTH].scene["cloud"], Points)
+        calm = timeline(lesson.preset("f-not-rescaled").params)[DEPTH]
+        assert calm.caption.tone == "info"  # it was asked for
+        assert isinstance(calm.scene["cloud"], Points)
 
 
 class TestQuestions:
@@ -270,6 +277,57 @@ class TestPicture:
         assert "swept" not in timeline(HOME)[LAST].scene
         assert {"bars", "law", "error/predicted", "error/measured"} <= timeline(HOME)[LAST].scene.keys()
 
+    def test_the_pictures_stand_upright_before_the_eye_and_a_click_finds_the_pixel(self):
+        for params in (HOME, MOTORCYCLE):
+            scene = timeline(params)[10].scene
+            eye = np.array(lesson.view.eye)
+            for path in ("left/picture", "right/picture", "map/disparity"):
+                picture = scene[path]
+                assert isinstance(picture, Picture)
+                assert picture.T_world_object is not None
+                ahead = np.array(lesson.view.target) - eye
+                assert np.allclose(picture.T_world_object[:3, 2], ahead / np.linalg.norm(ahead))
+                assert picture.T_world_object[2, 1] < -0.8  # rows run down
+                place = picture.places(np.array([31.0, 47.0]))
+                assert picked(picture, eye, place - eye) == (31, 47)
+            across = np.linalg.norm(edge(scene["right/picture"], "right") - edge(scene["left/picture"], "left"))
+            across /= (picture.T_world_object[:3, 3] - eye) @ ahead / np.linalg.norm(ahead)
+        assert (
+            across / (2 * np.tan(np.radians(22.5))) * 727 > 640
+        )  # pixels where the scene is 727 high, as at 1440 x 900
+
+    def test_the_row_crosses_both_pictures_and_holds_the_pixel_and_its_partner(self):
+        for params, beside in ((HOME, 0), (preset("rows-off")[0].setup.params, ROWS_OFF)):
+            step = timeline(params)[LAST_CHOICE]
+            left, right, row = (step.scene[path] for path in ("left/picture", "right/picture", "row"))
+            assert isinstance(left, Picture)
+            assert isinstance(right, Picture)
+            assert isinstance(row, Segments)
+            u, v = params.pixel
+            ends = [left.places(np.array([-0.5, v])), right.places(np.array([159.5, v]))]
+            assert np.allclose(row.ends[0], ends, atol=0.01)
+            for path, picture, at in (
+                ("left/window", left, (u, v)),
+                ("right/window", right, (u - step.state.chosen, v)),
+                ("right/truth", right, (u - truth_of(step.state)[v, u], v + beside)),
+            ):
+                window = step.scene[path]
+                assert isinstance(window, Segments)
+                assert np.allclose(window.ends.mean(axis=(0, 1)), picture.places(np.array(at)), atol=0.02), path
+        assert "right/truth" not in timeline(lesson.preset("occlusion").params)[CHECKED].scene  # nothing is seen there
+        assert "right/truth" not in timeline(lesson.preset("exchanged").params)[CHECKED].scene
+
+    def test_whatever_the_depth_it_fits_the_stage_and_is_measured_in_metres(self):
+        for params in (HOME, BOARDS, MOTORCYCLE):
+            scene, scale = timeline(params)[LAST].scene, states(params)[0].setup.scale
+            assert isinstance(scene["cloud"], Points)
+            assert 1.2 < scene["cloud"].p[:, 2].max() < 2.31
+            marks = [one for path, one in scene.items() if path.startswith("label/depth")]
+            assert 2 <= len(marks) <= 5
+            for mark in marks:
+                assert isinstance(mark, Label)
+                assert mark.p[2] == pytest.approx(scale * float(mark.text.removesuffix(" m")), abs=0.06)
+
     def test_no_posed_thing_stands_under_another(self):
         for step in (timeline(HOME)[10], timeline(HOME)[LAST]):
             paths = set(step.scene)
@@ -285,7 +343,7 @@ class TestPicture:
         assert isinstance(cloud, Points)
         direction = ray.ends[0, 1] / np.linalg.norm(ray.ends[0, 1])
         assert np.allclose(np.cross(candidates.p, direction), 0, atol=1e-9)
-        d = 15.0 / candidates.p[:, 2]
+        d = 15.0 / (candidates.p[:, 2] / states(HOME)[0].setup.scale)
         assert np.allclose(d, np.rint(d))
         assert isinstance(cloud.color, Field)
         assert np.median(cloud.color.values) < 0.05

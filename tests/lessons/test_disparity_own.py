@@ -24,6 +24,7 @@ from workbench.algorithms.cost_volume import sad_cost_volume
 from workbench.algorithms.disparity_map import winner_takes_all
 from workbench.errors import InputError
 from workbench.knobs import make, with_own_files
+from workbench.page.legend import legend_html
 from workbench.scene import Field, Points
 from workbench.timeline import Timeline
 
@@ -108,6 +109,7 @@ class TestOwnPairs:
                 said += [cell for row in getattr(primitive, "rows", ()) for cell in row]
                 assert not [words for words in said if re.search(r"(^|\d )m\b", str(words))], (path, said)
             assert not {"law", "error/predicted"} & step.scene.keys()
+            assert "grid" not in legend_html(step.scene, lesson.view.grid)
         cloud = own[LAST].scene["cloud"]
         assert isinstance(cloud, Points)
         assert isinstance(cloud.color, Field)

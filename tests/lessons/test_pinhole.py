@@ -10,15 +10,16 @@ from lessons.pinhole.experiments import BACK, DISTORT, DIVIDE, PIXELS
 from lessons.pinhole.lesson import lesson
 from lessons.pinhole.shot import FACTORS, shot_of
 from lessons.pinhole.state import Params
-from lessons.pinhole.words import back_error
+from lessons.pinhole.words import back_error, blame
 from tests.lessons.pinhole_runs import orange, preset, states, tone
 from workbench.data.street import BALL_CENTER, street
 from workbench.errors import InputError
 from workbench.geometry.cameras import camera_center, depths, intrinsics, project, vanishing_points
 from workbench.geometry.distortion import distort, invertible_radius
-from workbench.geometry.motions import inverse
+from workbench.geometry.motions import apply, inverse
 from workbench.knobs import fields_of
-from workbench.scene import Points
+from workbench.picking import picked
+from workbench.scene import Picture, Points, Segments
 from workbench.timeline import Timeline
 
 # The default run
@@ -202,7 +203,7 @@ def test_a_lamp_behind_gets_a_pixel_well_inside_only_if_divided_anyway():
     assert state.false == 1
     assert round(state.now.p_camera[5, 2]) == -2
     assert np.isnan(states(Params(point=5))[PIXELS].now.uv[5]).all()
-    assert tone(experiments.BEHIND, PIXELS) == "wrong"
+    assert tone(experiments.BEHIND, PIXELS) == "info"  # it was asked for
 
 
 def test_the_inverted_pose_loses_nearly_every_point():
@@ -212,7 +213,7 @@ def test_the_inverted_pose_loses_nearly_every_point():
     np.testing.assert_allclose(
         state.now.p_camera[2], (inverse(state.shot.T_camera_world) @ [*street().points[2], 1])[:3]
     )
-    assert tone(experiments.INVERTED, 1) == "wrong"
+    assert tone(experiments.INVERTED, 1) == "info"
 
 
 def test_opengl_axes_make_depths_negative_and_mirror_the_picture():
@@ -287,15 +288,61 @@ def test_ray_length_for_depth_pushes_points_out_more_off_the_axis():
 
 
 @pytest.mark.parametrize("name", [p.name for p in lesson.presets])
-def test_a_preset_is_called_wrong_where_its_mistake_shows_and_only_then(name):
+def test_a_preset_tells_its_mistake_where_it_shows_and_only_then_and_calmly(name):
     params = lesson.preset(name).params
     timeline = Timeline(lesson, params).complete()
-    tones = {step.caption.tone for step in timeline.known()}
+    assert {step.caption.tone for step in timeline.known()} == {"info"}
+    told = [blame(step.state) in step.caption.text and bool(blame(step.state)) for step in timeline.known()]
     broken = params.mistake != "none" or not params.k_follows
-    assert tones == ({"info", "wrong"} if broken else {"info"})
-    opening = timeline[lesson.preset(name).step or 0].caption
-    assert (opening.tone == "wrong") == (broken and name != "behind")  # that one is asked about: it shows a step later
+    assert any(told) == broken
+    assert told[lesson.preset(name).step or 0] == (broken and name != "behind")  # asked about: it shows a step later
     assert max(len(step.caption.text) for step in timeline.known()) <= 400
+
+
+# The scene
+
+
+def test_the_photograph_stands_upright_before_the_eye_and_is_wide_enough():
+    eye, target = np.array(lesson.view.eye), np.array(lesson.view.target)
+    for params in (Params(), experiments.CROP_RIGHT):
+        picture = Timeline(lesson, params).complete()[PIXELS].scene["picture"]
+        assert isinstance(picture, Picture)
+        assert picture.T_world_object is not None
+        assert picture.width is not None
+        ahead = (target - eye) / np.linalg.norm(target - eye)
+        np.testing.assert_allclose(picture.T_world_object[:3, 2], ahead, atol=1e-9)
+        away = (picture.T_world_object[:3, 3] - eye) @ ahead
+        assert (
+            picture.width / away / (2 * np.tan(np.radians(lesson.view.fov_degrees / 2))) * 727 > 640
+        )  # px, 1440 x 900
+        assert picked(picture, eye, picture.places(np.array([20.0, 30.0])) - eye) == (20, 30)
+
+
+def test_what_lands_on_the_photograph_lies_at_its_pixels():
+    for params in (Params(), experiments.CROP_RIGHT, experiments.BEHIND):
+        step = Timeline(lesson, params).complete()[PIXELS]
+        picture, dots, landed = (step.scene[path] for path in ("picture", "plane", "landed"))
+        assert isinstance(picture, Picture)
+        assert isinstance(dots, Points)
+        assert isinstance(landed, Points)
+        uv = step.state.now.uv
+        assert 70 <= len(dots.p) <= np.isfinite(uv).all(axis=1).sum()
+        eye = np.array(lesson.view.eye)
+        for place in dots.p[::9]:
+            seen = picked(picture, eye, place - eye)
+            h, w = step.state.shot.picture.shape[:2]
+            inside = uv[np.all((uv > 0) & (uv < [w - 1, h - 1]), axis=1)]
+            assert seen is None or np.abs(inside - seen).max(axis=1).min() < 2.5
+        np.testing.assert_allclose(landed.p[0], picture.places(uv[params.point]), atol=0.3)
+
+
+def test_a_lamp_behind_is_drawn_through_the_camera_to_the_plane_in_front():
+    step = Timeline(lesson, experiments.BEHIND).complete()[DIVIDE]
+    ray = step.scene["followed ray"]
+    assert isinstance(ray, Segments)
+    in_camera = apply(step.state.shot.T_camera_world, ray.ends[0])
+    np.testing.assert_allclose(in_camera[0], [*step.state.now.xy[5], 1.0], atol=1e-9)
+    assert in_camera[1, 2] < 0
 
 
 # Questions

@@ -3,7 +3,7 @@
 import html
 from typing import Any, cast
 
-from workbench.scene import PALETTE, Classes, Curve, Field, Primitive, Role, Scalar, Scene, color_map
+from workbench.scene import PALETTE, Classes, Field, Primitive, Role, Scene, color_map, in_space
 
 
 def escape(text: str) -> str:
@@ -23,7 +23,7 @@ def legend_html(scene: Scene, grid: float | None) -> str:
     """
     rows: dict[str, list[str]] = {}
     for path, primitive in scene.items():
-        for row in _legend_rows(primitive):
+        for row in _legend_rows(primitive) if in_space(primitive) else ():
             rows.setdefault(row, []).append(path)
     found = [f'<span data-things="{escape("|".join(paths))}">{row}</span>' for row, paths in rows.items()]
     if grid is not None:
@@ -39,7 +39,7 @@ def _legend_rows(primitive: Primitive) -> list[str]:
         return [bar_html(field)]
     if isinstance(color, Classes):
         return [_dot(PALETTE[role], label) for role, label in zip(color.roles, color.names, strict=True)]
-    if isinstance(color, str) and name and not isinstance(primitive, Scalar | Curve):
+    if isinstance(color, str) and name:
         return [_dot(PALETTE[cast(Role, color)], name)]
     return []
 

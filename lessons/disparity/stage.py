@@ -1,0 +1,107 @@
+"""Where things stand: both pictures upright side by side, the map of disparities below, and beside it the depths."""
+
+import math
+
+import numpy as np
+
+from lessons.disparity.pairs import ROWS_OFF
+from lessons.disparity.state import Setup, State
+from workbench.algorithms.disparity import Stage
+from workbench.geometry.motions import motion
+from workbench.geometry.polylines import segments
+from workbench.lesson import View
+from workbench.scene import Field, Label, Picture, Primitive, Role, Segments
+
+# The left camera is at the world's origin and looks along +Y.
+R_WORLD_CAMERA = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+T_WORLD_LEFT = motion(R_WORLD_CAMERA, np.zeros(3))
+VIEW = View(eye=(0.97, -3.73, 3.69), target=(-1.17, 0.77, 1.22), grid=None, axes=False)
+NEARER = 1.6  # metres towards the eye: in front of the cloud, whatever strays in it
+LARGEST = (1.82, 1.365)
+"""Metres, across and down, that a picture may have."""
+LEFT, RIGHT, ABOVE, BELOW = -0.947, 0.947, 0.655, -0.876
+LEAST_FRAME = 2.5  # pixels
+
+
+def pictures(state: State) -> dict[str, Primitive]:
+    """Return the two pictures, the row along which they are compared, and the map below them."""
+    setup = state.setup
+    top = float(setup.max_disparity)
+    field = Field(state.disparity.astype(np.float32), 0.0, top, "Disparity", "px")
+    left, right = (
+        _upright(setup.pair.left, "left picture", LEFT, ABOVE),
+        _upright(setup.pair.right, "right picture", RIGHT, ABOVE),
+    )
+    below = _upright(field, "Disparity of the left picture (grey: unknown)", LEFT, BELOW)
+    return {
+        "left/picture": left,
+        "right/picture": right,
+        "map/disparity": below,
+        "left/name": _named(left, "left picture", "target"),
+        "right/name": _named(right, "right picture", "source"),
+        "map/name": _named(below, "disparity (grey: unknown)", "neutral"),
+        "left/edge": _edge(left, "target"),
+        "right/edge": _edge(right, "source"),
+        **_row(state, left, right),
+    }
+
+
+def _upright(image: np.ndarray | Field, title: str, x: float, y: float) -> Picture:
+    h, w = (image.values if isinstance(image, Field) else image).shape[:2]
+    return Picture(image, title, min(LARGEST[0], LARGEST[1] * w / h), VIEW.facing(x, y, NEARER))
+
+
+def _named(picture: Picture, name: str, color: Role) -> Label:
+    h, w = picture.rgb().shape[:2]
+    return Label(name, picture.places(np.array([w / 2, -0.02 * h])), color)
+
+
+def _edge(picture: Picture, color: Role) -> Segments:
+    h, w = picture.rgb().shape[:2]
+    return Segments(_box(picture, -0.5, -0.5, w - 0.5, h - 0.5), color, 2.5)
+
+
+def _row(state: State, left: Picture, right: Picture) -> dict[str, Primitive]:
+    """Return the row of the followed pixel across both pictures: where it is, where its partner is sought, and found."""
+    setup = state.setup
+    (u, v), w = setup.pixel, setup.left.shape[1]
+    ends = np.stack([left.places(np.array([-0.5, v])), right.places(np.array([w - 0.5, v]))])
+    comparing = state.stage is Stage.COMPARE
+    tried = state.done - 1 if comparing else setup.max_disparity
+    sought = right.places(np.array([[max(u - tried, 0), v], [u, v]]))
+    shown: dict[str, Primitive] = {
+        "row": Segments(_lifted(ends[None]), "highlight", 1.5, name=f"row v = {v}"),
+        "row/sought": Segments(_lifted(sought[None], 2), "other", 5.0, name="tried so far" if comparing else ""),
+        "left/window": _frame(setup, left, u, v, "highlight"),
+    }
+    at = tried if comparing else state.chosen
+    if math.isfinite(at):
+        shown["right/window"] = _frame(
+            setup, right, u - at, v, "source", "compared with" if comparing else "chosen partner"
+        )
+    truth = setup.pair.disparity
+    if truth is not None and setup.params.mistake != "pictures exchanged" and _seen(setup):
+        lower = ROWS_OFF if setup.params.mistake == "rows off by 2 px" else 0
+        shown["right/truth"] = _frame(setup, right, u - float(truth[v, u]), v + lower, "truth", "true partner")
+    return shown
+
+
+def _seen(setup: Setup) -> bool:
+    u, v = setup.pixel
+    visible = setup.pair.visible
+    return visible is not None and bool(visible[v, u])
+
+
+def _frame(setup: Setup, picture: Picture, u: float, v: float, color: Role, name: str = "") -> Segments:
+    half = max(setup.params.window / 2, LEAST_FRAME)
+    return Segments(_box(picture, u - half, v - half, u + half, v + half, 3), color, 3.0, name=name)
+
+
+def _box(picture: Picture, u0: float, v0: float, u1: float, v1: float, layer: int = 1) -> np.ndarray:
+    corners = picture.places(np.array([[u0, v0], [u1, v0], [u1, v1], [u0, v1]]))
+    return _lifted(segments(corners, closed=True), layer)
+
+
+def _lifted(ends: np.ndarray, layer: int = 1) -> np.ndarray:
+    """Return lines moved from a picture towards the eye, in layers."""
+    return ends - 0.004 * layer * VIEW.facing(0, 0)[:3, 2]
