@@ -5,10 +5,9 @@ from pathlib import Path
 
 from tests.browser.chrome import started
 from workbench.lesson import catalog
+from workbench.viewer.server import Server
 
 HERE = Path(__file__).parent / "pictures"
-HIDE = ".mantine-Notifications-root{display:none!important}"
-SCENE = {"x": 381, "y": 0, "width": 702, "height": 662}  # without the panels around it
 MOMENTS = {
     "page": "?lesson=icp&step=60",
     "icp": "?lesson=icp&step=8",
@@ -21,23 +20,18 @@ MOMENTS = {
 def main(names: list[str]) -> None:
     """Take a picture of one whole page, and of every lesson's scene at a step worth seeing."""
     HERE.mkdir(exist_ok=True)
-    app = Server()
+    server = Server()
     with started() as browser:
         page = browser.new_page(viewport={"width": 1440, "height": 900})
         for name in names or ["page", *catalog()]:
-            page.goto(app.address + "/" + MOMENTS.get(name, f"?lesson={name}"))
-            page.wait_for_selector("canvas[data-engine]")
-            page.wait_for_selector(".wb-caption")
-            page.add_style_tag(content=HIDE)
+            page.goto(server.address + "/" + MOMENTS.get(name, f"?lesson={name}"))
+            page.frame_locator("#scene iframe").locator("canvas[data-engine]").wait_for()
+            page.wait_for_function("page.step()")
             page.wait_for_timeout(6000)  # until software rendering has drawn the last frame
-            page.screenshot(
-                path=HERE / f"{name}.jpg",
-                type="jpeg",
-                quality=80,
-                clip=None if name == "page" else SCENE,  # type: ignore
-            )
+            seen = page if name == "page" else page.locator("#view")
+            seen.screenshot(path=HERE / f"{name}.jpg", type="jpeg", quality=80)
             print(HERE / f"{name}.jpg")
-    app.stop()
+    server.stop()
 
 
 if __name__ == "__main__":

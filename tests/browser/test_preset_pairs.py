@@ -17,23 +17,23 @@ TRANSFORMS = catalog()["transforms"]
 FIRST, *OTHERS = ("conventions", "mirror", "perspective", "inverse")
 
 
-def opened(chromium, app):
+def opened(chromium, server):
     page = chromium.new_page(viewport={"width": 1100, "height": 640})
-    page.goto(f"{app.address}/?lesson=transforms")
-    page.wait_for_selector("canvas[data-engine]")
-    page.locator(".mantine-Notification-closeButton").click()  # that there is no graphics card
+    page.goto(f"{server.address}/?lesson=transforms")
+    page.frame_locator("#scene iframe").locator("canvas[data-engine]").wait_for()
     return page
 
 
 def seen(page, name: str) -> np.ndarray:
-    """Choose a preset and return the pixels of its scene, above the panel of steps, as soon as they stay as they are."""
+    """Choose a preset and return the pixels of its scene as soon as they stay as they are."""
     preset = TRANSFORMS.preset(name)
     step = TRANSFORMS.first_step if preset.step is None else preset.step
     caption = Timeline(TRANSFORMS, preset.params).complete()[step].caption.text
-    page.get_by_role("button", name=preset.title, exact=True).first.click()
-    page.locator(".wb-caption", has_text=caption).wait_for()
+    page.locator(f"button[data-run={name}]").click()
+    page.locator("#caption").get_by_text(caption, exact=True).wait_for()
     page.mouse.move(0, 0)
-    between = {"x": 320.0, "y": 0.0, "width": 450.0, "height": 380.0}
+    view = page.locator("#view").bounding_box()
+    between = {"x": view["x"] + 40, "y": view["y"] + 60, "width": view["width"] - 80, "height": view["height"] - 80}
     before, alike = b"", 0
     for _ in range(MOST):
         page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
@@ -50,13 +50,13 @@ def blurred(image: Image.Image) -> np.ndarray:
     return np.asarray(image.resize((image.width // 10, image.height // 10), Image.Resampling.BOX)).astype(int)
 
 
-def test_presets_after_each_other_look_as_alone(chromium, app):
-    page = opened(chromium, app)
+def test_presets_after_each_other_look_as_alone(chromium, server):
+    page = opened(chromium, server)
     seen(page, FIRST)
     after = {name: seen(page, name) for name in OTHERS}
     page.close()
     for name in OTHERS:
-        page = opened(chromium, app)
+        page = opened(chromium, server)
         alone = seen(page, name)
         page.close()
         others = [np.abs(alone - after[other]).max() for other in OTHERS if other != name]

@@ -13,7 +13,8 @@ from pathlib import Path
 import httpx
 import numpy as np
 import pytest
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 
 from tests import fake
 from workbench import links
@@ -39,7 +40,7 @@ def server(tmp_path, monkeypatch) -> Iterator[Server]:
 class Page:
     """A page as the server sees one: its websocket, and what goes over HTTP beside it."""
 
-    def __init__(self, server: Server, socket: ClientConnection, token: str):
+    def __init__(self, server: Server, socket: Connection, token: str):
         self.server, self.socket, self.token = server, socket, token
 
     def say(self, **message) -> None:

@@ -35,8 +35,13 @@ def serve(
     if browser:
         webbrowser.open(server.address)
     try:
-        threading.Event().wait()
+        until_interrupted()
     except KeyboardInterrupt:
         pass
     finally:
         server.stop()
+
+
+def until_interrupted() -> None:
+    """Wait for ever; Ctrl+C ends it."""
+    threading.Event().wait()

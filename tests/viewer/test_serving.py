@@ -1,0 +1,95 @@
+"""`workbench` and `show` as a shell sees them: the address, one port, a clean end."""
+
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import httpx
+import pytest
+
+from workbench.cli import main
+from workbench.errors import InputError
+from workbench.viewer.serving import free_port, serve
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@contextmanager
+def running(*words: str) -> Iterator[tuple[subprocess.Popen, str]]:
+    command = [sys.executable, "-m", "workbench", *words, "--no-browser"]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        address = process.stdout.readline().strip()
+        try:
+            yield process, address
+        finally:
+            process.kill()
+
+
+def test_the_course_is_served_at_the_address_that_is_printed_until_interrupted():
+    with running("--port", "0") as (process, address):
+        assert address.startswith("http://127.0.0.1:")
+        answer = httpx.get(address)
+        assert answer.status_code == 200
+        assert answer.text.count('<li data-lesson="') >= 7
+        port = address.rpartition(":")[2]
+        done = subprocess.run(
+            [sys.executable, "-m", "workbench", "show", "icp", "--no-browser", "--port", port],
+            cwd=ROOT, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert done.returncode == 2
+        assert done.stdout == ""
+        assert done.stderr == (
+            f"workbench: port {port} is in use: stop the other program, or choose another with --port (0 picks a free one)\n"
+        )
+        process.send_signal(signal.SIGINT)
+        out, said = process.communicate(timeout=60)
+        assert (process.returncode, out, said) == (0, "", "")
+
+
+def test_a_lesson_opens_at_its_params_and_step_and_the_course_is_one_link_away(tmp_path):
+    with running("show", "icp", "--start-angle", "120", "--step", "-1", "--port", "0") as (_, address):
+        answer = httpx.get(f"{address}/")
+        assert answer.headers["location"] == "?lesson=icp&start_angle=120&step=-1"
+        assert "no-store" in answer.headers["cache-control"]
+        page = httpx.get(f"{address}/?elsewhere=1", follow_redirects=True)
+        assert str(page.url) == f"{address}/?lesson=icp&start_angle=120&step=-1&elsewhere=1"
+        assert 'data-lesson="icp"' in page.text
+        assert "workbench exercise align_rigid" in page.text
+        assert 'href="?course"' in page.text
+        assert '<ol class="cards">' in httpx.get(f"{address}/?course").text
+
+
+@pytest.mark.parametrize(
+    ("host", "port", "why"),
+    [("127.0.0.1", 70_000, "from 0 to 65535"), ("no.such.host.invalid", 0, "no address of this machine")],
+)
+def test_where_it_cannot_listen_is_said(host, port, why):
+    with pytest.raises(InputError, match=why):
+        free_port(host, port)
+
+
+def test_a_browser_is_opened_at_the_address_unless_told_otherwise(monkeypatch, capsys):
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+
+    def interrupt() -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("workbench.viewer.serving.until_interrupted", interrupt)
+    serve(port=0)
+    assert opened == capsys.readouterr().out.split()
+    assert main(["--port", "0", "--no-browser"]) == 0
+    assert len(opened) == 1
+
+
+def test_a_taken_port_is_told_before_anything_is_started():
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        with pytest.raises(InputError, match="is in use"):
+            free_port("127.0.0.1", taken.getsockname()[1])
