@@ -64,6 +64,8 @@ class FakePage:
         writer.write("\r\n".join(lines).encode())
         head, _, body = (await reader.read()).partition(b"\r\n\r\n")
         writer.close()
+        with contextlib.suppress(OSError):
+            await writer.wait_closed()
         if head.split()[1] != b"200":
             raise ConnectionError(head.split(b"\r\n")[0].decode())
         return body.decode()
@@ -117,6 +119,12 @@ class FakePage:
         await self.until(lambda page: page.step.get("k") == k)
         return self.came - began, max(self.scene_came - began, 0.0)
 
+    async def change(self, name: str, value: Any, seconds: float = 300.0) -> None:
+        """Move a knob, and wait for the first picture of the run that it asks for."""
+        before = self.run["run"]
+        await self.say(verb="change", values={name: value})
+        await self.until(lambda page: page.run["run"] != before and page.step.get("run") == page.run["run"], seconds)
+
     async def close(self) -> None:
         """Leave."""
         for task in self._reading:
@@ -148,3 +156,4 @@ class FakePage:
             async for frame in self.scene:
                 self.scene_bytes += len(frame)
                 self.scene_came = time.perf_counter()
+                self._news.set()

@@ -112,6 +112,7 @@ class Server:
             ws_max_size=2**16,
             ws_per_message_deflate=False,
             server_header=False,
+            proxy_headers=False,
             timeout_graceful_shutdown=2,
         )
         self._uvicorn = uvicorn.Server(config)

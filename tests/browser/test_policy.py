@@ -1,0 +1,52 @@
+"""A page under the server's own policy: nothing that it does, or viser's client in it, is refused by the browser."""
+
+import pytest
+
+from workbench.lesson import catalog
+from workbench.timeline import Timeline
+from workbench.viewer.server import Server
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def server():
+    server = Server()
+    yield server
+    server.stop()
+
+
+@pytest.mark.parametrize("name", ["icp", "pinhole", "curvature"])
+def test_nothing_of_a_page_is_refused_and_nothing_is_asked_of_another_host(chromium, server, name):
+    lesson = catalog()[name]
+    run = Timeline(lesson, lesson.params()).complete()
+    page = chromium.new_page(viewport={"width": 1440, "height": 900}, bypass_csp=False)
+    said, asked = [], []
+    page.on("console", lambda message: said.append(message.text) if message.type in ("error", "warning") else None)
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(f"{server.address}/?lesson={name}")
+    page.locator("#count").get_by_text(f" / {len(run) - 1}").wait_for()
+    page.locator("[data-act=last]").click()
+    page.locator("#caption").get_by_text(run[-1].caption.text, exact=True).wait_for()
+    page.frame_locator("#scene iframe").locator("canvas[data-engine]").wait_for()
+    for tile in page.locator("#tiles .tile").all():
+        tile.click()
+    page.locator("#theme").click()
+    page.locator("#set").click()
+    values = page.evaluate("page.run.series.map((one) => one.values.length)")
+    assert values == [len(run)] * len(run.series()), "they came in parts"
+    refused = [text for text in said if "Content Security Policy" in text or "Refused" in text]
+    assert refused == []
+    assert {url for url in asked if not url.startswith((server.address, "data:", "blob:"))} == set()
+    page.close()
+
+
+def test_another_site_shows_no_live_page_in_a_frame(chromium, server):
+    page = chromium.new_page(bypass_csp=False)
+    page.goto("data:text/html,<p>another site</p>")
+    page.set_content(f'<iframe src="{server.address}/?lesson=icp"></iframe>')
+    frame = page.frame_locator("iframe")
+    page.wait_for_timeout(3000)
+    assert frame.locator("#caption").count() == 0
+    page.close()

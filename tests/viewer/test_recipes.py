@@ -1,0 +1,195 @@
+"""The recipes of docs/serving, as they stand there: nginx before one server and before several, and the container's."""
+
+import asyncio
+import contextlib
+import json
+import re
+import shutil
+import socket
+import subprocess
+import time
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from tests.fake_page import FakePage
+from workbench import cli, flags
+from workbench.lesson import catalog
+from workbench.timeline import Timeline
+from workbench.viewer.server import Server
+
+ROOT = Path(__file__).parents[2]
+RECIPES = ROOT / "docs" / "serving"
+NGINX = shutil.which("nginx") or shutil.which("nginx", path="/usr/sbin")
+NAME = "class.example.org"
+
+needs_nginx = pytest.mark.skipif(NGINX is None, reason="no nginx here (Debian: apt-get install nginx-light)")
+
+
+@contextlib.contextmanager
+def nginx(folder: Path, http: str, location: str) -> Iterator[int]:
+    """Run nginx with these parts of its configuration; the value is its port."""
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    places = "".join(
+        f"{kind}_temp_path {folder}/{kind};" for kind in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
+    )
+    (folder / "nginx.conf").write_text(
+        f"daemon off; pid {folder}/pid; error_log stderr; events {{}}\n"
+        f"http {{ access_log off; {places}\n{http}\nserver {{ listen 127.0.0.1:{port};\n{location}\n}} }}\n"
+    )
+    assert NGINX is not None
+    process = subprocess.Popen([NGINX, "-p", str(folder), "-c", str(folder / "nginx.conf")], stderr=subprocess.PIPE)
+    try:
+        deadline = time.monotonic() + 30
+        while True:
+            assert process.poll() is None, process.stderr.read() if process.stderr else ""
+            with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port)):
+                break
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        yield port
+    finally:
+        process.terminate()
+        process.wait(30)
+        if process.stderr:
+            process.stderr.close()
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    server = Server(behind=NAME)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def site(server, tmp_path) -> Iterator[int]:
+    location = (RECIPES / "nginx.conf").read_text().replace("127.0.0.1:8080", f"127.0.0.1:{server.port}")
+    with nginx(tmp_path, "", location) as port:
+        yield port
+
+
+async def asked(port: int, path: str, host: str = NAME) -> tuple[int, dict[str, str], str]:
+    reader, writer = await asyncio.open_connection("127.0.0.1", port)
+    writer.write(f"GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n".encode())
+    head, _, body = (await reader.read()).partition(b"\r\n\r\n")
+    writer.close()
+    with contextlib.suppress(OSError):
+        await writer.wait_closed()
+    lines = head.decode().split("\r\n")
+    headers = {name.lower(): value for name, _, value in (line.partition(": ") for line in lines[1:])}
+    return int(lines[0].split()[1]), headers, body.decode(errors="replace")
+
+
+def visitor(port: int, query: str = "") -> FakePage:
+    headers = {"Host": NAME, "Origin": f"https://{NAME}"}
+    return FakePage(f"http://127.0.0.1:{port}/workbench/", query, headers)
+
+
+@needs_nginx
+def test_behind_a_prefix_a_page_runs_and_a_link_leads_to_its_moment(site):
+    lesson = catalog()["icp"]
+    run = Timeline(lesson, lesson.params(start_angle=120.0))
+    while len(run) < 6:
+        run.extend()
+
+    async def visit() -> None:
+        page = await visitor(site, "?lesson=icp&start_angle=120&step=3").open()
+        await page.until(lambda page: page.step.get("k") == 3 and page.scene_bytes > 0)
+        assert page.step["step"]["caption"] == run[3].caption.text
+        await page.seek(5)
+        assert page.step["step"]["caption"] == run[5].caption.text
+        await page.close()
+
+    asyncio.run(visit())
+
+
+@needs_nginx
+def test_behind_a_prefix_every_address_of_a_page_leads_somewhere(site):
+    async def visit() -> None:
+        status, headers, _ = await asked(site, "/workbench?lesson=icp&step=3")
+        assert (status, headers["location"]) == (301, "workbench/?lesson=icp&step=3")
+        status, _, page = await asked(site, "/workbench/?lesson=icp")
+        assert status == 200
+        found = [one for one in re.findall(r'(?:src|href)="([^"]+)"', page) if not urlsplit(one).scheme]
+        files = {one.replace("&amp;", "&") for one in found if not one.startswith("#")}
+        assert {"page/page.css", "page/page.js", "page/live.js"} <= files
+        for one in files:
+            assert not one.startswith("/")
+            assert (await asked(site, f"/workbench/{one}"))[0] == 200, one
+        token = re.findall(r'data-token="(\w+)"', page)[0]
+        assert (await asked(site, f"/workbench/scene/{token}/"))[0] == 200
+
+    asyncio.run(visit())
+
+
+@needs_nginx
+def test_behind_a_proxy_another_name_is_still_refused(site):
+    async def visit() -> None:
+        assert (await asked(site, "/workbench/", host="evil.example"))[0] == 403
+        page = visitor(site)
+        page.headers["Origin"] = "https://evil.example"
+        with pytest.raises(Exception, match="403"):
+            await page.open()
+
+    asyncio.run(visit())
+
+
+@needs_nginx
+def test_before_several_servers_a_page_and_its_scene_meet(tmp_path):
+    servers = [Server(behind=NAME) for _ in range(2)]
+    http = (RECIPES / "nginx-several.conf").read_text()
+    for number, one in zip((8080, 8081), servers, strict=True):
+        http = http.replace(f"127.0.0.1:{number}", f"127.0.0.1:{one.port}")
+    location = (RECIPES / "nginx.conf").read_text().replace("127.0.0.1:8080", "workbench")
+
+    async def visit(port: int) -> list[int]:
+        pages = await asyncio.gather(*(visitor(port, "?lesson=transforms").open() for _ in range(12)))
+        for page in pages:
+            await page.until(lambda page: page.step and page.scene_bytes > 1000)  # a scene that nobody met is empty
+        shares = [len(one.students) for one in servers]
+        await asyncio.gather(*(page.close() for page in pages))
+        return shares
+
+    try:
+        with nginx(tmp_path, http, location) as port:
+            shares = asyncio.run(visit(port))
+    finally:
+        for one in servers:
+            one.stop()
+    assert sum(shares) == 12
+    assert min(shares) > 0
+
+
+def test_a_page_that_is_only_read_stays_open():
+    recipe = (RECIPES / "nginx.conf").read_text()
+    assert "proxy_read_timeout 1h" in recipe
+    assert "proxy_http_version 1.1" in recipe
+
+
+def test_the_container_s_recipe_agrees_with_the_project():
+    lines = [line for line in (RECIPES / "Dockerfile").read_text().splitlines() if line and not line.startswith("#")]
+    steps = [(line.split()[0], line.partition(" ")[2]) for line in lines]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    image = dict(steps)["FROM"]
+    least = project["requires-python"].removeprefix(">=")
+    version = re.fullmatch(r"python:(\d+\.\d+)-slim", image)
+    assert version is not None
+    assert tuple(map(int, version[1].split("."))) >= tuple(map(int, least.split(".")))
+    copied = [word for kind, words in steps if kind == "COPY" for word in words.split()[:-1]]
+    assert all((ROOT / name).exists() for name in copied)
+    assert {"workbench", "lessons", "pyproject.toml", project["readme"], "LICENSE"} <= set(copied)
+    kinds = [kind for kind, _ in steps]
+    user = dict(steps)["USER"]
+    assert user != "root"
+    assert any(kind == "RUN" and words.startswith("useradd") and words.endswith(user) for kind, words in steps)
+    assert kinds.index("USER") < kinds.index("ENTRYPOINT")
+    command = json.loads(dict(steps)["ENTRYPOINT"])
+    assert command[0] in project["scripts"]
+    called = flags.parse(cli.serve, command[1:], "workbench", "")
+    assert callable(called)
+    assert command[command.index("--port") + 1] == dict(steps)["EXPOSE"]

@@ -1,0 +1,222 @@
+"""Who is computed for next, and what is held: laws, without a clock."""
+
+import functools
+import gc
+import threading
+import time
+import weakref
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Annotated
+
+import numpy as np
+import pytest
+
+from tests import fake
+from workbench.knobs import Knob
+from workbench.lesson import Lesson
+from workbench.scene import Caption, Scene
+from workbench.session import Session
+from workbench.timeline import Timeline
+from workbench.viewer import runs as runs_module
+from workbench.viewer import scheduling
+from workbench.viewer.runs import Runs, caches
+from workbench.viewer.scheduling import Scheduler
+
+
+@dataclass(frozen=True)
+class Params:
+    """A run's number and length."""
+
+    number: Annotated[int, Knob("Which run", 0, 1000)] = 0
+    steps: Annotated[int, Knob("How long", 1, 5000)] = 200
+
+
+class Steered:
+    """A lesson whose steps are made when they may be, and that notes which were."""
+
+    def __init__(self) -> None:
+        self.made: list[int] = []
+        self.may = threading.Semaphore(0)
+        self.lesson: Lesson = replace(
+            fake.lesson, params=Params, run=self._run, draw=self._draw, presets=(), questions=()
+        )
+
+    def run_of(self, number: int, steps: int = 200) -> Timeline:
+        return Timeline(self.lesson, Params(number, steps))
+
+    def _run(self, params: Params) -> Iterator[int]:
+        for _ in range(params.steps):
+            self.may.acquire()
+            self.made.append(params.number)
+            yield params.number
+
+    @staticmethod
+    def _draw(state: int) -> Scene:
+        return {"caption": Caption(f"A step of run {state} was made.")}
+
+
+@pytest.fixture
+def steered() -> Steered:
+    return Steered()
+
+
+@pytest.fixture
+def one(monkeypatch) -> Iterator[Scheduler]:
+    """A scheduler with one thread, and slices of one step."""
+    monkeypatch.setattr(scheduling, "SLICE", 0.0)
+    monkeypatch.setattr(scheduling, "REST", 0.05)
+    scheduler = Scheduler(1)
+    yield scheduler
+    scheduler.close()
+
+
+def until(holds: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + 60
+    while not holds():
+        assert time.monotonic() < deadline
+        time.sleep(0.002)
+
+
+def nobody() -> None:
+    pass
+
+
+def test_the_step_that_somebody_waits_for_comes_before_everybody_s_rest(one, steered):
+    rest = [steered.run_of(number) for number in range(5)]
+    for number, run in enumerate(rest):
+        one.want(f"reader {number}", run, 0, nobody)
+    steered.may.release(5 + 5 * scheduling.AHEAD + 3)
+    until(lambda: len(steered.made) == 5 + 5 * scheduling.AHEAD + 3)
+    before = len(steered.made)
+    told = threading.Event()
+    one.want("me", steered.run_of(100), 3, told.set)
+    steered.may.release(5)
+    assert told.wait(60)
+    assert steered.made[before:][:5].count(100) == 4, "one step of another's rest was being made"
+    steered.may.release(10_000)
+
+
+def test_who_asks_a_lot_delays_only_themselves(one, steered):
+    one.want("greedy", steered.run_of(1), -1, nobody)
+    until(lambda: len(one) == 1)
+    for number in range(2, 6):
+        one.want(number, steered.run_of(number), 9, nobody)
+    steered.may.release(50)
+    until(lambda: len(steered.made) >= 50)
+    counts = [steered.made[:50].count(number) for number in range(1, 6)]
+    assert max(counts) - min(counts) <= 2, counts
+    steered.may.release(10_000)
+
+
+def test_a_run_that_nobody_looks_at_is_given_up(one, steered):
+    run = steered.run_of(1)
+    one.want("me", run, 0, nobody)
+    steered.may.release(3)
+    until(lambda: len(steered.made) == 3)
+    one.leave("me")
+    assert len(one) == 0
+    steered.may.release(100)
+    time.sleep(0.2)
+    assert len(run) <= 4, "the step that was being made"
+
+
+def test_at_rest_a_run_is_computed_to_its_end_and_all_who_look_are_told(one, steered):
+    steered.may.release(10_000)
+    run, told = steered.run_of(1, 40), [threading.Event() for _ in range(3)]
+    for who, event in enumerate(told):
+        one.want(who, run, 0, event.set)
+    until(lambda: run.finished)
+    assert all(event.wait(60) for event in told)
+    assert steered.made == [1] * 40, "each step is made once for all"
+    assert not one.want("late", run, 3, nobody)
+    until(lambda: len(one) == 0)
+
+
+def test_a_lesson_that_ends_the_program_ends_its_own_run(one, steered):
+    def leaving(params: Params) -> Iterator[int]:
+        yield 1
+        raise KeyboardInterrupt if params.number else SystemExit
+
+    lesson = replace(steered.lesson, run=leaving)
+    for number in (0, 1):
+        run = Timeline(lesson, Params(number))
+        one.want("me", run, -1, nobody)
+        until(lambda run=run: run.finished)
+        assert ("KeyboardInterrupt" if number else "SystemExit") in (run.stopped or "")
+    steered.may.release(10)
+    run = steered.run_of(7, 5)
+    one.want("me", run, -1, nobody)
+    until(lambda: run.finished)
+
+
+def test_a_step_that_holds_a_thread_up_is_worked_around(one, steered, monkeypatch):
+    monkeypatch.setattr(scheduling, "STUCK", 0.05)
+    stuck = steered.run_of(1)
+    one.want("unlucky", stuck, 0, nobody)
+    time.sleep(0.1)
+    other = Timeline(fake.lesson, fake.Params())
+    one.want("me", other, -1, nobody)
+    until(lambda: one.relieve() or other.finished)
+    steered.may.release(10_000)
+
+
+@functools.lru_cache(maxsize=4)
+def cached(number: int) -> np.ndarray:
+    return np.full(1_000_000, number)
+
+
+def test_memory_counts_runs_their_data_and_lessons_caches_each_array_once():
+    runs = Runs(most_bytes=10**9)
+    try:
+        cached.cache_clear()
+        run = runs.timelines.get(fake.lesson, fake.Params())
+        run.complete()
+        only = runs.held([])
+        assert only == sum(run.owned().values()) > 0
+        data = runs.steps(run)
+        assert runs.steps(run) is data, "the same for all who ask"
+        for k in range(len(run)):
+            data.step(k)
+        assert runs.held([]) > only + 1000
+        here = replace(fake.lesson, params=Params, presets=(), questions=())
+        assert cached in caches([here])
+        before = runs.held([here])
+        cached(1), cached(2)
+        assert runs.held([here]) - before == 2 * 8_000_000
+    finally:
+        cached.cache_clear()
+        runs.close()
+
+
+def test_room_is_made_by_what_is_needed_least(monkeypatch):
+    trimmed = []
+    monkeypatch.setattr(runs_module, "give_back", lambda: trimmed.append(True))
+    runs = Runs(most_bytes=10**9)
+    try:
+        sessions = [Session(fake.lesson, runs.timelines) for _ in range(3)]
+        for angle, session in enumerate(sessions):
+            session.change(angle=float(angle), points=50_000)
+            session.timeline.complete()
+            assert session.look() is not None
+        runs.timelines.get(fake.lesson, fake.Params(points=50_000)).complete()  # nobody's any more
+        each = min(sum(run.owned().values()) for run in runs.timelines.alive() if run.bytes)
+        runs._most_bytes = int(2.5 * each)
+
+        def sleeper(session: Session) -> Callable[[], bool]:
+            return lambda: session.let_go() is None
+
+        gone = weakref.ref(sessions[0].timeline), weakref.ref(sessions[1].timeline)
+        held = runs.make_room([], [sleeper(session) for session in sessions])
+        gc.collect()
+        assert held <= runs._most_bytes
+        assert gone[0]() is None
+        assert gone[1]() is not None, "no more than must be"
+        assert trimmed
+        sessions[0].take_up()
+        sessions[0].timeline.complete()
+        look = sessions[0].look()
+        assert look is not None
+        assert look.params.angle == 0.0
+    finally:
+        runs.close()
