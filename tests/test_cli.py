@@ -314,7 +314,12 @@ class TestReopen:
         assert main(["reopen", out, "--host", "127.0.0.1", *HIDDEN]) == 0
         [(*place, server)] = opened
         assert place == [lesson, preset.params, None]
-        assert (server["host"], server["port"], server["browser"], server["open_to_all"]) == ("127.0.0.1", 0, False, False)
+        assert (server["host"], server["port"], server["browser"], server["open_to_all"]) == (
+            "127.0.0.1",
+            0,
+            False,
+            False,
+        )
         assert capsys.readouterr().err == ""
 
     def test_another_version_is_a_warning_and_an_attempt(self, capsys, tmp_path, opened, monkeypatch):

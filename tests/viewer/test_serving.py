@@ -13,7 +13,8 @@ import pytest
 
 from workbench.cli import main
 from workbench.errors import InputError
-from workbench.viewer.serving import free_port, serve
+from workbench.viewer.server import listening
+from workbench.viewer.serving import serve
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -35,7 +36,7 @@ def test_the_course_is_served_at_the_address_that_is_printed_until_interrupted()
         assert address.startswith("http://127.0.0.1:")
         answer = httpx.get(address)
         assert answer.status_code == 200
-        assert answer.text.count('<li data-lesson="') >= 7
+        assert answer.text.count('<li data-card="') >= 7
         port = address.rpartition(":")[2]
         done = subprocess.run(
             [sys.executable, "-m", "workbench", "show", "icp", "--no-browser", "--port", port],
@@ -70,7 +71,7 @@ def test_a_lesson_opens_at_its_params_and_step_and_the_course_is_one_link_away(t
 )
 def test_where_it_cannot_listen_is_said(host, port, why):
     with pytest.raises(InputError, match=why):
-        free_port(host, port)
+        listening(host, port)
 
 
 def test_a_browser_is_opened_at_the_address_unless_told_otherwise(monkeypatch, capsys):
@@ -92,4 +93,4 @@ def test_a_taken_port_is_told_before_anything_is_started():
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         with pytest.raises(InputError, match="is in use"):
-            free_port("127.0.0.1", taken.getsockname()[1])
+            listening("127.0.0.1", taken.getsockname()[1])

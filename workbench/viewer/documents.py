@@ -38,9 +38,7 @@ def lesson_page(lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched 
     article = _told(lesson, "page", lambda: article_html(lesson, lambda run, step: address(lesson, run, step)))
     exercises = _told(lesson, "exercises", lambda: _exercises(lesson, watched))
     course = [{"name": one.name, "title": one.title} for one in in_order(lessons)]
-    return lesson_document(
-        lesson, article, home="live", root=ROOT, ending=exercises, more={"COURSE": course}
-    )
+    return lesson_document(lesson, article, home="live", root=ROOT, ending=exercises, more={"COURSE": course})
 
 
 def in_order(lessons: Mapping[str, Lesson]) -> list[Lesson]:

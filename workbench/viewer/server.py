@@ -89,9 +89,9 @@ class Server:
     ):
         self.lessons: dict[str, Lesson] = dict(catalog()) | ({start.lesson.name: start.lesson} if start else {})
         self.rules = Rules(host, open_to_all=open_to_all, behind=behind)
-        listening = _listening(host, port)
+        own = listening(host, port)
         more_files()
-        self.port = listening.getsockname()[1]
+        self.port = own.getsockname()[1]
         self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
         self.students: dict[str, Student] = {}
         self._scenes: dict[str, viser.ClientHandle] = {}
@@ -116,7 +116,7 @@ class Server:
             timeout_graceful_shutdown=2,
         )
         self._uvicorn = uvicorn.Server(config)
-        self._thread = threading.Thread(target=self._uvicorn.run, args=([listening],), daemon=True)
+        self._thread = threading.Thread(target=self._uvicorn.run, args=([own],), daemon=True)
         self._thread.start()
         while not self._uvicorn.started:
             if not self._thread.is_alive():
@@ -326,7 +326,7 @@ def _connections_of(server: viser.ViserServer) -> Mapping[int, Any]:
     return connections
 
 
-def _listening(host: str, port: int) -> sockets.socket:
+def listening(host: str, port: int) -> sockets.socket:
     """Return a socket that listens.
 
     Raises:
