@@ -60,6 +60,7 @@ ALLOWED = {
     },
     "workbench.authoring": LESSON | {"workbench.authoring", "workbench.exercise", "workbench.flags", "workbench.typeset"},
     "workbench.flags": LESSON | {"workbench.flags"},
+    "workbench.notebook": None,  # a top of its own, as the commands are
     "workbench.cli": None,  # the top: it may import everything
     "workbench.__main__": None,
     "workbench": None,

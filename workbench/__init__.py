@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from workbench.notebook import replay as replay
     from workbench.recording.read import open_recording as open_recording
     from workbench.recording.write import record as record
 
@@ -10,7 +11,11 @@ __version__ = "0.1.0"
 
 
 def __getattr__(name: str) -> Any:
-    """Import `record` and `open_recording` when they are asked for: the rest starts without rerun."""
+    """Import `record`, `open_recording` and `replay` when they are asked for: the rest starts without rerun and viser."""
+    if name == "replay":
+        from workbench import notebook
+
+        return notebook.replay
     if name in ("record", "open_recording"):
         from workbench import recording
 

@@ -9,8 +9,10 @@ from typing import Any
 from workbench.lesson import Lesson
 from workbench.page.article import PLACE
 from workbench.page.lessons import lesson_data
+from workbench.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
+MATH = "math.css"
 STYLES = ("page.css", "ending.css", "course.css")
 SCRIPTS = (
     "tools.js", "curves.js", "stage.js", "transport.js", "beside.js", "article.js", "knobs.js", "exercise.js",
@@ -37,7 +39,7 @@ def lesson_document(
     article: str,
     *,
     home: str,
-    root: str,
+    root: str | None,
     head: str = "",
     ending: str = "",
     more: Mapping[str, Any] | None = None,
@@ -50,11 +52,11 @@ def lesson_document(
         lesson: What it is about.
         article: Its text as HTML, with PLACE where the questions belong.
         home: `live`, `site` or `notebook`.
-        root: The relative address of the folder with the page's own files.
+        root: The relative address of the folder with the page's own files; None puts them all into the document.
         head: More HTML for the head.
         ending: What stands behind the text and its experiments, as HTML.
         more: What else the scripts need: name of a constant -> plain data.
-        alone: Of a page that shows one run and no article, its title and the address of the lesson's page.
+        alone: Of a page that shows one run and no article, its title and the address of the lesson's page, if it has one.
         still: The address of a picture that stands for the scene where no script runs.
     """
     data = lesson_data(lesson) | ({} if home == "live" else {"knobs": []})
@@ -63,14 +65,33 @@ def lesson_document(
     heading = f"{lesson.title}: {alone[0]}" if alone else lesson.title
     text = _alone(heading, alone[1]) if alone else _article(article, home, data, ending)
     return (
-        f"{document_head(heading, lesson.summary, root, head)}"
+        f"{document_head(heading, lesson.summary, root, head, math=root is not None or not alone)}"
         f'<body{" class=alone" if alone else ""} data-home="{home}" data-lesson="{escape(lesson.name)}">'
         f'<a class="skip" href="#stage">To the stage</a><main>{text}'
         f'<div id="side">{_stage(still)}</div></main>'
         f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"
-        + "".join(f'<script src="{root}{name}"></script>' for name in scripts)
+        + "".join(_script(root, name) for name in scripts)
         + "</body></html>\n"
     )
+
+
+def _script(root: str | None, name: str) -> str:
+    if root is not None:
+        return f'<script src="{root}{name}"></script>'
+    text = bare(STATIC / name).replace("</script", "<\\/script")
+    return f"<script>{text}</script>"
+
+
+def _style(root: str | None, name: str) -> str:
+    if root is not None:
+        return f'<link rel="stylesheet" href="{root}{name}">'
+    return f"<style>{math_font_css() if name == MATH else bare(STATIC / name)}</style>"
+
+
+def bare(file: Path) -> str:
+    """Return a script or style without the lines that only tell a reader something, and without indents."""
+    lines = (line.strip() for line in file.read_text(encoding="utf-8").splitlines())
+    return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
 
 
 def _article(article: str, home: str, data: dict[str, Any], ending: str) -> str:
@@ -91,12 +112,12 @@ def _article(article: str, home: str, data: dict[str, Any], ending: str) -> str:
 
 
 def _alone(heading: str, lesson_page: str) -> str:
-    return f'<header id="article"><h1>{escape(heading)}</h1>{_top("The lesson", lesson_page)}</header>'
+    return f'<header id="article"><h1>{escape(heading)}</h1>{_top("The lesson" if lesson_page else "", lesson_page)}</header>'
 
 
 def _top(words: str, address: str) -> str:
     return (
-        f'<nav class="top"><a href="{address}">{words}</a>'
+        f'<nav class="top">{f"""<a href="{address}">{words}</a>""" if words else ""}'
         '<button type="button" id="theme" title="Light or dark (T)">◐</button>'
         '<button type="button" id="help" title="Keys (?)">?</button></nav>'
     )
@@ -108,14 +129,14 @@ def in_script(value: Any) -> str:
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
-def document_head(title: str, summary: str, root: str, more: str) -> str:
+def document_head(title: str, summary: str, root: str | None, more: str, *, math: bool = True) -> str:
     """Return the head of a document of ours."""
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<title>{escape(title)}</title><meta name="description" content="{escape(summary)}">'
         f'<link rel="icon" href="data:,">'
-        + "".join(f'<link rel="stylesheet" href="{root}{name}">' for name in (*STYLES, "math.css"))
+        + "".join(_style(root, name) for name in (*STYLES, *([MATH] if math else [])))
         + f"{more}</head>"
     )
 

@@ -170,18 +170,21 @@ def render(lesson: Lesson, run: Run, renderer: Renderer) -> dict[str, bytes]:
     if timeline.stopped is not None:
         raise InputError(f"{lesson.name}, {run.title}: {timeline.stopped}")
     page, data = renderer.scene(timeline)
-    head, tail = page.split('window.__VISER_EMBED_DATA__=""')
-    viser_page = (
-        f"viserPage({in_script(head + 'window.__VISER_EMBED_DATA__=' + chr(34))}, {in_script(chr(34) + tail)});\n"
-    )
     preset = run.name if any(preset.name == run.name for preset in lesson.presets) else None
     script_file, alone, *recordings = files_of(lesson, run)
     return {
-        VISER_PAGE: viser_page.encode(),
+        VISER_PAGE: viser_script(page).encode(),
         script_file: run_script(lesson, run, timeline, data).encode(),
         alone: run_page(lesson, run).encode(),
         **{name: record_bytes(timeline, preset=preset) for name in recordings},
     }
+
+
+def viser_script(page: str) -> str:
+    """Return the script with viser's page, which draws the scenes of all runs."""
+    head, tail = page.split('window.__VISER_EMBED_DATA__=""')
+    parts = f'{head}window.__VISER_EMBED_DATA__="', f'"{tail}'
+    return f"viserPage({', '.join(map(in_script, parts))});\n"
 
 
 def run_script(lesson: Lesson, run: Run, timeline: Timeline, scene: str) -> str:

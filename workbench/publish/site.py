@@ -10,7 +10,7 @@ import viser
 import workbench
 from workbench.errors import InputError
 from workbench.lesson import Lesson
-from workbench.page.document import RECORDED, SCRIPTS, STATIC, STYLES
+from workbench.page.document import MATH, RECORDED, SCRIPTS, STATIC, STYLES, bare
 from workbench.page.thumbnail import thumbnail
 from workbench.progress import Progress
 from workbench.publish.ledger import NAME, Ledger, Listed
@@ -79,12 +79,6 @@ def publish(
         raise InputError(f"{error.filename or out}: {error.strerror or error}") from None
 
 
-def _bare(file: Path) -> bytes:
-    """Return a script or style without the lines that only tell a reader something, and without indents."""
-    lines = (line.strip() for line in file.read_text(encoding="utf-8").splitlines())
-    return ("\n".join(line for line in lines if line and not line.startswith("//")) + "\n").encode()
-
-
 def _publish(
     out: Path,
     lessons: Sequence[Lesson],
@@ -101,8 +95,8 @@ def _publish(
     if others and ledger.made_by != made_by:
         raise InputError(f"{out}: its other lessons were published by another version; publish all of them again")
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]
-    shared = {f"{PAGE}/{name}": _bare(STATIC / name) for name in (*STYLES, *RECORDED, *SCRIPTS)}
-    shared |= {f"{PAGE}/math.css": math_font_css().encode(), ".nojekyll": b""}
+    shared = {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *RECORDED, *SCRIPTS)}
+    shared |= {f"{PAGE}/{MATH}": math_font_css().encode(), ".nojekyll": b""}
     wanted = {COURSE_PAGE, LESSONS, VISER_PAGE, *shared}
     wanted |= {f"{name}/{file}" for name in names for file in (COURSE_PAGE, PICTURE)}
     wanted |= {name for lesson, run in work for name in files_of(lesson, run)}

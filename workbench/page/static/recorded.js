@@ -97,7 +97,7 @@ const source = {
     if (this.open_) this.show(page.k, false);
   },
 
-  reset() { this.open("default", null); },
+  reset() { if (Object.hasOwn(RECORDED.files, "default")) this.open("default", null); },
 
   // keeps the step that is shown behind the next ones, or lets it go
   pin() {

@@ -1,0 +1,129 @@
+"""A run in a notebook: the page in one frame, with all that it needs inside, so that it plays in a saved notebook too."""
+
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from workbench import knobs
+from workbench.errors import InputError
+from workbench.flags import show_command
+from workbench.lesson import Lesson, find
+from workbench.loading import load
+from workbench.numerals import brief
+from workbench.page.document import lesson_document
+from workbench.publish.replay import Renderer
+from workbench.publish.runs import Run, run_script, viser_script
+from workbench.timeline import Timeline
+
+LEAST_HEIGHT = 320
+
+
+def replay(
+    lesson: str | Path | Lesson, *, preset: str | None = None, steps: int | None = None, height: int = 640, **params: Any
+) -> "Replay":
+    """Return a run to be shown as the value of a notebook's cell.
+
+    It plays, steps back, pins and shows its code like any page, without a server and without any file or network, also
+    where the notebook was saved or exported as HTML.
+
+        workbench.replay("icp", start_angle=120)
+        workbench.replay("icp", preset="far", steps=40, height=500)
+
+    Args:
+        lesson: Its name, the path of a lesson of one's own, or the lesson itself.
+        preset: What the params start from; without one the lesson's defaults.
+        steps: How many steps are kept, from the first; all by default.
+        height: Of the frame, pixels.
+        params: Fields of the lesson's Params.
+
+    Raises:
+        InputError: If there is no such lesson, preset or param, a value is out of range, or the run gives no step.
+    """
+    chosen = lesson if isinstance(lesson, Lesson) else load(lesson) if isinstance(lesson, Path) else find(lesson)
+    if steps is not None and steps < 1:
+        raise InputError(f"steps = {steps}: how many steps are kept, 1 or more")
+    if height < LEAST_HEIGHT:
+        raise InputError(f"height = {height}: the page needs {LEAST_HEIGHT} pixels or more")
+    base = None if preset is None else chosen.preset(preset).params
+    return Replay(chosen, chosen.validated(knobs.make(chosen.params, params, base=base)), steps, height)
+
+
+class Replay:
+    """A run that notebooks show.
+
+    Args:
+        lesson: What runs.
+        params: Its inputs.
+        steps: How many steps are kept; None keeps all.
+        height: Of the frame, pixels.
+
+    Raises:
+        InputError: If the run gives no step.
+    """
+
+    def __init__(self, lesson: Lesson, params: Any, steps: int | None, height: int):
+        self.lesson, self.params, self.height = lesson, params, height
+        self.timeline = Timeline(lesson, params)
+        while (steps is None or len(self.timeline) < steps) and self.timeline.extend():
+            pass
+        if not len(self.timeline):
+            raise InputError(self.timeline.stopped or f"lesson {lesson.name}: the run gives no step")
+        self._html = ""
+
+    def __repr__(self) -> str:
+        """Return the run as text: its last caption and numbers, and the command that opens it live."""
+        last = len(self.timeline) - 1
+        numbers = [
+            f"{one.scalar.name}: {brief(one.values[last])} {one.scalar.unit}".rstrip()
+            for one in self.timeline.series().values()
+            if np.isfinite(one.values[last])
+        ]
+        lines = [
+            f"{self.lesson.title}, step {last} of {last}: {self.timeline[last].caption.text}",
+            *([", ".join(numbers)] if numbers else []),
+            f"Live: {show_command(self.lesson, self.params)}",
+        ]
+        return "\n".join(lines)
+
+    def document(self) -> str:
+        """Return the page as one HTML document that needs nothing else."""
+        preset = self.lesson.preset_of(self.params)
+        run = Run(
+            name="default" if preset is None else preset.name,
+            title="one run" if preset is None else preset.title,
+            line="",
+            params=self.params,
+            first=0,
+            recorded=False,
+        )
+        with Renderer() as renderer:
+            page, scene = renderer.scene(self.timeline)
+        known = {
+            "root": "",
+            "runs": None,
+            "open": run.name,
+            "files": {run.name: ""},
+            "titles": {run.name: run.title},
+            "aliases": {},
+            "sweeps": [],
+            "answers": {},
+        }
+        document = lesson_document(
+            self.lesson, "", home="notebook", root=None, more={"RECORDED": known}, alone=(run.title, "")
+        )
+        own = viser_script(page) + run_script(self.lesson, run, self.timeline, scene)
+        return document.replace("</body>", f"<script>{own}</script></body>")
+
+    def _repr_html_(self) -> str:
+        if not self._html:
+            title = escape(f"{self.lesson.title}, a run to be played")
+            self._html = (
+                f'<iframe srcdoc="{escape(self.document())}" title="{title}" width="100%" height="{self.height}" '
+                f'style="border:1px solid #ccc;border-radius:6px">{escape(repr(self))}</iframe>'
+            )
+        return self._html
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        return {"text/html": self._repr_html_(), "text/plain": repr(self)}
