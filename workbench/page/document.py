@@ -59,10 +59,11 @@ def lesson_document(
     constants = {"LESSON": data} | dict(more or {})
     heading = f"{lesson.title}: {alone[0]}" if alone else lesson.title
     text = _alone(heading, alone[1]) if alone else _article(lesson, article, home, data)
+    shown = _stage(home, data, bool(lesson.sweeps) and not alone, still)
     return (
         f"{document_head(heading, lesson.summary, root, head)}"
         f'<body{" class=alone" if alone else ""} data-home="{home}" data-lesson="{escape(lesson.name)}">'
-        f'<a class="skip" href="#stage">To the stage</a><main>{text}{_stage(home, data, bool(lesson.sweeps) and not alone, still)}</main>'
+        f'<a class="skip" href="#stage">To the stage</a><main>{text}{shown}</main>'
         f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"
         + "".join(f'<script src="{root}{name}"></script>' for name in scripts)
         + "</body></html>\n"
