@@ -94,11 +94,11 @@ const feed = window.feed = { // viser's page in the frame looks for it
     }
     let veiled = false; // by a surface that is new: the client draws in the order in which things were made
     for (const [name, node] of wanted) {
-      const old = this.shown.get(name);
-      const same = old && old.add === node.add;
+      const old = this.shown.get(name), base = this.under(name);
+      const same = old && old.add === node.add && old.base === base;
       const again = same && veiled && !next && node.add.type === "LineSegmentsMessage";
-      if (again) sent.push({ type: "RemoveSceneNodeMessage", name: old.name, owner: "" });
-      const now = { ...node, name: again ? `${name}~~${++this.made}` : old?.name ?? name };
+      if (again || (old && old.base !== base)) sent.push({ type: "RemoveSceneNodeMessage", name: old.name, owner: "" });
+      const now = { ...node, base, name: again ? `${base}~~${++this.made}` : old && old.base === base ? old.name : base };
       this.shown.set(name, now);
       if (!same || again) {
         sent.push({ ...node.add, name: now.name, props: node.props }, ...pose(now.name, node), visibility(now));
@@ -112,6 +112,12 @@ const feed = window.feed = { // viser's page in the frame looks for it
       if (String([from.wxyz, from.position]) !== String([node.wxyz, node.position])) moves.push([from, node, now.name, now]);
     }
     return { sent, moves };
+  },
+
+  // a node's name below that of its parent, which goes with it
+  under(name) {
+    const cut = name.lastIndexOf("/"), parent = cut > 0 && this.shown.get(name.slice(0, cut));
+    return parent ? parent.name + name.slice(cut) : name;
   },
 
   glide(moves) {

@@ -50,7 +50,7 @@ const source = {
       if (wish !== this.wanted) return;
       if (this.open_?.nodes !== nodes) feed.open(nodes.first);
       this.open_ = { name: run, data, nodes };
-      this.show(page.k, false);
+      this.show(page.k, 0);
     } catch (error) {
       if (wish === this.wanted) page.say(error.message, "wrong");
     }
@@ -79,14 +79,15 @@ const source = {
     const open = this.open_;
     if (!open || open.name !== page.run.name) return; // it is shown when it has come
     const at = k < 0 ? page.known() + k : Math.min(k, page.known() - 1);
-    this.show(at, Math.abs(at - page.k) === 1);
+    this.show(at, at - page.k);
   },
 
-  show(k, near) {
+  // shows a step of the run that is open; `by` is how many steps it follows what is shown, 0 where it does not
+  show(k, by) {
     const nodes = this.open_.nodes[Math.min(k, this.open_.nodes.length - 1)];
     const wanted = this.path ? litNodes(nodes, this.path, feed.dark) : nodes;
     const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    feed.show(this.pinned ? withGhosts(wanted, this.pinned.ghosts) : wanted, { glide: near && !still, next: near });
+    feed.show(this.pinned ? withGhosts(wanted, this.pinned.ghosts) : wanted, { glide: Math.abs(by) === 1 && !still, next: by === 1 });
   },
 
   recorded: (run) => (run.recording && RECORDED.runs !== null ? `${RECORDED.runs}${run.recording}` : null),
@@ -94,7 +95,7 @@ const source = {
 
   light(path) {
     this.path = path;
-    if (this.open_) this.show(page.k, false);
+    if (this.open_) this.show(page.k, 0);
   },
 
   reset() { if (Object.hasOwn(RECORDED.files, "default")) this.open("default", null); },
@@ -106,7 +107,7 @@ const source = {
     const nodes = open.nodes[page.k];
     this.pinned = this.pinned ? null : { nodes, ghosts: ghostsOf(nodes, feed.dark), series: run.series };
     page.told({ id: run.id, pinned: this.pinned?.series ?? null });
-    this.show(page.k, false);
+    this.show(page.k, 0);
   },
 
   predict(question, given) {
@@ -121,6 +122,6 @@ const source = {
     feed.theme(dark);
     if (!this.open_ || !this.pinned) return;
     this.pinned.ghosts = ghostsOf(this.pinned.nodes, dark);
-    this.show(page.k, false);
+    this.show(page.k, 0);
   },
 };

@@ -75,7 +75,7 @@ const keys = {
   },
 
   pressed(event) {
-    const typing = event.target.closest("input:not([type=range]), select, textarea, pre");
+    const typing = event.target.closest("input:not(#step), select, textarea, pre");
     const chosen = event.key === " " && event.target.closest("button, a, summary");
     if (typing || chosen || event.ctrlKey || event.metaKey || event.altKey) return;
     const verb = this.verbs[event.key], other = this.others[event.key.toLowerCase()];
