@@ -21,8 +21,9 @@ from workbench.errors import AuthorError, InputError
 from workbench.exercise.driven import Pair, first_difference
 from workbench.flags import show_command
 from workbench.knobs import Pick, fields_of, with_own_files
-from workbench.lesson import Lesson, View
+from workbench.lesson import Lesson
 from workbench.page.charts import series_of
+from workbench.page.lessons import files_of, values_of
 from workbench.page.steps import Steps
 from workbench.picking import picked_params
 from workbench.questions import answer
@@ -32,7 +33,7 @@ from workbench.viewer.following import Following
 from workbench.viewer.handles import Handles, listen_for_clicks
 from workbench.viewer.own_files import OwnFiles
 from workbench.viewer.sink import ViserSink
-from workbench.viewer.stage import BACKDROPS, set_stage
+from workbench.viewer.stage import BACKDROPS, Aim
 from workbench.viewer.terminal import tell_terminal
 
 SLICE = 0.04  # seconds of computing between two pictures
@@ -59,8 +60,7 @@ class Student:
         self._client: viser.ClientHandle | None = None
         self._sink: ViserSink | None = None
         self._staged: Lesson | None = None
-        self._view: View | None = None  # wanted; a camera that a person turned stays as long as this does
-        self._aimed: tuple[str, View] | None = None
+        self._aim = Aim()
         self._steps: Steps | None = None
         self._sent: set[int] = set()  # numbers of things of this run that the page has
         self._told: Any = None  # what was last said of the run
@@ -76,7 +76,7 @@ class Student:
 
     def _join(self, client: viser.ClientHandle) -> None:
         self._client, self._sink, self._staged, self._handles = client, ViserSink(client.scene), None, None
-        self._aimed = None
+        self._aim.lost()
         client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=self._dark)
         self._told = None
         self._wake.set()
@@ -148,7 +148,7 @@ class Student:
         session = self.session or Session(place.lesson, self.timelines)
         session.open(place.lesson, params, place.step)
         session.message, self.session = trouble, session
-        self._look_anew()
+        self._aim.open(session.lesson, params)
         if self.following is not None:
             self._news += self.following.news(place.lesson)
 
@@ -169,7 +169,7 @@ class Student:
             session.use_preset(name)
         if isinstance(step, int):
             session.open(session.lesson, session.params, step)
-        self._look_anew()
+        self._aim.open(session.lesson, session.params)
 
     async def change(self, message: Mapping[str, Any]) -> None:
         """Set params; files are not set from a browser."""
@@ -182,7 +182,7 @@ class Student:
         """Go back to the default run."""
         if self.session is not None:
             self.session.reset()
-            self._look_anew()
+            self._aim.open(self.session.lesson, self.session.params)
 
     async def forget(self, message: Mapping[str, Any]) -> None:
         """Go on without a file of one's own."""
@@ -215,7 +215,7 @@ class Student:
             return
         await self._tell(tell="answer", question=question.name, right=found.right, truth=found.truth, why=found.why)
         session.open(lesson, question.params, found.step)
-        self._look_anew()
+        self._aim.open(lesson, question.params)
 
     async def handles(self, message: Mapping[str, Any]) -> None:
         """Show the handles in the scene, or hide them."""
@@ -264,18 +264,13 @@ class Student:
         view = before.view_of(session.params)
         session.go_on(after, carried(session.params, after))
         if view != after.view_of(session.params):
-            self._look_anew()
+            self._aim.open(after, session.params)
         self._tell_where(after, news or {"tell": "notice", "text": ""})
 
     def _tell_where(self, lesson: Lesson, news: Mapping[str, Any]) -> None:
         if self.session is not None and self.session.lesson is lesson:
             self._news.append(news)
             self._wake.set()
-
-    def _look_anew(self) -> None:
-        """Take the camera of the run that was opened."""
-        if self.session is not None:
-            self._view = self.session.lesson.view_of(self.session.params)
 
     # telling --------------------------------------------------------------------------------------------------------
 
@@ -305,16 +300,12 @@ class Student:
             "tell": "run",
             "run": self._run,
             "name": preset,
-            "params": _values(params),
+            "params": values_of(params),
             "known": look.known,
             "finished": look.finished,
             "pinned": series_of(look.pinned_series) if look.pinned else None,
             "mark": first_difference(look.timeline.known()),
-            "files": {
-                field.name: value.name
-                for field in fields_of(type(params))
-                if field.sensitive and (value := getattr(params, field.name)) is not None
-            },
+            "files": files_of(params),
             "command": show_command(lesson, params),
             "query": links.write(links.Place(lesson, params)),
             **self._steps.series(),
@@ -343,7 +334,8 @@ class Student:
             with Blaming(f"lesson {look.lesson.name}", look.lesson.draw), self._client.atomic():
                 if self._staged is not look.lesson:
                     self._set_up(look.lesson)
-                self._aim(look)
+                if self.session is not None and look.timeline is self.session.timeline:  # else it is of the run before
+                    self._aim.show(self._client, look.lesson, look.timeline.params)
                 self._sink.show(look.scene)
                 if self._wants_handles and self._handles is None:
                     self._handles = Handles(self._client.scene, look.lesson.params, self._moved)
@@ -368,19 +360,6 @@ class Student:
         can_be_picked = any(isinstance(field.knob.by, Pick) for field in fields_of(lesson.params))
         listen_for_clicks(self._client.scene, self._clicks if can_be_picked else None)
         self._staged = lesson
-
-    def _aim(self, look: Look) -> None:
-        """Set camera and grid where a run with another view was opened; a knob keeps the camera as long as the grid fits."""
-        assert self._client is not None
-        assert self.session is not None
-        if self._aimed is not None and look.timeline is not self.session.timeline:
-            return  # the picture is of the run before
-        own = look.timeline.lesson.view_of(look.timeline.params)
-        if self._view is None or (self._view.grid, self._view.grid_height) != (own.grid, own.grid_height):
-            self._view = own
-        if self._aimed != (look.lesson.name, self._view):
-            set_stage(self._client, self._view)
-            self._aimed = (look.lesson.name, self._view)
 
     def _clicks(self, p_origin: np.ndarray, v_ray: np.ndarray) -> None:
         """Note a click in the scene; called in viser's thread."""
@@ -417,9 +396,3 @@ VERBS: Mapping[str, Callable[[Student, Mapping[str, Any]], Awaitable[None]]] = {
     "handles": Student.handles,
     "theme": Student.theme,
 }
-
-
-def _values(params: Any) -> dict[str, Any]:
-    """Return params as a page gets them: without the names of files."""
-    named = {field.name: getattr(params, field.name) for field in fields_of(type(params)) if not field.sensitive}
-    return {name: list(value) if isinstance(value, tuple) else value for name, value in named.items()}
