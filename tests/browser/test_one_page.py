@@ -88,3 +88,15 @@ def test_a_link_that_cannot_be_used_is_told_and_the_page_lives(visit):
     me.page.locator("#caption.wrong", has_text=re.compile("start_angle")).wait_for()
     me.act("next")
     assert me.page.locator("button[data-run=far]").is_enabled()
+
+
+def test_a_phone_shows_caption_and_controls(visit):
+    run = Timeline(catalog()["icp"], catalog()["icp"].params()).complete()
+    me = visit("?lesson=icp&step=2", width=390, height=844)
+    me.says(run[2].caption.text)
+    box = me.page.locator("#caption").bounding_box()
+    assert box is not None
+    assert box["x"] >= 0
+    assert box["width"] > 300
+    me.act("next")
+    me.says(run[3].caption.text)

@@ -117,7 +117,7 @@ def test_the_camera_is_set_when_a_run_with_another_view_is_opened_and_else_left_
         ),
     )
     views: list[View] = []
-    monkeypatch.setattr("workbench.viewer.live_scene.set_stage", lambda client, view: views.append(view))
+    monkeypatch.setattr("workbench.viewer.stage.set_stage", lambda client, view: views.append(view))
 
     async def script(me: Talk) -> None:
         async def done(**params) -> list[View]:

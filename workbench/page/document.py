@@ -112,7 +112,8 @@ def _article(article: str, home: str, data: dict[str, Any], ending: str) -> str:
 
 
 def _alone(heading: str, lesson_page: str) -> str:
-    return f'<header id="article"><h1>{escape(heading)}</h1>{_top("The lesson" if lesson_page else "", lesson_page)}</header>'
+    words = "The lesson" if lesson_page else ""
+    return f'<header id="article"><h1>{escape(heading)}</h1>{_top(words, lesson_page)}</header>'
 
 
 def _top(words: str, address: str) -> str:

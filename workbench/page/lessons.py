@@ -44,6 +44,18 @@ def knob_data(field: Field) -> dict[str, Any]:
     return data | {"low": knob.low, "high": knob.high, "step": field.step, "parts": part_names(field)}
 
 
+def values_of(params: Any) -> dict[str, Any]:
+    """Return params as a page gets them: without files."""
+    named = {field.name: getattr(params, field.name) for field in fields_of(type(params)) if not field.sensitive}
+    return {name: list(value) if isinstance(value, tuple) else value for name, value in named.items()}
+
+
+def files_of(params: Any) -> dict[str, str]:
+    """Return what the files that are open are called, by field; not where they are."""
+    paths = {field.name: getattr(params, field.name) for field in fields_of(type(params)) if field.sensitive}
+    return {name: path.name for name, path in paths.items() if path is not None}
+
+
 def part_names(field: Field) -> tuple[str, ...]:
     """Return the names of a vector's entries; of a single number one empty name."""
     if not field.length:

@@ -9,14 +9,14 @@ from workbench.authors import Blaming
 from workbench.emphasis import lit
 from workbench.errors import InputError
 from workbench.knobs import Pick, fields_of
-from workbench.lesson import Lesson, View
+from workbench.lesson import Lesson
 from workbench.motion import FRAMES, Move, between, moves
 from workbench.scene import Scene
 from workbench.session import Look
 from workbench.timeline import Timeline
 from workbench.viewer.handles import Handles, listen_for_clicks
 from workbench.viewer.sink import ViserSink
-from workbench.viewer.stage import BACKDROPS, set_stage
+from workbench.viewer.stage import BACKDROPS, Aim
 from workbench.viewer.terminal import tell_terminal
 
 
@@ -38,9 +38,7 @@ class LiveScene:
         self.wants_handles = False
         self.path = ""
         """What stands out, because somebody reads of it."""
-        self.view: View | None = None
-        """Wanted; a camera that a person turned stays as long as this does."""
-        self._aimed: tuple[str, View] | None = None
+        self.aim = Aim()
         self._staged: Lesson | None = None
         self._handles: Handles | None = None
         self._shown: tuple[Timeline, int, Scene] | None = None
@@ -49,7 +47,8 @@ class LiveScene:
     def take(self, client: viser.ClientHandle | None) -> None:
         """Draw in this client from now on; None where it has gone."""
         self.client, self._sink, self._staged, self._handles = client, None, None, None
-        self._aimed = self._shown = self._way = None
+        self._shown = self._way = None
+        self.aim.lost()
         if client is not None:
             self._sink = ViserSink(client.scene, BACKDROPS[self.dark])
             self._theme(client)
@@ -73,8 +72,8 @@ class LiveScene:
             with Blaming(f"lesson {look.lesson.name}", look.lesson.draw), self.client.atomic():
                 if self._staged is not look.lesson:
                     self._set_up(look.lesson)
-                if current or self._aimed is None:
-                    self._aim(look)
+                if current:
+                    self.aim.show(self.client, look.lesson, look.timeline.params)
                 self._begin(look)
                 if self._sink.backdrop != BACKDROPS[self.dark]:
                     self._sink.repaint(BACKDROPS[self.dark])
@@ -130,16 +129,6 @@ class LiveScene:
         can_be_picked = any(isinstance(field.knob.by, Pick) for field in fields_of(lesson.params))
         listen_for_clicks(self.client.scene, self._clicked if can_be_picked else None)
         self._staged = lesson
-
-    def _aim(self, look: Look) -> None:
-        """Set camera and grid where a run with another view was opened; a knob keeps the camera as long as the grid fits."""
-        assert self.client is not None
-        own = look.timeline.lesson.view_of(look.timeline.params)
-        if self.view is None or (self.view.grid, self.view.grid_height) != (own.grid, own.grid_height):
-            self.view = own
-        if self._aimed != (look.lesson.name, self.view):
-            set_stage(self.client, self.view)
-            self._aimed = (look.lesson.name, self.view)
 
     def _theme(self, client: viser.ClientHandle) -> None:
         client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=self.dark)

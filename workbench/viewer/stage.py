@@ -1,15 +1,42 @@
 """The empty stage of a lesson: camera, world up, grid with a stated spacing, labelled axes."""
 
+from typing import Any
+
 import numpy as np
 import viser
 
-from workbench.lesson import View
+from workbench.lesson import Lesson, View
 
 BACKDROPS = {False: (255, 255, 255), True: (20, 21, 23)}  # viser's canvas in the light and the dark theme
 _PLANES = ("yz", "xz", "xy")
 
 
 NARROWEST = 1.2  # width of a picture by its height; in a narrower one a lesson is seen from farther away
+
+
+class Aim:
+    """Where a client's camera is put: anew when a run with another view is opened, and else left to the person."""
+
+    def __init__(self) -> None:
+        self._wanted: View | None = None
+        self._set: tuple[str, View] | None = None
+
+    def lost(self) -> None:
+        """Note that the client is another one."""
+        self._set = None
+
+    def open(self, lesson: Lesson, params: Any) -> None:
+        """Want the view of a run that was opened."""
+        self._wanted = lesson.view_of(params)
+
+    def show(self, client: viser.ClientHandle, lesson: Lesson, params: Any) -> None:
+        """Make the stage as wanted; a run of another grid than that, which a knob led to, brings its own view."""
+        own = lesson.view_of(params)
+        if self._wanted is None or (self._wanted.grid, self._wanted.grid_height) != (own.grid, own.grid_height):
+            self._wanted = own
+        if self._set != (lesson.name, self._wanted):
+            set_stage(client, self._wanted)
+            self._set = (lesson.name, self._wanted)
 
 
 def set_stage(client: viser.ClientHandle, view: View) -> None:

@@ -25,6 +25,7 @@ from workbench.knobs import fields_of, with_own_files
 from workbench.lesson import Lesson
 from workbench.motion import FRAMES, SECONDS
 from workbench.page.charts import series_of
+from workbench.page.lessons import files_of, values_of
 from workbench.page.steps import Steps
 from workbench.picking import picked_params
 from workbench.questions import answer
@@ -179,7 +180,7 @@ class Student:
         session = self.session or Session(place.lesson, self.runs.timelines)
         session.open(place.lesson, params, place.step)
         session.message, self.session = trouble, session
-        self._look_anew()
+        self._scene.aim.open(session.lesson, params)
         if self.following is not None:
             self._news += self.following.news(place.lesson)
 
@@ -200,7 +201,7 @@ class Student:
             session.use_preset(name)
         if isinstance(step, int):
             session.open(session.lesson, session.params, step)
-        self._look_anew()
+        self._scene.aim.open(session.lesson, session.params)
 
     async def change(self, message: Mapping[str, Any]) -> None:
         """Set params; files are not set from a browser."""
@@ -213,7 +214,7 @@ class Student:
         """Go back to the default run."""
         if self.session is not None:
             self.session.reset()
-            self._look_anew()
+            self._scene.aim.open(self.session.lesson, self.session.params)
 
     async def forget(self, message: Mapping[str, Any]) -> None:
         """Go on without a file of one's own."""
@@ -247,7 +248,7 @@ class Student:
             return
         await self._tell(tell="answer", question=question.name, right=found.right, truth=found.truth, why=found.why)
         session.open(lesson, question.params, found.step)
-        self._look_anew()
+        self._scene.aim.open(lesson, question.params)
 
     async def handles(self, message: Mapping[str, Any]) -> None:
         """Show the handles in the scene, or hide them."""
@@ -316,18 +317,13 @@ class Student:
         view = before.view_of(session.params)
         session.go_on(after, carried(session.params, after))
         if view != after.view_of(session.params):
-            self._look_anew()
+            self._scene.aim.open(after, session.params)
         self._tell_where(after, news or {"tell": "notice", "text": ""})
 
     def _tell_where(self, lesson: Lesson, news: Mapping[str, Any]) -> None:
         if self.session is not None and self.session.lesson is lesson:
             self._news.append(news)
             self._wake.set()
-
-    def _look_anew(self) -> None:
-        """Take the camera of the run that was opened."""
-        if self.session is not None:
-            self._scene.view = self.session.lesson.view_of(self.session.params)
 
     # telling --------------------------------------------------------------------------------------------------------
 
@@ -364,10 +360,10 @@ class Student:
         params, lesson = look.params, look.lesson
         said = {
             "name": "default" if params == lesson.params() else getattr(lesson.preset_of(params), "name", ""),
-            "params": _values(params),
+            "params": values_of(params),
             "known": look.known,
             "finished": look.finished,
-            "files": _files(params),
+            "files": files_of(params),
             "mark": first_difference(look.timeline.known()) if self._is_watched(lesson) else None,
             "command": show_command(lesson, params),
             "query": links.write(links.Place(lesson, params)),
@@ -429,15 +425,3 @@ VERBS: Mapping[str, Callable[[Student, Mapping[str, Any]], Awaitable[None]]] = {
 
 def _packed(message: Mapping[str, Any]) -> str:
     return json.dumps(message, ensure_ascii=False, separators=(",", ":"))
-
-
-def _values(params: Any) -> dict[str, Any]:
-    """Return params as a page gets them: without the names of files."""
-    named = {field.name: getattr(params, field.name) for field in fields_of(type(params)) if not field.sensitive}
-    return {name: list(value) if isinstance(value, tuple) else value for name, value in named.items()}
-
-
-def _files(params: Any) -> dict[str, str]:
-    """Return the names, without folders, of the files that params name, by field."""
-    found = {field.name: getattr(params, field.name) for field in fields_of(type(params)) if field.sensitive}
-    return {name: value.name for name, value in found.items() if value is not None}

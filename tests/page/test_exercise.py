@@ -1,0 +1,59 @@
+"""Exercises on a lesson's page: all of them in every lesson, and the words of the terminal about a student's file."""
+
+import html
+from dataclasses import replace
+
+import pytest
+
+from tests import fake
+from workbench.exercise.finding import exercises_of
+from workbench.exercise.grading import grade_function
+from workbench.exercise.reports import counted, terminal
+from workbench.exercise.starter import commands, starter
+from workbench.lesson import catalog
+from workbench.page.exercise import report_data, watched_html
+from workbench.viewer.documents import lesson_page
+
+
+@pytest.mark.parametrize("lesson", catalog().values(), ids=lambda lesson: lesson.name)
+def test_every_lesson_s_page_has_its_exercises_and_the_way_on(lesson):
+    page = html.unescape(lesson_page(lesson, catalog()))
+    assert len(exercises_of(lesson)) >= 3
+    for exercise in exercises_of(lesson):
+        assert exercise.task in page
+        assert starter(exercise) in page
+        assert "\n".join(commands(exercise)) in page
+    names = list(catalog())
+    at = names.index(lesson.name)
+    for rel, beside in (("prev", names[:at][-1:]), ("next", names[at + 1 :][:1])):
+        for name in beside:
+            assert f'<a rel="{rel}" href="?lesson={name}"' in page
+        assert page.count(f'rel="{rel}"') == len(beside)
+
+
+def test_a_lesson_without_exercises_or_neighbours_has_no_such_section():
+    page = lesson_page(fake.lesson, {"fake": fake.lesson})
+    assert 'id="exercise"' not in page
+    assert 'class="beside"' not in page
+
+
+@pytest.mark.parametrize("exercise", exercises_of(catalog()["icp"]), ids=lambda exercise: exercise.name)
+def test_what_the_checks_found_is_said_in_the_words_of_the_terminal(exercise):
+    for function in (exercise.mistakes[0].function, exercise.alternatives[0]):
+        report = grade_function(function, exercise, hidden=False, file="mine.py")
+        data, said = report_data(report), terminal(report)
+        assert data["said"] == counted(report)
+        for check in data["checks"]:
+            assert f"{check['mark']} {check['word']:<7} {check['points']:>5}  {check['promise']}" in said
+            assert check["message"] in said
+        assert data["mistake"] in said
+        assert bool(data["mistake"]) == (report.mistake is not None)
+
+
+def test_what_a_student_wrote_cannot_end_up_as_html():
+    (exercise, *_) = exercises_of(catalog()["icp"])
+    evil = replace(exercise, task="<script>alert(1)</script>")
+    page = watched_html(evil, "<img src=x>.py")
+    assert "<script>" not in page
+    assert "<img" not in page
+    assert report_data("the file is being checked") == {"said": "the file is being checked"}
