@@ -123,7 +123,8 @@ async def learning(page: FakePage, until: float, waits: tuple[Waits, Waits], rng
             knob = knobs[rng.integers(len(knobs))]
             near = float(knob["default"]) + 0.1 * (knob["high"] - knob["low"]) * rng.uniform(-1, 1)
             value = float(np.clip(near, knob["low"], knob["high"]))
-            value = round(value) if knob["kind"] == "int" else value
+            if knob["kind"] == "int":
+                value = int(knob["low"] + knob["step"] * round((value - knob["low"]) / knob["step"]))
             if value != page.run["params"][knob["name"]]:
                 await page.change(knob["name"], value)
                 waits[0].add(page.came - began, max(0.0, page.scene_came - began))
@@ -197,7 +198,7 @@ async def measured(server: Served, given: argparse.Namespace, tasks: list[Callab
     await asyncio.gather(*(task(began + given.seconds) for task in tasks))
     ended, spent, memory = server.spent()
     seconds = ended - began
-    given.spent = (spent - cpu) / seconds, (time.process_time() - own) / seconds, memory
+    given.spent = (spent - cpu) / seconds, (time.process_time() - own) / seconds, memory, seconds
 
 
 SCENARIOS: dict[str, Any] = {"one": one_lesson, "mixed": mixed, "silent": silent}
@@ -229,9 +230,13 @@ def main() -> None:
                 f"{who:<18} {len(waits.words):6d} {np.median(words):18.0f} {np.quantile(words, 0.95):6.0f}"
                 f" {words.max():6.0f} {np.quantile(scene, 0.95):11.0f}   {GOALS[who]}"
             )
-        cores, ours, memory = given.spent
-        print(f"  server: {cores:.2f} cores, {memory:,.0f} MB; students: {ours:.2f} cores; load before {before:.1f}, "
-              f"after {os.getloadavg()[0]:.1f}\n", flush=True)  # fmt: skip
+        cores, ours, memory, seconds = given.spent
+        each = 1000 * cores * seconds / max(1, sum(len(waits.words) for waits in found.values()))
+        print(
+            f"  server: {cores:.2f} cores, {each:.1f} ms for each wish, {memory:,.0f} MB; students: {ours:.2f} cores; "
+            f"load before {before:.1f}, after {os.getloadavg()[0]:.1f}\n",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

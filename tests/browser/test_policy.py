@@ -16,7 +16,7 @@ def server():
     server.stop()
 
 
-@pytest.mark.parametrize("name", ["icp", "pinhole", "curvature"])
+@pytest.mark.parametrize("name", ["icp", "pinhole"])
 def test_nothing_of_a_page_is_refused_and_nothing_is_asked_of_another_host(chromium, server, name):
     lesson = catalog()[name]
     run = Timeline(lesson, lesson.params()).complete()
@@ -30,10 +30,10 @@ def test_nothing_of_a_page_is_refused_and_nothing_is_asked_of_another_host(chrom
     page.locator("[data-act=last]").click()
     page.locator("#caption").get_by_text(run[-1].caption.text, exact=True).wait_for()
     page.frame_locator("#scene iframe").locator("canvas[data-engine]").wait_for()
-    for tile in page.locator("#tiles .tile").all():
-        tile.click()
-    page.locator("#theme").click()
-    page.locator("#set").click()
+    for i in range(page.locator("#tiles .tile").count()):
+        page.locator("#tiles .tile").nth(i).dispatch_event("click")
+    for name in ("#theme", "#set", "#help"):
+        page.locator(name).dispatch_event("click")
     values = page.evaluate("page.run.series.map((one) => one.values.length)")
     assert values == [len(run)] * len(run.series()), "they came in parts"
     refused = [text for text in said if "Content Security Policy" in text or "Refused" in text]
