@@ -59,4 +59,5 @@ def read(query: str, *, here: Lesson | None = None) -> Place | None:
         if field.sensitive and field.name in values:
             raise InputError(f"a link cannot name files: give {field.name} on the command line instead")
     params = knobs.make(lesson.params, values, base=base)
-    return Place(lesson, params, None if step is None else int(step))
+    opens = lesson.preset(preset).step if preset is not None and not values else None
+    return Place(lesson, params, opens if step is None else int(step))

@@ -10,7 +10,7 @@ from lessons.disparity.state import Setup, State
 from lessons.disparity.words import caption
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.cameras import back_project
-from workbench.geometry.motions import motion
+from workbench.geometry.motions import apply, motion
 from workbench.geometry.polylines import segments
 from workbench.geometry.stereo import depth_cloud, depth_from_disparity, depth_interval, points_on_ray
 from workbench.numerals import brief, length
@@ -62,7 +62,7 @@ def _cloud(state: State) -> dict[str, Primitive]:
     color, name = _cloud_color(state, seen)
     name = name if setup.metric else f"{name}; its size is made up"
     scene: dict[str, Primitive] = {
-        "cloud": Points((setup.scale * p_camera).astype(np.float32), color, radius, T_WORLD_LEFT, name=name),
+        "cloud": Points(apply(T_WORLD_LEFT, setup.scale * p_camera).astype(np.float32), color, radius, name=name),
     }
     if state.uncertainty is not None:
         scene["bars"] = _bars(state, seen)

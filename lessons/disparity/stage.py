@@ -16,10 +16,10 @@ from workbench.scene import Field, Label, Picture, Primitive, Role, Segments
 R_WORLD_CAMERA = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 T_WORLD_LEFT = motion(R_WORLD_CAMERA, np.zeros(3))
 VIEW = View(eye=(0.97, -3.73, 3.69), target=(-1.17, 0.77, 1.22), grid=None, axes=False)
-NEARER = 1.6  # metres towards the eye: in front of the cloud, whatever strays in it
-LARGEST = (1.82, 1.365)
+NEARER = 1.0  # metres towards the eye: in front of the cloud, whatever strays in it
+LARGEST = (2.1, 1.575)
 """Metres, across and down, that a picture may have."""
-LEFT, RIGHT, ABOVE, BELOW = -0.947, 0.947, 0.655, -0.876
+LEFT, RIGHT, ABOVE, BELOW = -1.09, 1.09, 0.775, -0.96
 LEAST_FRAME = 2.5  # pixels
 
 

@@ -321,7 +321,7 @@ class TestPicture:
         for params in (HOME, BOARDS, MOTORCYCLE):
             scene, scale = timeline(params)[LAST].scene, states(params)[0].setup.scale
             assert isinstance(scene["cloud"], Points)
-            assert 1.2 < scene["cloud"].p[:, 2].max() < 2.31
+            assert 1.2 < scene["cloud"].p[:, 1].max() < 2.31
             marks = [one for path, one in scene.items() if path.startswith("label/depth")]
             assert 2 <= len(marks) <= 5
             for mark in marks:

@@ -2,8 +2,12 @@
 
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
+
 from tests import fake
+from workbench.page.legend import legend_html
 from workbench.page.steps import Steps
+from workbench.scene import Field, Picture
 from workbench.timeline import Timeline
 
 
@@ -37,3 +41,9 @@ def test_the_code_of_a_step_is_its_moment():
         assert first + code["line"] == step.moment.line
         assert [row[0] for row in code["locals"]] == [one.name for one in step.moment.variables]
         assert f'data-line="{code["line"]}"' in steps.things[code["source"]]["html"]
+
+
+def test_the_legend_names_what_is_in_space_and_a_picture_beside_has_a_bar_of_its_own():
+    field = Field(np.zeros((2, 3)), 0.0, 31.0, "Disparity", "px")
+    assert "Disparity" in legend_html({"map": Picture(field, width=1.0)}, None)
+    assert legend_html({"map": Picture(field)}, None) == ""

@@ -12,10 +12,10 @@ from tests import fake
 from tests.fake import test_nothing_is_left_out as test_nothing_is_left_out
 from tests.recording.latest_at import rows, shown_at
 from workbench.recording.contents import contents_of, places
-from workbench.recording.sink import Place, RerunSink
+from workbench.recording.sink import Place, RerunSink, legend_of
 from workbench.recording.spatial import FADED
 from workbench.recording.streams import stream_bytes
-from workbench.scene import PALETTE, Axes, Camera, Classes, Field, Mesh, Points, Scene, Segments, Table
+from workbench.scene import PALETTE, Axes, Camera, Classes, Field, Mesh, Picture, Points, Scene, Segments, Table
 
 
 def recorded(scenes: list[Scene], path: Path) -> Path:
@@ -228,3 +228,10 @@ def test_places_are_known_with_the_first_step_of_what_they_show():
 
 def rgb(color: int) -> tuple[int, int, int]:
     return color >> 24, color >> 16 & 255, color >> 8 & 255
+
+
+def test_a_picture_of_a_field_in_space_has_its_bar_in_the_legend():
+    field = Field(np.zeros((2, 3)), 0.0, 31.0, "Disparity", "px")
+    standing, beside = Picture(field, width=1.0), Picture(field)
+    assert legend_of({"map": standing, "map/beside": beside}) == ((), (field,))
+    assert legend_of({"map": beside}) == ((), ())  # it has a bar of its own

@@ -51,11 +51,6 @@ def fits_better(run: Run, k: int, found: re.Match[str]) -> bool:
     return abs(said - fresh) <= max(2, 0.001 * fresh) and says(found["share"], share)
 
 
-def lowest_cost(run: Run, k: int, found: re.Match[str]) -> bool:
-    mean = comparing(run.states)[k][1]
-    return bool(np.isclose(number(found["n"]), mean, rtol=6e-3)) and (k == 0 or mean <= comparing(run.states)[k - 1][1])
-
-
 def wrong_change(run: Run, k: int, found: re.Match[str]) -> bool:
     return says(found["was"], wrong(run.states[k - 1])) and says(found["is"], wrong(run.states[k]))
 
@@ -136,7 +131,6 @@ def exchanged(run: Run, k: int, found: re.Match[str]) -> bool:
 
 CAPTIONS = (
     Claim(rf"(?P<n>{NUMBER}) pixels \((?P<share>{NUMBER}) %\) fit better than at any smaller shift", fits_better),
-    Claim(rf"the mean lowest cost is (?P<n>{NUMBER})", lowest_cost),
     Claim(rf"energy (?P<was>{NUMBER}) → (?P<is>{NUMBER}) per pixel", energy_falls),
     Claim(rf"[Ww]rong pixels (?P<was>{NUMBER}) → (?P<is>{NUMBER}) %", wrong_change),
     Claim(rf"(?P<is>{NUMBER}) % are wrong", wrong_now),

@@ -132,9 +132,12 @@ def legend_of(scene: Scene) -> tuple[tuple[tuple[str, tuple[int, int, int]], ...
     names: dict[tuple[str, tuple[int, int, int]], None] = {}
     fields: list[Field] = []
     for primitive in scene.values():
-        if not isinstance(primitive, (Points, Segments, Mesh, Camera)):
+        if isinstance(primitive, Picture) and in_space(primitive):
+            color, name = primitive.image, ""
+        elif isinstance(primitive, (Points, Segments, Mesh, Camera)):
+            color, name = primitive.color, primitive.name
+        else:
             continue
-        color, name = primitive.color, primitive.name
         if isinstance(color, Classes):
             names |= {(word, PALETTE[role]): None for word, role in zip(color.names, color.roles, strict=True)}
         elif isinstance(color, str) and name:
