@@ -120,7 +120,7 @@ def _axes_of_turns(state: Moved) -> dict[str, Primitive]:
     axis, turn = axis_angle_from_rotation(state.T_world_end[:3, :3] @ state.T_world_start[:3, :3].T)
     scene: dict[str, Primitive] = {}
     if turn > ROUND_OFF:
-        scene |= _line("axis shortest", state.T_world_shortest[:3, 3], axis, "truth", "axis of the shortest turn")
+        scene |= _line("axis shortest", state.T_world_shortest[:3, 3], axis, "truth", "shortest turn")
     if not (is_rigid(state.T_world_body) and is_rigid(state.T_world_before)):
         return scene
     step = state.T_world_body @ inverse(state.T_world_before)
@@ -130,7 +130,7 @@ def _axes_of_turns(state: Moved) -> dict[str, Primitive]:
         if state.params.method == "screw":  # what stays on its line: (I - R) p is the shift across the axis
             across = step[:3, 3] - axis * (axis @ step[:3, 3])
             p = np.linalg.lstsq(np.eye(3) - step[:3, :3], across)[0] + axis * (axis @ p)
-        scene |= _line("axis", p, axis, "source", "turns about this now")
+        scene |= _line("axis", p, axis, "source", "turning now")
     return scene
 
 

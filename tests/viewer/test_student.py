@@ -4,9 +4,12 @@ import asyncio
 import json
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 from tests import fake
+from workbench.lesson import View
 from workbench.timeline import Timeline, Timelines
+from workbench.viewer import student
 from workbench.viewer.student import Student
 
 
@@ -95,3 +98,28 @@ def test_what_is_no_wish_is_ignored_and_files_are_not_set():
         assert me.student.session.params == fake.Params()
 
     talk(script)
+
+
+def test_the_camera_goes_where_a_preset_wants_it_and_a_knob_leaves_it_there(monkeypatch):
+    seen: list[View] = []
+    monkeypatch.setattr(student, "set_stage", lambda client, view: seen.append(view))
+    monkeypatch.setattr(student, "listen_for_clicks", lambda scene, heard: None)
+    own = View(eye=(0.0, -3.0, 0.0), grid=None)
+    first, *others = fake.lesson.presets
+    lesson = replace(fake.lesson, presets=(replace(first, view=own), *others))
+
+    class Blank:
+        scene = None
+
+        def show(self, scene) -> None: ...
+
+        def repaint(self, backdrop) -> None: ...
+
+    async def script(me: Talk) -> None:
+        one = me.student
+        one._client, one._sink = Blank(), Blank()  # type: ignore[assignment]
+        for params in (lesson.params(), first.params, replace(first.params, angle=33.0), first.params, lesson.params()):
+            one._set_up(lesson, params)
+
+    talk(script)
+    assert seen == [lesson.view, own, lesson.view]
