@@ -6,8 +6,10 @@ import numpy as np
 
 from lessons.transforms.state import FRONT, Body, Built, Ghost, Moved, State
 from lessons.transforms.words import caption_of_build, caption_of_move
+from workbench.data.framing import ground_grid
 from workbench.geometry.affine import decompose, kind_of, transform, transform_directions, translation
 from workbench.geometry.invariants import Change
+from workbench.geometry.motions import inverse
 from workbench.geometry.polylines import segments
 from workbench.geometry.rotations import (
     EulerOrder,
@@ -18,9 +20,10 @@ from workbench.geometry.rotations import (
     quaternion_from_matrix,
 )
 from workbench.numerals import ROUND_OFF, angle, fixed, fixed_row, length, percent
-from workbench.scene import Axes, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments, Table
+from workbench.scene import Axes, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments, Table, is_rigid
 
 MIDDLE = np.arange(-180.0, 181.0, 5.0)  # degrees
+GROUND = ground_grid(0.5, 0.0, 2.5)
 AXIS_ROLES: tuple[Role, ...] = ("x", "y", "z")
 
 
@@ -32,9 +35,11 @@ def draw(state: State) -> Scene:
 def _draw_build(state: Built) -> Scene:
     body, T, T_body = state.body, state.T, state.T_world_body
     scene: dict[str, Primitive] = {
-        **_shown("start", body, np.eye(4), "target", 0.15, "start"),
-        **_shown("body", body, T, "source", 0.85, "body now"),
+        **_ground(),
+        **_shown("start", body, np.eye(4), "target", 0.15),
+        **_shown("body", body, T, "source", 0.85),
         "world": Axes(None, 0.4, name="world axes"),
+        "start name": _above("start", body, np.eye(4)),
         "vertex": Label(f"vertex {body.point}", state.trail[-1], "highlight"),
         "volume": Scalar(float(np.linalg.det(T[:3, :3])) if _affine(T) else np.nan, "det T", "det T", "", "source"),
         "moved": Scalar(
@@ -75,11 +80,15 @@ def _draw_move(state: Moved) -> Scene:
     body, way = state.body, state.way
     x = state.shortest.times
     scene: dict[str, Primitive] = {
-        **_shown("start", body, state.T_world_start, "target", 0.15, "start"),
-        **_shown("end", body, state.T_world_end, "target", 0.15, "end"),
+        **_ground(),
+        **_shown("start", body, state.T_world_start, "target", 0.15),
+        **_shown("end", body, state.T_world_end, "target", 0.15),
         **_shown("body", body, state.T_world_body, "source", 0.85, f"by {state.params.method}"),
+        "start name": _above("start", body, state.T_world_start),
+        "end name": _above("end", body, state.T_world_end),
         "shortest": _lines(body, state.T_world_shortest, "truth", "shortest turn"),
-        "shortest path": Segments(segments(state.shortest.path), "truth", 2, name="its path"),
+        "shortest path": Segments(segments(state.shortest.path), "truth", 2),
+        **_axes_of_turns(state),
         "vertex": Label(f"vertex {body.point}", way.path[-1], "highlight"),
         "off": Scalar(state.off, "from the shortest turn", "Error to truth", "deg", "truth"),
         "volume": Scalar(100 * state.volume, "volume", "Volume", "%"),
@@ -97,7 +106,41 @@ def _draw_move(state: Moved) -> Scene:
     return scene
 
 
-def _shown(path: str, body: Body, T: np.ndarray, color: Role, opacity: float, name: str) -> dict[str, Primitive]:
+def _ground() -> dict[str, Primitive]:
+    return {"ground": Segments(GROUND, "neutral", 1, opacity=0.2, name="grid 0.5 m")}
+
+
+def _above(word: str, body: Body, T: np.ndarray) -> Label:
+    p = transform(T, body.solid.p)
+    return Label(word, p[np.argmax(p[:, 2])] + [0.0, 0.0, 0.05], "target")
+
+
+def _axes_of_turns(state: Moved) -> dict[str, Primitive]:
+    """Return the axis of the shortest turn, and the line about which the body turned to come here: for a screw, its own."""
+    axis, turn = axis_angle_from_rotation(state.T_world_end[:3, :3] @ state.T_world_start[:3, :3].T)
+    scene: dict[str, Primitive] = {}
+    if turn > ROUND_OFF:
+        scene |= _line("axis shortest", state.T_world_shortest[:3, 3], axis, "truth", "shortest turn")
+    if not (is_rigid(state.T_world_body) and is_rigid(state.T_world_before)):
+        return scene
+    step = state.T_world_body @ inverse(state.T_world_before)
+    axis, turn = axis_angle_from_rotation(step[:3, :3])
+    if turn > ROUND_OFF:
+        p = state.T_world_body[:3, 3]
+        if state.params.method == "screw":  # what stays on its line: (I - R) p is the shift across the axis
+            across = step[:3, 3] - axis * (axis @ step[:3, 3])
+            p = np.linalg.lstsq(np.eye(3) - step[:3, :3], across)[0] + axis * (axis @ p)
+        scene |= _line("axis", p, axis, "source", "turning now")
+    return scene
+
+
+def _line(path: str, p: np.ndarray, axis: np.ndarray, color: Role, name: str) -> dict[str, Primitive]:
+    up = axis if axis[2] > -1e-9 else -axis
+    ends = np.array([[p - 0.6 * up, p + up]])
+    return {path: Segments(ends, color, 2.5), f"{path} name": Label(name, ends[0, 1], color)}
+
+
+def _shown(path: str, body: Body, T: np.ndarray, color: Role, opacity: float, name: str = "") -> dict[str, Primitive]:
     """Return the body as a surface with its edges; the faces of a mirrored one go round the other way."""
     p, faces, pose = body.solid.p, body.solid.faces, T
     if not _affine(T):
@@ -123,7 +166,7 @@ def _ghost(i: int, ghost: Ghost, body: Body) -> dict[str, Primitive]:
     p_label = p[np.argmax(p[:, 2])] + [0.0, 0.0, 0.08 + (0.0 if ghost.apart.any() else 0.1 * i)]
     ends = "ends the same" if ghost.same else f"farthest vertex {length(ghost.distance)} off"
     return {
-        f"ghost {i}": _lines(body, T, ghost.color, ghost.name),
+        f"ghost {i}": _lines(body, T, ghost.color, ""),
         f"ghost {i} name": Label(f"{ghost.name}: {ends}", p_label, ghost.color),
     }
 
@@ -146,7 +189,7 @@ def _turning_axes(state: Built) -> dict[str, Primitive]:
         width = 6.0 if k == state.turns - 1 else 3.0
         role, name = AXIS_ROLES["xyz".index(letter.lower())], f"angle {k + 1} ({letter})"
         ends = np.array([[middle - 0.7 * up, middle + up]])
-        scene[f"axis {k + 1}"] = Segments(ends, role, width, name=f"{name} turns about this line")
+        scene[f"axis {k + 1}"] = Segments(ends, role, width)
         scene[f"axis {k + 1} name"] = Label(name, middle + up, role)
     return scene
 

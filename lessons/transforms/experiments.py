@@ -8,9 +8,11 @@ from lessons.transforms.body import numbers_of
 from lessons.transforms.compare import in_degrees, jump_out_of_lock
 from lessons.transforms.state import Built, Moved, Params, State
 from workbench.geometry.rotations import euler_axes
-from workbench.lesson import Preset, Question
+from workbench.lesson import Preset, Question, View
 from workbench.numerals import angle, fixed, length, percent
 
+VIEW = View(eye=(2.6, -3.9, 2.2), target=(0.85, 0.2, 0.32), grid=None, axes=False)
+ROW = View(eye=(2.4, -4.4, 2.6), target=(0.6, 0.5, 0.35), grid=None, axes=False)
 ONE = (1.0, 1.0, 1.0)
 NO_TURN = (0.0, 0.0, 0.0)
 AHEAD = (1.5, 0.0, 0.0, *NO_TURN)
@@ -50,7 +52,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "conventions", "Three numbers, four readings", "(40, 30, 70)° are four different rotations under four conventions,"
         " drawn in a row behind: a triple without its order says nothing.",
-        CONVENTIONS, -2,
+        CONVENTIONS, -2, ROW,
     ),
     Preset(
         "fixed-own", "Fixed or carried axes", "xyz about fixed axes is ZYX about carried axes with the numbers in reverse"
@@ -80,12 +82,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "inverse", "Undo with (Rᵀ, −t)", "The translation must be turned back too: (Rᵀ, −Rᵀt) returns to the start. After"
         " this quarter turn (Rᵀ, −t) misses it by more than |t|.",
-        INVERSE, -1,
+        INVERSE, -1, breaks=True,
     ),
     Preset(
         "hidden-scale", "A scale hidden in R", "With a scale of 1.3 in its 3×3, the transpose is no inverse: instead of"
         " going back to its size the house ends 1.3² = 1.69 times as long, wide and high.",
-        HIDDEN_SCALE, -1,
+        HIDDEN_SCALE, -1, breaks=True,
     ),
     Preset(
         "xyzw", "wxyz read as xyzw", "Both are four numbers of length 1, so nothing complains: a turn of 40° about z has"
@@ -95,7 +97,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "direction", "A direction with w = 1", "The translation leaks into a direction that is given w = 1: the arrow to"
         " the front no longer points to the front.",
-        DIRECTION, -2,
+        DIRECTION, -2, breaks=True,
     ),
     Preset(
         "minus-q", "q and −q", "Both are the end's rotation. Slerp to the wrong one still arrives, but turns 300° where"
@@ -115,7 +117,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "entries", "Blend the matrix entries", "Each entry of the matrix runs evenly to that of a rotation 170° away."
         " Is what lies between a rotation? Step on, and look at the body and its volume.",
-        ENTRIES, 3,
+        ENTRIES, 3, breaks=True,
     ),
     Preset(
         "screw", "Along a screw", "Exp and log on SE(3) turn about a line that stays put and slide along it: the origin"

@@ -12,7 +12,7 @@ import numpy as np
 from lessons.transforms.body import body_of, motion_factors, numbers_of, shape_factors
 from lessons.transforms.compare import ghosts_of, undo_ghosts_of
 from lessons.transforms.draw import draw
-from lessons.transforms.experiments import PRESETS, QUESTIONS
+from lessons.transforms.experiments import PRESETS, QUESTIONS, VIEW
 from lessons.transforms.state import Built, Moved, Params, State, Way
 from workbench.algorithms import interpolation as between
 from workbench.algorithms.composition import Invert, compose
@@ -22,7 +22,7 @@ from workbench.geometry.affine import transform
 from workbench.geometry.alignment import degrees_between, nearest_rotation
 from workbench.geometry.invariants import changes, measure
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
-from workbench.lesson import Lesson, View
+from workbench.lesson import Lesson, Sweep
 
 
 def run(
@@ -102,8 +102,9 @@ def _move(
         states = between.along_a_screw(T_start, T_end, times, invert_rigid)
     before = None
     for now, best in zip(states, shortest, strict=True):
-        way = _gone(way, now, before or now, body.p_point)
-        T, before = now.T_world_body, now
+        before = before or now
+        way = _gone(way, now, before, body.p_point)
+        T, T_before, before = now.T_world_body, before.T_world_body, now
         after = measure(apply(T, body.solid.p), body.solid.faces)
         yield Moved(
             params=params,
@@ -111,6 +112,7 @@ def _move(
             T_world_start=T_start,
             T_world_end=T_end,
             T_world_body=T,
+            T_world_before=T_before,
             T_world_shortest=best.T_world_body,
             way=way,
             shortest=shortest_way,
@@ -140,8 +142,10 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=100,
-    view=View(eye=(4.1, -4.6, 3.0), target=(1.1, 0.3, 0.15), grid=0.5),
+    view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=5,
+    sweeps=(Sweep("first", ("rotate, then translate", "translate, then rotate")),),
+    telling="What survives",
 )

@@ -14,6 +14,8 @@ from workbench.knobs import Gizmo, Knob, Pick
 from workbench.scene import Role
 
 FRONT = np.array([0.0, -1.0, 0.0])
+BUILDING = {"half": ("build a map",)}
+MOVING = {"half": ("move between two poses",)}
 SAME = 1e-9  # metres: what rounding leaves of two names for one motion
 
 Half = Literal["build a map", "move between two poses"]
@@ -57,21 +59,23 @@ class Params:
             by=Gizmo(0.5),
         ),
     ] = (1.6, 0.6, 0.3, 0.0, 0.0, 0.0)
-    first: Annotated[First, Knob("Which comes first")] = "rotate, then translate"
+    first: Annotated[First, Knob("Which comes first", needs=BUILDING)] = "rotate, then translate"
     scale: Annotated[
-        tuple[float, float, float], Knob("Factors along x, y and z, before all else", 0.2, 2, step=0.05)
+        tuple[float, float, float], Knob("Factors along x, y and z, before all else", 0.2, 2, step=0.05, needs=BUILDING)
     ] = (1.0, 1.0, 1.4)
-    shear: Annotated[float, Knob("Shift x by so much per metre of height", -1.5, 1.5, step=0.05)] = 0.0
-    perspective: Annotated[float, Knob("Divide by w = 1 + so much times z", 0, 0.6, unit="1/m", step=0.02)] = 0.0
-    mirror: Annotated[Mirror, Knob("The coordinate that changes its sign")] = "none"
-    compare: Annotated[Compare, Knob("A second reading drawn beside, while building")] = "nothing"
+    shear: Annotated[float, Knob("Shift x by so much per metre of height", -1.5, 1.5, step=0.05, needs=BUILDING)] = 0.0
+    perspective: Annotated[
+        float, Knob("Divide by w = 1 + so much times z", 0, 0.6, unit="1/m", step=0.02, needs=BUILDING)
+    ] = 0.0
+    mirror: Annotated[Mirror, Knob("The coordinate that changes its sign", needs=BUILDING)] = "none"
+    compare: Annotated[Compare, Knob("A second reading drawn beside, while building", needs=BUILDING)] = "nothing"
     angles_end: Annotated[
         tuple[float, float, float],
         Knob("The three turns of the end pose, when moving", -180, 180, unit="deg", step=1,
-             label="End angle", parts=("1", "2", "3")),
+             label="End angle", parts=("1", "2", "3"), needs=MOVING),
     ] = (0.0, 0.0, -110.0)  # fmt: skip
-    method: Annotated[Method, Knob("What runs at constant speed between the two poses")] = "slerp + lerp"
-    steps: Annotated[int, Knob("Steps from one pose to the other", 2, 120)] = 30
+    method: Annotated[Method, Knob("What runs at constant speed between the two poses", needs=MOVING)] = "slerp + lerp"
+    steps: Annotated[int, Knob("Steps from one pose to the other", 2, 120, needs=MOVING)] = 30
     point: Annotated[int, Knob("The vertex that is followed", 0, 11, by=Pick("body"))] = 8
     shape: Annotated[Shape, Knob("The body: only the house differs from its mirror image")] = "house"
     mesh: Annotated[Path | None, Knob("Own mesh instead (off, obj, ply, stl, glb), shown 1 m large")] = None
@@ -184,6 +188,7 @@ class Moved:
         params, body: What does not change during the run.
         T_world_start, T_world_end: The two poses.
         T_world_body: The body now; for matrix entries an affine map.
+        T_world_before: The body one step earlier; at the start where it is.
         T_world_shortest: Where slerp and lerp have it now.
         way, shortest: The way taken up to now, and all of the way of slerp and lerp.
         off: The angle to the shortest turn's body, degrees.
@@ -195,6 +200,7 @@ class Moved:
     T_world_start: np.ndarray
     T_world_end: np.ndarray
     T_world_body: np.ndarray
+    T_world_before: np.ndarray
     T_world_shortest: np.ndarray
     way: Way
     shortest: Way

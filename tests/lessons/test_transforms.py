@@ -16,7 +16,7 @@ from tests.lessons.transforms_runs import MOVE, built, exp_axis, moved, opened, 
 from workbench.geometry.affine import Kind, kind_of, transform
 from workbench.geometry.motions import inverse, motion, rotation_angle
 from workbench.geometry.rotations import axis_angle_from_rotation, euler_to_matrix, rotation_from_axis_angle
-from workbench.scene import Segments, is_rigid
+from workbench.scene import Segments, caption_of, is_rigid
 
 # building -------------------------------------------------------------------------------------------------------------
 
@@ -149,7 +149,8 @@ def test_a_hidden_scale_grows_squared():
     (ghost,) = state.ghosts
     np.testing.assert_allclose(ghost.T[:3, :3], 1.69 * np.eye(3), atol=1e-12)
     assert ghost.distance > 0.5
-    assert opened("hidden-scale").caption.tone == "wrong"
+    assert caption_of(lesson.draw(state)).tone == "wrong"
+    assert opened("hidden-scale").caption.tone == "info"  # it is meant to be
 
 
 def test_a_misread_quaternion_is_another_rotation():
@@ -238,7 +239,7 @@ def test_averaged_matrices_are_flat():
     assert middle.volume == pytest.approx(np.cos(np.radians(85)) ** 2)
     assert middle.volume < 0.01
     assert kind_of(middle.T_world_body) is Kind.AFFINE
-    assert opened_at(preset("entries"), 15).caption.tone == "wrong"
+    assert caption_of(lesson.draw(middle)).tone == "wrong"
 
 
 def test_a_screw_takes_the_origin_along_an_arc():
@@ -252,6 +253,10 @@ def test_a_screw_takes_the_origin_along_an_arc():
     from_line = np.linalg.norm(np.cross(origins - line[0], line[1]), axis=1)
     np.testing.assert_allclose(from_line, from_line[0])  # a helix: at one distance from the line that it goes along
     assert (origins[-1] - origins[0]) @ line[1] == pytest.approx(0.3)
+    for step in timeline(preset("screw")).known()[1:]:
+        drawn = step.scene["axis"]
+        assert isinstance(drawn, Segments)
+        np.testing.assert_allclose(np.cross(drawn.ends[0] - line[0], line[1]), 0.0, atol=1e-9)  # it stays put
     lerp = np.array([s.T_world_body[:3, 3] for s in moved(dataclasses.replace(preset("screw"), method="slerp + lerp"))])
     np.testing.assert_allclose(lerp, straight, atol=1e-12)
     steps = [b.T_world_body @ inverse(a.T_world_body) for a, b in itertools.pairwise(states)]
