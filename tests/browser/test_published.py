@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from PIL import Image
+from viser.transforms import SO3
 
 from tests import fake
 from workbench.lesson import Sweep, catalog
@@ -135,6 +136,13 @@ def numbers(text: str) -> dict[str, float]:
     return {one["name"]: float(one["value"].replace("−", "-").replace(",", "")) for one in found if one is not None}
 
 
+NODES = """() => [...feed.shown].filter(([name]) => name.startsWith("/scene/")).map(([name, { props, wxyz, position }]) => {
+  const all = props.points ?? [], middle = [0, 0, 0];
+  all.forEach((value, i) => middle[i % 3] += 3 * value / all.length);
+  return [name.slice(7), { wxyz, position, middle }];
+})"""
+
+
 @pytest.mark.parametrize("name", catalog())
 def test_a_run_plays_steps_back_and_says_what_the_timeline_says(opened, out, name):
     lesson = catalog()[name]
@@ -146,9 +154,15 @@ def test_a_run_plays_steps_back_and_says_what_the_timeline_says(opened, out, nam
         page.wait_for_function("k => page.k === k", arg=k)
         assert caption(page) == timeline[k].caption.text
         assert page.locator("#count").inner_text() == f"{k} / {last}"
-        nodes = page.evaluate("[...feed.shown.keys()].filter((name) => name.startsWith('/scene/'))")
-        paths = {re.sub(r"~\d+$", "", node.removeprefix("/scene/")) for node in nodes if not node.endswith("/image")}
-        assert paths == {path.replace("/", "·") for path, one in timeline[k].scene.items() if in_space(one)}
+        nodes = {re.sub(r"~\d+$", "", name): node for name, node in page.evaluate(NODES) if not name.endswith("/image")}
+        there = {path.replace("/", "·"): one for path, one in timeline[k].scene.items() if in_space(one)}
+        assert nodes.keys() == there.keys()
+        for path, one in there.items():
+            if isinstance(one, Points) and len(one.p):
+                T = np.eye(4) if one.T_world_object is None else one.T_world_object
+                found = SO3(np.array(nodes[path]["wxyz"])).apply(np.array(nodes[path]["middle"]))
+                middle = T[:3, :3] @ one.p.mean(0) + T[:3, 3]
+                assert found + nodes[path]["position"] == pytest.approx(middle, rel=1e-4, abs=1e-4)
 
     page.locator("[data-act=first]").click()
     shows(0)
@@ -342,13 +356,13 @@ def test_a_pinned_run_stands_behind_the_next_in_its_curves_and_its_scene(opened,
     page.wait_for_function("![...feed.shown.keys()].some((name) => name.startsWith('/ghost/'))")
 
 
-def test_one_run_alone_plays_and_takes_neither_focus_nor_scrolls_its_host(opened, out, tmp_path):
+def test_one_run_alone_plays_and_takes_neither_focus_nor_scrolls_its_host(opened, out, address):
     host = out / "host.html"
     host.write_text(
         '<input id="mine" autofocus><div style="height:3000px"></div>'
         '<iframe src="icp/runs/default.html" width="800" height="500" title="ICP"></iframe>'
     )
-    page = opened(host.as_uri(), until="")
+    page = opened(f"{address}/host.html", until="")
     page.locator("#mine").focus()
     page.frame_locator("iframe").locator("#caption").wait_for()
     embedded = next(one for one in page.frames if "/default.html" in one.url)

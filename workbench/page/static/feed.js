@@ -38,9 +38,9 @@ const feed = window.feed = { // viser's page in the frame looks for it
   camera: "",          // how the scene that is open is first seen
   dark: false,
 
-  // what stands in front of viser's page: its worker, which would open a websocket, is this page; nothing takes the focus
+  // what stands in front of viser's page: its worker, which would open a websocket, is this page
   before: "<script>window.Worker=class{constructor(){this.postMessage=(said)=>said.type==='set_server'&&parent.feed.connect(this)}" +
-    "terminate(){}};HTMLElement.prototype.focus=()=>{};history.replaceState=()=>{}<\/script>",
+    "terminate(){}}<\/script>",
 
   connect(client) {
     this.client = client;

@@ -29,7 +29,7 @@ const source = {
   followed() {
     const { run, step } = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
     if (run === undefined) return false;
-    const name = RECORDED.aliases[run] ?? run;
+    const name = Object.hasOwn(RECORDED.aliases, run) ? RECORDED.aliases[run] : run;
     if (!Object.hasOwn(RECORDED.files, name)) {
       page.say(`This page has no run named ${run.slice(0, 40)}.`, "wrong");
       return false;
