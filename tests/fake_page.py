@@ -102,7 +102,7 @@ class FakePage:
         """Wish for something."""
         await self.live.send(json.dumps(message))
 
-    async def until(self, holds: Callable[["FakePage"], bool], seconds: float = 60.0) -> None:
+    async def until(self, holds: Callable[["FakePage"], object], seconds: float = 60.0) -> None:
         """Wait until something holds of this page; looked at whenever a message has come."""
         async with asyncio.timeout(seconds):
             while not holds(self):

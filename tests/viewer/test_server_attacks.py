@@ -3,6 +3,7 @@
 import asyncio
 import contextlib
 import gc
+import itertools
 import json
 import socket
 import sys
@@ -385,6 +386,13 @@ def test_no_wish_link_or_knob_opens_a_file(server):
                 await bad.say(verb="change", values={name: path})
                 await bad.say(verb="open", query=f"?lesson=fake&{name}={path}", lesson="fake")
                 await bad.say(verb="open", query=f"?lesson=icp&{name}={path}", lesson=path)
+        for lesson in lessons:
+            await bad.say(verb="open", query=f"?lesson={lesson.name}", lesson=lesson.name)
+            for name, path in itertools.product(
+                [field.name for field in fields_of(lesson.params) if field.sensitive], paths
+            ):
+                await bad.say(verb="change", values={name: path})  # one by one: else the next takes its place
+                await bad.seek(0)
         await bad.say(verb="open", query=HERE, lesson="fake")
         await bad.seek(1)
         assert "/etc" not in json.dumps(bad.run)
