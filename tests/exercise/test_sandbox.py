@@ -174,8 +174,7 @@ CHEATS = {
 
 @pytest.mark.parametrize("name", CHEATS)
 def test_a_cheat_earns_nothing(tmp_path, name):
-    student = written(tmp_path, CHEATS[name])
-    report = grade_file(student.path, EXERCISE)
+    report = grade_file(written(tmp_path, CHEATS[name]).submission, EXERCISE)
     by_name = {outcome.check.name: outcome for outcome in report.outcomes}
     assert by_name["is_the_mean"].points == 0
     assert by_name["moves_along"].points == 0

@@ -70,7 +70,7 @@ class Kept(io.RawIOBase):
         self._left = most
 
     def writable(self) -> bool:
-        """It is."""
+        """Return that it is."""
         return True
 
     def write(self, data: Any) -> int:

@@ -18,6 +18,7 @@ import syscalls  # type: ignore[import-not-found]
 PR_SET_PDEATHSIG, PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, SECCOMP_MODE_FILTER, SIGKILL = 1, 38, 22, 2, 9
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446  # the same on every machine
 ASK_VERSION, PATH_BENEATH = 1, 1
+CAPABILITIES = 0x20080522  # the version of what capset takes
 LEAST_VERSION = 3  # of Landlock: from here on it stops truncating too
 EXECUTE, READ_FILE, READ_DIR = 1 << 0, 1 << 2, 1 << 3
 ALL_RIGHTS = {3: (1 << 15) - 1, 5: (1 << 16) - 1}  # by version: what is denied wherever no rule gives it
@@ -49,6 +50,7 @@ def shut(settings: dict[str, Any]) -> None:
     _prctl(PR_SET_NO_NEW_PRIVS, 1)
     if settings["landlock"] is not None:
         _landlock(settings["landlock"])
+        _checked(_libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24)))  # of an administrator's powers, none
     if platform.machine() in syscalls.MACHINES:
         code = ctypes.create_string_buffer(syscalls.program(platform.machine()))
         length = (len(code) - 1) // 8  # of the string; the buffer ends with a zero

@@ -8,13 +8,16 @@ import signal
 import subprocess
 import tempfile
 import threading
+import time
 from pathlib import Path
 from typing import IO, Any
 
 from workbench.errors import InputError
 from workbench.exercise.inside.wire import WireError
+from workbench.exercise.sandbox.patience import Patience
 from workbench.exercise.sandbox.pipe import Pipe
 from workbench.exercise.sandbox.walls import START_SECONDS, Wall, anonymous, best
+from workbench.exercise.submission import Submission, read_submission
 
 MEGABYTES = 2048
 LOAD_SECONDS = 10.0
@@ -41,29 +44,33 @@ class Student:
     """A student's function, callable; every call crosses to a process of its own, which is started when it is needed.
 
     Args:
-        path: The student's file.
+        given: The student's file, or what was read of it.
         name: The function's name in it.
         seconds: The longest one call may take, wall time; the process is killed then.
         megabytes: Address space of the process.
         wall: What shuts it in; the best of this machine by default.
+        patience: How long all its calls are waited for; None waits `seconds` for each.
 
     Raises:
         InputError: If the file cannot be read.
     """
 
     def __init__(
-        self, path: Path, name: str, *, seconds: float = 5.0, megabytes: int = MEGABYTES, wall: Wall | None = None
+        self,
+        given: Path | Submission,
+        name: str,
+        *,
+        seconds: float = 5.0,
+        megabytes: int = MEGABYTES,
+        wall: Wall | None = None,
+        patience: Patience | None = None,
     ):
-        try:
-            self.source = path.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise InputError(
-                f"{path}: cannot be read as text ({getattr(error, 'strerror', None) or 'not UTF-8'})"
-            ) from None
-        self.path, self.name, self.__name__ = path, name, name
+        self.submission = given if isinstance(given, Submission) else read_submission(given)
+        self.name, self.__name__ = name, name
         self.wall = best() if wall is None else wall
         self.changed_inputs = False  # whether the last call changed what it was given
         self._seconds, self._megabytes = seconds, megabytes
+        self._patience = patience
         self._lock = threading.Lock()  # one call at a time: several runs may share a function
         self._process: subprocess.Popen | None = None
         self._pipe: Pipe | None = None
@@ -77,11 +84,29 @@ class Student:
             StudentError: If it raised, took too long, ended its process, or returned what is no value.
         """
         with self._lock:
+            if self._patience is not None and self._patience.over:
+                raise StudentError(f"{self.name} was not called: {self._patience.over}", "timeout")
             if self._process is None or self._process.poll() is not None:
                 self.start()
-            reply = self._ask({"do": "call", "args": list(args), "options": list(options.items())}, self._seconds)
+            reply = self._called({"do": "call", "args": list(args), "options": list(options.items())})
             self.changed_inputs = reply.get("changed") is True
             return reply.get("value")
+
+    @property
+    def source(self) -> str:
+        """The text that is run."""
+        return self.submission.source
+
+    def _called(self, request: dict[str, Any]) -> dict[str, Any]:
+        seconds, began, late = self._patience.seconds if self._patience else self._seconds, time.monotonic(), False
+        try:
+            return self._ask(request, seconds)
+        except StudentError as error:
+            late = error.kind == "timeout"
+            raise
+        finally:
+            if self._patience is not None:
+                self._patience.took(time.monotonic() - began, late=late)
 
     def start(self) -> None:
         """Start the process and load the student's file.
@@ -107,7 +132,8 @@ class Student:
         finally:
             self._pipe.inherited()
         self._ask({"do": "start"}, START_SECONDS)
-        self._ask({"do": "load", "source": self.source, "name": self.name, "modules": []}, LOAD_SECONDS)
+        modules = [list(pair) for pair in self.submission.modules.items()]
+        self._ask({"do": "load", "source": self.source, "name": self.name, "modules": modules}, LOAD_SECONDS)
 
     def printed(self, most: int = 2000) -> str:
         """Return the beginning of what the student's code printed."""
@@ -149,7 +175,7 @@ class Student:
         assert self._pipe is not None
         nonce = secrets.token_hex(8)
         try:
-            reply = self._pipe.ask(request | {"nonce": nonce, "file": self.path.name}, seconds)
+            reply = self._pipe.ask(request | {"nonce": nonce, "file": self.submission.file}, seconds)
         except WireError as error:
             self._end()
             raise StudentError(f"{self.name}: what came back is no result ({error})", "result") from None
@@ -170,7 +196,7 @@ class Student:
         names = reply.get("errors")
         errors = tuple(str(name)[:80] for name in names[:12]) if isinstance(names, list) else ()
         line = line if isinstance(line, int) and not isinstance(line, bool) else 0
-        where = f"{self.path.name}, line {line}: " if line else f"{self.path.name}: "
+        where = f"{self.submission.file}, line {line}: " if line else f"{self.submission.file}: "
         if loading:
             self.close()
             return StudentError(f"{where}the file does not load: {error}: {said}", "load", error, line)
@@ -184,7 +210,7 @@ class Student:
     def _too_long(self, doing: str, seconds: float) -> StudentError:
         if doing == "start":
             return StudentError(f"Python did not start within {seconds:g} s: is this machine too busy?", "died")
-        what = self.name if doing == "call" else f"{self.path.name}: loading the file"
+        what = self.name if doing == "call" else f"{self.submission.file}: loading the file"
         return StudentError(
             f"{what} took more than {seconds:g} s and was stopped: is there an endless loop?", "timeout"
         )
@@ -198,7 +224,7 @@ class Student:
         if doing == "start":
             return StudentError(f"Python did not start: {self.printed().strip()[-200:] or f'exit code {code}'}", "died")
         number = None if code is None else -code if code < 0 else code - 128  # bubblewrap says 128 and the signal
-        how = {signal.SIGKILL: "was killed: too much memory?", signal.SIGXCPU: "used too much processor time"}.get(
-            number or 0, f"ended (exit code {code}): does it call exit, or crash a library?"
-        )
+        how = f"ended (exit code {code}): does it call exit, or crash a library?"
+        if number in (signal.SIGKILL, signal.SIGXCPU):
+            how = "was killed: too much memory, or processor time?"
         return StudentError(f"{self.name}: its process {how}", "died")

@@ -137,11 +137,12 @@ def _tried(wall: Wall) -> str:
             process = wall.start(
                 pipe_in=pipe_in, pipe_out=pipe_out, printed=said, folder="/", megabytes=2048, cpu_seconds=60
             )
-            code = process.wait(START_SECONDS)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-            return f"{wall.name} does not start within {START_SECONDS:g} s"
+            try:
+                code = process.wait(START_SECONDS)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+                return f"{wall.name} does not start within {START_SECONDS:g} s"
         except OSError as error:
             return f"{wall.name} does not start ({error.strerror})"
         finally:
