@@ -135,7 +135,7 @@ class Student:
         modules = [list(pair) for pair in self.submission.modules.items()]
         self._ask({"do": "load", "source": self.source, "name": self.name, "modules": modules}, LOAD_SECONDS)
 
-    def printed(self, most: int = 2000) -> str:
+    def printed(self, most: int = 8000) -> str:
         """Return the beginning of what the student's code printed."""
         return "" if self._printed is None else os.pread(self._printed.fileno(), most, 0).decode("utf-8", "replace")
 
