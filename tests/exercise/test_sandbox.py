@@ -1,6 +1,7 @@
 """Attacks on the grader: each is tried, costs its own call only, and the next honest call still works."""
 
 import textwrap
+import time
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
 from workbench.exercise.grading import grade_file
-from workbench.exercise.sandbox import Student, StudentError
+from workbench.exercise.sandbox import Patience, Student, StudentError
 
 POINTS = np.arange(12.0).reshape(4, 3)
 
@@ -178,3 +179,37 @@ def test_a_cheat_earns_nothing(tmp_path, name):
     by_name = {outcome.check.name: outcome for outcome in report.outcomes}
     assert by_name["is_the_mean"].points == 0
     assert by_name["moves_along"].points == 0
+
+
+@pytest.mark.parametrize(
+    ("body", "kind", "said"),
+    [("while True: pass", "timeout", "took too long"), ("import os; os._exit(1)", "died", "ended its process")],
+)
+def test_an_endless_loop_costs_its_limit_once(tmp_path, body, kind, said):
+    given = written(tmp_path, body).submission
+    with Student(given, "centroid", seconds=5.0, patience=Patience(5.0)) as student:
+        began = time.monotonic()
+        errors = []
+        for _ in range(20):
+            with pytest.raises(StudentError) as caught:
+                student(POINTS)
+            errors.append(caught.value)
+    assert {error.kind for error in errors} == {kind}
+    assert [f"not called: 3 calls already {said}" in str(error) for error in errors] == [False] * 3 + [True] * 17
+    assert time.monotonic() - began < 60  # 7 s of waiting, and starting three times; 100 s without patience
+
+
+def test_who_hangs_in_one_place_is_called_in_all_others(tmp_path):
+    given = written(tmp_path, "while p.max() > 100: pass\nreturn p.mean(axis=0)").submission
+    with Student(given, "centroid", seconds=1.0, patience=Patience(1.0)) as student:
+        with pytest.raises(StudentError, match="took more than"):
+            student(1000 * POINTS)
+        for _ in range(5):
+            np.testing.assert_allclose(student(POINTS), [4.5, 5.5, 6.5])
+
+
+def test_all_calls_together_have_a_bound():
+    patience = Patience(0.5)
+    for _ in range(30):
+        patience.took(0.4, "")
+    assert "together" in patience.over

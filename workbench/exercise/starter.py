@@ -58,8 +58,8 @@ def allowed(exercise: Exercise) -> str:
     """Return what a student's function may use, in sentences."""
     return (
         f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside this file. One call may "
-        f"take {exercise.contract.seconds:g} s and {MEGABYTES >> 10} GB. It may print: the first {OUTPUT_BYTES >> 10} KB are "
-        "kept. It reaches no network, no other program and no file that is not its own. The first line above says what "
+        f"take {exercise.contract.seconds:g} s and {MEGABYTES >> 10} GB. It may print: the first {OUTPUT_BYTES >> 10} KB "
+        "are kept. It reaches no network, no other program and no file that is not its own. The first line above says what "
         "this file is handed in for: leave it there."
     )
 

@@ -8,14 +8,15 @@ CALLS = 20
 class Patience:
     """The time that calls of one function may take together.
 
-    The first call that is late costs its whole limit, the next ones a fifth of it; after three, no call is made any more.
+    The first call that is late costs its whole limit, the next ones a fifth of it. After three that were late or ended
+    their process, no call is made any more.
 
     Args:
         seconds: The longest one call may take.
     """
 
     def __init__(self, seconds: float):
-        self._seconds, self._late, self._spent = seconds, 0, 0.0
+        self._seconds, self._late, self._lost, self._spent = seconds, 0, 0, 0.0
 
     @property
     def seconds(self) -> float:
@@ -25,13 +26,26 @@ class Patience:
     @property
     def over(self) -> str:
         """Why no call is made any more; nothing where one is."""
-        if self._late >= REFUSED_AFTER:
-            return f"{self._late} calls already took too long"
+        if self._late + self._lost >= REFUSED_AFTER:
+            what = (
+                "took too long"
+                if not self._lost
+                else "ended its process"
+                if not self._late
+                else "took too long or crashed"
+            )
+            return f"{self._late + self._lost} calls already {what}"
         if self._spent > CALLS * self._seconds:
             return f"its calls together took more than {CALLS * self._seconds:g} s"
         return ""
 
-    def took(self, seconds: float, *, late: bool) -> None:
-        """Count a call."""
+    def took(self, seconds: float, how: str) -> None:
+        """Count a call that ended as a `kind` of StudentError, or with an answer."""
         self._spent += seconds
-        self._late += late
+        self._late += how == "timeout"
+        self._lost += how == "died"
+
+    @property
+    def kind(self) -> str:
+        """As what a call that is not made counts."""
+        return "died" if self._lost > self._late else "timeout"

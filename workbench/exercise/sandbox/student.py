@@ -85,7 +85,7 @@ class Student:
         """
         with self._lock:
             if self._patience is not None and self._patience.over:
-                raise StudentError(f"{self.name} was not called: {self._patience.over}", "timeout")
+                raise StudentError(f"{self.name} was not called: {self._patience.over}", self._patience.kind)
             if self._process is None or self._process.poll() is not None:
                 self.start()
             reply = self._called({"do": "call", "args": list(args), "options": list(options.items())})
@@ -98,15 +98,15 @@ class Student:
         return self.submission.source
 
     def _called(self, request: dict[str, Any]) -> dict[str, Any]:
-        seconds, began, late = self._patience.seconds if self._patience else self._seconds, time.monotonic(), False
+        seconds, began, how = self._patience.seconds if self._patience else self._seconds, time.monotonic(), ""
         try:
             return self._ask(request, seconds)
         except StudentError as error:
-            late = error.kind == "timeout"
+            how = error.kind
             raise
         finally:
             if self._patience is not None:
-                self._patience.took(time.monotonic() - began, late=late)
+                self._patience.took(time.monotonic() - began, how)
 
     def start(self) -> None:
         """Start the process and load the student's file.
