@@ -40,6 +40,8 @@ ALLOWED = {
     "workbench.picking": DRAWING,
     "workbench.typeset": BASE | {"workbench.atomic"},
     "workbench.images": set(),
+    "workbench.motion": DRAWING,
+    "workbench.emphasis": DRAWING,
     "workbench.progress": set(),
     "workbench.atomic": set(),
     "workbench.session": LESSON | {"workbench.session"},
@@ -49,12 +51,12 @@ ALLOWED = {
     "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
-        "workbench.publish", "workbench.page", "workbench.recording", "workbench.viewer", "workbench.typeset",
+        "workbench.publish", "workbench.page", "workbench.exercise", "workbench.recording", "workbench.viewer", "workbench.typeset",
         "workbench.session",
         "workbench.links", "workbench.images", "workbench.progress", "workbench.flags", "workbench.atomic",
     },
     "workbench.viewer": LESSON | {
-        "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.links",
+        "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.motion", "workbench.emphasis", "workbench.links",
         "workbench.picking", "workbench.typeset", "workbench.recording", "workbench.exercise",
         "workbench.authoring.reloading",
     },
@@ -113,12 +115,13 @@ def test_imports_point_one_way(path):
             assert top != "lessons" or imported.split(".")[1] == name.split(".")[1], f"{name} imports another lesson"
 
 
+TOPS = ("workbench", "workbench.cli", "workbench.__main__", "workbench.notebook")
+
+
 def test_every_part_has_a_rule_of_its_own():
     for path in MODULES:
         name = name_of(path)
-        assert rule(name) is not None or name in ("workbench", "workbench.cli", "workbench.__main__"), (
-            f"{name}: no rule"
-        )
+        assert rule(name) is not None or name in TOPS, f"{name}: no rule"
 
 
 @pytest.mark.parametrize("code", ["import workbench", "from workbench.lesson import catalog; catalog()"])

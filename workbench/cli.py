@@ -23,6 +23,9 @@ Recording = Annotated[Path, Option("A recording made by `workbench record` or on
 OwnLesson = Annotated[
     str | None, Option("The lesson's own file or folder, where the catalogue does not have it.", "PATH")
 ]
+Sandbox = Annotated[
+    str, Option("What shuts submissions in: auto, bubblewrap, landlock, or none (marks are not safe then).", "NAME")
+]
 Native = Annotated[bool, Option("Open Rerun's own window instead of the browser.")]
 
 
@@ -64,9 +67,12 @@ def show(
         step = run.lesson.preset(run.preset).step
     watched = edited = None
     if with_ is not None:
+        from workbench.exercise.sandbox import best
         from workbench.exercise.watching import Watched
 
         watched = Watched(run.lesson, with_)
+        if not best().holds:
+            _complain(f"{with_} runs without a sandbox ({best().why}): show only what you trust")
     if run.path is not None:
         from workbench.authoring.reloading import Edited
 
@@ -162,24 +168,30 @@ def check(
     ] = None,
     lesson: OwnLesson = None,
     hidden: Annotated[bool, Option("Run the hidden checks too, where they are installed.")] = False,
+    sandbox: Sandbox = "auto",
 ) -> int:
     """Judge one file by an exercise's checks; exit code 1 without full marks."""
+    from workbench.exercise.checking import check_file
     from workbench.exercise.failing import record_failing
-    from workbench.exercise.finding import exercises_in
-    from workbench.exercise.grading import grade_file
     from workbench.exercise.reports import terminal, write_files
+    from workbench.exercise.sandbox import named
 
     own = None if lesson is None else lesson_given(lesson)
-    reports = [grade_file(file, item, hidden=hidden) for item in exercises_in(file, own)]
+    wall = named(sandbox)
+    if not wall.holds:
+        _complain(f"{file} runs without a sandbox ({wall.why}): check only what you trust")
+    reports, failed = check_file(file, own, hidden=hidden, wall=wall)
+    if out is not None:
+        write_files(reports, out, failed)
     for report in reports:
         sys.stdout.write(terminal(report) + "\n")
         sys.stdout.flush()  # what follows takes a while
         recorded = None if report.is_full else record_failing(report.exercise, file, lesson=own)
         if recorded is not None:
             sys.stdout.write(f"  Watch where it goes wrong: {command_line('replay', recorded)}\n")
-    if out is not None:
-        write_files(reports, out)
-    return 0 if all(report.is_full for report in reports) else 1
+    for item in failed:
+        _complain(item["error"])
+    return 2 if failed else 0 if all(report.is_full for report in reports) else 1
 
 
 @command
@@ -191,15 +203,26 @@ def grade(
     lesson: OwnLesson = None,
     jobs: Annotated[int | None, Option("How many submissions at a time; the number of cores by default.", "N")] = None,
     dask: Annotated[str | None, Option("Address of a Dask scheduler that does the work.", "ADDRESS")] = None,
+    roster: Annotated[
+        Path | None, Option("A table of all students: who handed in nothing gets a row.", "FILE.csv")
+    ] = None,
+    sandbox: Sandbox = "auto",
 ) -> int:
     """Grade a folder of submissions; goes on where it was interrupted."""
     from workbench.exercise.classroom import Asked, grade_folder
 
     if lesson is not None:
         lesson_given(lesson)  # what is wrong with it is told once, before the first submission
-    asked = Asked(only, Path(lesson).resolve() if lesson is not None and is_path(lesson) else None)
+    asked = Asked(only, Path(lesson).resolve() if lesson is not None and is_path(lesson) else None, sandbox)
     return grade_folder(
-        folder, out or folder / "graded", asked=asked, jobs=jobs, dask=dask, tell=sys.stderr, result=sys.stdout
+        folder,
+        out or folder / "graded",
+        asked=asked,
+        roster=roster,
+        jobs=jobs,
+        dask=dask,
+        tell=sys.stderr,
+        result=sys.stdout,
     )
 
 

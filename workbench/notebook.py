@@ -21,7 +21,12 @@ LEAST_HEIGHT = 320
 
 
 def replay(
-    lesson: str | Path | Lesson, *, preset: str | None = None, steps: int | None = None, height: int = 640, **params: Any
+    lesson: str | Path | Lesson,
+    *,
+    preset: str | None = None,
+    steps: int | None = None,
+    height: int = 640,
+    **params: Any,
 ) -> "Replay":
     """Return a run to be shown as the value of a notebook's cell.
 

@@ -78,9 +78,10 @@ def test_a_cell_plays_in_jupyterlab(chromium, notebook):
                "--ServerApp.disable_check_xsrf=True", "--LabApp.news_url=", "--LabApp.check_for_updates_class="
                "jupyterlab.NeverCheckForUpdate"]  # fmt: skip
     log = notebook.with_name("lab.txt")
-    with log.open("w") as said, subprocess.Popen(
-        command, stdout=said, stderr=said, env=environment(notebook), cwd=notebook.parent
-    ) as lab:
+    with (
+        log.open("w") as said,
+        subprocess.Popen(command, stdout=said, stderr=said, env=environment(notebook), cwd=notebook.parent) as lab,
+    ):
         try:
             address = found(log, lab)
             page = chromium.new_page(viewport={"width": 1280, "height": 900})

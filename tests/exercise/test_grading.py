@@ -7,13 +7,14 @@ import pytest
 
 from tests import fake
 from tests.exercise.centroid import EXERCISE, centroid
+from workbench.cli import main
 from workbench.errors import InputError
 from workbench.exercise import reports
 from workbench.exercise.candidate import Candidate, held_to_contract
 from workbench.exercise.driven import driven, first_difference, gap
 from workbench.exercise.grading import grade_function, values_alike
 from workbench.exercise.model import Exercise, Verdict, band, check, contract, full
-from workbench.exercise.sandbox import StudentError
+from workbench.exercise.sandbox import StudentError, Wall
 from workbench.exercise.starter import starter
 from workbench.timeline import Timeline
 
@@ -90,18 +91,73 @@ def test_reports_say_what_was_not_run():
     assert "passed" not in text
 
 
+JUNIT = {  # what Jenkins' schema knows of an element
+    "testsuites": {"name", "time", "tests", "failures", "disabled", "errors"},
+    "testsuite": {"name", "tests", "failures", "errors", "time", "disabled", "skipped", "timestamp", "hostname", "id",
+                  "package"},
+    "testcase": {"name", "assertions", "time", "classname", "status"},
+    "failure": {"type", "message"},
+    "error": {"type", "message"},
+    "system-err": set(),
+}  # fmt: skip
+
+
+def held_to_schemas(folder):
+    jsonschema = pytest.importorskip("jsonschema")
+    result = json.loads((folder / "result.json").read_text())
+    jsonschema.validate(result, json.loads(reports.SCHEMA.read_text()))
+    root = ET.parse(folder / "junit.xml").getroot()
+    for element in root.iter():
+        assert set(element.attrib) <= JUNIT[element.tag]
+    scope = json.loads((folder / "results.json").read_text())
+    assert scope["score"] == sum(test["score"] for test in scope["tests"])
+    assert {test["visibility"] for test in scope["tests"]} <= {"visible", "after_published", "hidden"}
+    return result, scope, root
+
+
 def test_files_for_machines_agree_with_the_report(tmp_path):
     report = grade_function(lambda p: p.sum(0), EXERCISE, file="<my>.py")
     reports.write_files([report], tmp_path)
-    result = json.loads((tmp_path / "result.json").read_text())
-    jsonschema = pytest.importorskip("jsonschema")
-    jsonschema.validate(result, json.loads(reports.SCHEMA.read_text()))
-    assert result["reports"][0]["points"] == report.points == 1
-    scope = json.loads((tmp_path / "results.json").read_text())
-    assert scope["score"] == sum(test["score"] for test in scope["tests"]) == 1
-    suites = ET.parse(tmp_path / "junit.xml").getroot()
+    result, scope, suites = held_to_schemas(tmp_path)
+    assert result["reports"][0]["points"] == report.points == scope["score"] == 1
     assert [suite.get("failures") for suite in suites] == ["2"]
     assert "| ✗ |" in (tmp_path / "summary.md").read_text()
+    told = {test["name"]: "divide by the number" in test["output"] for test in scope["tests"]}
+    assert [told[f"centroid: {outcome.check.promise}"] for outcome in report.outcomes] == [True, False, True]
+
+
+def test_what_cannot_be_graded_has_files_too(tmp_path, capsys):
+    file = tmp_path / "my_align_rigid.py"
+    file.write_text("def align_rigid(a, b:\n\x1b[2J")
+    assert main(["check", str(file), "-o", str(tmp_path / "out")]) == 2
+    assert "line 2" in capsys.readouterr().err
+    result, scope, suites = held_to_schemas(tmp_path / "out")
+    assert result["reports"] == []
+    assert scope["score"] == 0
+    assert scope["tests"][0]["max_score"] == 10
+    assert "my_align_rigid.py, line 2" in scope["output"]
+    assert suites[0].get("errors") == "1"
+    assert "could not be graded" in (tmp_path / "out" / "summary.md").read_text()
+
+
+def test_marks_without_a_wall_say_so_in_every_report(tmp_path, monkeypatch, capsys):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "ada.py").write_text("import numpy as np\ndef invert_rigid(T):\n    return np.linalg.inv(T)\n")
+    monkeypatch.setattr("workbench.exercise.classroom.best", lambda: Wall("none", "nothing is installed"))
+    assert main(["grade", str(tmp_path / "in")]) == 2
+    assert "nothing is installed" in capsys.readouterr().err
+    assert not (tmp_path / "in" / "graded").exists()
+    assert main(["grade", str(tmp_path / "in"), "--sandbox", "none"]) in (0, 1)
+    said = (tmp_path / "in" / "graded" / "summary.md").read_text()
+    assert reports.UNSAFE in said
+    assert json.loads((tmp_path / "in" / "graded" / "students" / "ada.json").read_text())["sandbox"] == "none"
+    out = tmp_path / "one"
+    main(["check", str(tmp_path / "in" / "ada.py"), "--sandbox", "none", "-o", str(out)])
+    said = capsys.readouterr()
+    assert "runs without a sandbox" in said.err
+    assert reports.UNSAFE in said.out
+    for name in ("results.json", "junit.xml", "summary.md"):
+        assert reports.UNSAFE in (out / name).read_text(), name
 
 
 def test_the_starter_is_python_that_is_not_written_yet():
@@ -110,6 +166,8 @@ def test_the_starter_is_python_that_is_not_written_yet():
     exec(compile(text, "starter", "exec"), scope)
     with pytest.raises(NotImplementedError):
         scope["centroid"](np.ones((2, 3)))
+    assert "numpy and scipy" in text
+    assert "1 s and 2 GB" in text
     for part in ("centroid(np.array([[0, 0, 0], [2, 4, 6]]))", "workbench check my_centroid.py", "metres"):
         assert part in text
 

@@ -53,7 +53,7 @@ def test_questions_stand_in_the_section_that_asks_to_predict(tmp_path):
 
 @pytest.mark.parametrize("lesson", catalog().values(), ids=lambda lesson: lesson.name)
 def test_the_document_of_every_lesson_has_its_text_and_no_answer(lesson):
-    page = lesson_document(lesson, article_html(lesson, address), home="live", root="page/", source="live.js")
+    page = lesson_document(lesson, article_html(lesson, address), home="live", root="page/")
     assert page.count("<form") == len(lesson.questions)
     assert all(f'data-run="{preset.name}"' in page for preset in lesson.presets)
     said = in_script(lesson_data(lesson))
@@ -65,6 +65,6 @@ def test_the_document_of_every_lesson_has_its_text_and_no_answer(lesson):
 
 def test_what_a_lesson_says_cannot_end_the_script_or_an_attribute():
     evil = replace(fake.lesson, title='</script><script>"evil"', summary='"><img src=x>')
-    page = lesson_document(evil, "", home="live", root="page/", source="live.js")
+    page = lesson_document(evil, "", home="live", root="page/")
     assert '<script>"evil' not in page
     assert "<img src=x>" not in page

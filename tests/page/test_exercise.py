@@ -1,6 +1,7 @@
 """Exercises on a lesson's page: all of them in every lesson, and the words of the terminal about a student's file."""
 
 import html
+import json
 from dataclasses import replace
 
 import pytest
@@ -16,25 +17,21 @@ from workbench.viewer.documents import lesson_page
 
 
 @pytest.mark.parametrize("lesson", catalog().values(), ids=lambda lesson: lesson.name)
-def test_every_lesson_s_page_has_its_exercises_and_the_way_on(lesson):
+def test_every_lesson_s_page_has_its_exercises_and_knows_the_course(lesson):
     page = html.unescape(lesson_page(lesson, catalog()))
     assert len(exercises_of(lesson)) >= 3
     for exercise in exercises_of(lesson):
         assert exercise.task in page
         assert starter(exercise) in page
         assert "\n".join(commands(exercise)) in page
-    names = list(catalog())
-    at = names.index(lesson.name)
-    for rel, beside in (("prev", names[:at][-1:]), ("next", names[at + 1 :][:1])):
-        for name in beside:
-            assert f'<a rel="{rel}" href="?lesson={name}"' in page
-        assert page.count(f'rel="{rel}"') == len(beside)
+    course = json.loads(page.partition("const COURSE = ")[2].partition(";")[0])
+    assert [one["name"] for one in course] == list(catalog())
+    assert 'data-address="?lesson=LESSON"' in page
 
 
-def test_a_lesson_without_exercises_or_neighbours_has_no_such_section():
+def test_a_lesson_without_exercises_has_no_such_section():
     page = lesson_page(fake.lesson, {"fake": fake.lesson})
     assert 'id="exercise"' not in page
-    assert 'class="beside"' not in page
 
 
 @pytest.mark.parametrize("exercise", exercises_of(catalog()["icp"]), ids=lambda exercise: exercise.name)

@@ -1,6 +1,5 @@
 """Looks exercises up: those of a lesson, by name, and those that a student's file defines."""
 
-import ast
 import functools
 import importlib
 import importlib.util
@@ -11,6 +10,7 @@ from pathlib import Path
 
 from workbench.errors import InputError, LeftOutWarning
 from workbench.exercise.model import Exercise, exercise_in
+from workbench.exercise.submission import Submission, read_submission
 from workbench.lesson import Lesson, catalog, course
 
 
@@ -111,27 +111,34 @@ def _of(lesson: Lesson | None) -> dict[str, Exercise]:
     return exercises() if lesson is None else {exercise.name: exercise for exercise in exercises_of(lesson)}
 
 
-def exercises_in(path: Path, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
-    """Return the exercises whose functions a student's file defines, without running it.
+def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
+    """Return the exercises that a student's file is handed in for, without running it.
+
+    They are those that a starter's first line or the file's name says; where neither says any, those whose functions the
+    file defines.
 
     Args:
-        path: The file.
+        given: The file, or what was read of it.
         lesson: The lesson whose exercises are looked for; all of the catalogue's where none is given.
 
     Raises:
         InputError: If the file cannot be read, does not parse (with the line), or defines none of them.
     """
-    try:
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror or 'cannot be read'}") from None
-    except SyntaxError as error:
-        raise InputError(f"{path.name}, line {error.lineno}: {error.msg}") from None
-    except ValueError:  # not UTF-8, or with NUL bytes
-        raise InputError(f"{path}: not a Python file") from None
-    defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    submission = given if isinstance(given, Submission) else read_submission(given)
     asked = _of(lesson)
-    found = tuple(exercise for name, exercise in asked.items() if name in defined)
+    defined = submission.defined()
+    marked = said_for(submission, lesson)
+    found = marked or tuple(exercise for name, exercise in asked.items() if name in defined)
+    missing = [exercise.name for exercise in marked if exercise.name not in defined]
     if not found:
-        raise InputError(f"{path}: defines none of the exercises' functions ({', '.join(asked) or 'there are none'})")
+        listed = ", ".join(asked) or "there are none"
+        raise InputError(f"{submission.file}: defines none of the exercises' functions ({listed})")
+    if missing:
+        raise InputError(f"{submission.file}: is for {', '.join(missing)} and defines no such function")
     return found
+
+
+def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
+    """Return the exercises that a file says it is handed in for, whether or not it is Python."""
+    asked = _of(lesson)
+    return tuple(asked[name] for name in submission.marked() if name in asked)

@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from workbench.errors import one_line
 from workbench.exercise.candidate import Call, Candidate
 from workbench.exercise.model import Check, Exercise, Function, Mistake, Verdict, fail
-from workbench.exercise.sandbox import Student, StudentError
+from workbench.exercise.sandbox import Patience, Student, StudentError, Wall
+from workbench.exercise.submission import Submission
 
 Answer = Callable[[Function, Call], tuple[Any, str]]
 """answer(function, call) -> its value, or None and the name of the error."""
@@ -19,10 +21,17 @@ Answer = Callable[[Function, Call], tuple[Any, str]]
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one check found."""
+    """What one check found.
+
+    Attributes:
+        check: What was promised.
+        verdict: How it was kept.
+        kind: Why there was no answer to judge: a `kind` of StudentError (`timeout`, `died`, `raised`, `result`), or nothing.
+    """
 
     check: Check
     verdict: Verdict
+    kind: str = ""
 
     @property
     def points(self) -> float:
@@ -40,7 +49,9 @@ class Report:
         outcomes: One per check that was run.
         not_run: Checks that were not run here.
         mistake: The known mistake that the function makes, if it fails and one was recognised.
-        printed: The end of what the student's code printed.
+        concerned: The names of the checks in which it makes that mistake.
+        printed: The beginning of what the student's code printed.
+        wall: What shut the student's code in; nothing where it was ours.
     """
 
     exercise: Exercise
@@ -48,7 +59,9 @@ class Report:
     outcomes: tuple[Outcome, ...]
     not_run: tuple[Check, ...] = ()
     mistake: Mistake | None = None
+    concerned: frozenset[str] = frozenset()
     printed: str = field(default="", repr=False)
+    wall: Wall | None = None
 
     @property
     def points(self) -> float:
@@ -66,15 +79,24 @@ class Report:
         return all(outcome.verdict.share == 1.0 for outcome in self.outcomes)
 
 
-def grade_file(path: Path, exercise: Exercise, *, hidden: bool = True) -> Report:
-    """Grade a student's file in a child process.
+def grade_file(
+    given: Path | Submission, exercise: Exercise, *, hidden: bool = True, wall: Wall | None = None
+) -> Report:
+    """Grade a student's file in a process of its own.
+
+    Args:
+        given: The file, or what was read of it.
+        exercise: What is asked.
+        hidden: Whether hidden checks are run too.
+        wall: What shuts the process in; the best of this machine by default.
 
     Raises:
         InputError: If the file cannot be read or does not load; the message names the line.
     """
-    with Student(path, exercise.name, seconds=exercise.contract.seconds) as student:
+    seconds = exercise.contract.seconds
+    with Student(given, exercise.name, seconds=seconds, wall=wall, patience=Patience(seconds)) as student:
         student.start()
-        return grade_function(student, exercise, hidden=hidden, file=path.name)
+        return grade_function(student, exercise, hidden=hidden, file=student.submission.file)
 
 
 def grade_function(function: Function, exercise: Exercise, *, hidden: bool = True, file: str = "") -> Report:
@@ -86,31 +108,51 @@ def grade_function(function: Function, exercise: Exercise, *, hidden: bool = Tru
         hidden: Whether hidden checks are run too.
         file: How the report names it.
     """
-    outcomes, calls, failing = [], [], []
+    outcomes: list[Outcome] = []
+    failing: dict[str, list[Call]] = {}
+    calls: list[Call] = []
     for check in exercise.checks:
         if check.public or hidden:
             candidate = Candidate(function, exercise.reference)
-            outcomes.append(Outcome(check, _judged(check, candidate)))
+            outcomes.append(_judged(check, candidate))
             calls += candidate.calls
             if outcomes[-1].verdict.share < 1.0:
-                failing.append(candidate.calls)
+                failing[check.name] = candidate.calls
     mistake = None
     answer = functools.cache(lambda function, call: _answer(function, call.args))
-    for asked in (calls, *failing) if failing else ():  # who makes two mistakes makes only one of them somewhere
+    for asked in (
+        (calls, *failing.values()) if failing else ()
+    ):  # who makes two mistakes makes only one of them somewhere
         mistake = mistake or recognised(asked, exercise, answer)
-    not_run = tuple(check for check in exercise.checks if not (check.public or hidden))
-    printed = function.printed() if isinstance(function, Student) else ""
-    return Report(exercise, file, tuple(outcomes), not_run, mistake, printed)
+    concerned = frozenset(
+        name for name, asked in failing.items() if mistake and _makes(mistake, asked, exercise, answer)
+    )
+    ours = not isinstance(function, Student)
+    return Report(
+        exercise,
+        file,
+        tuple(outcomes),
+        tuple(check for check in exercise.checks if not (check.public or hidden)),
+        mistake,
+        concerned,
+        "" if ours else function.printed(),
+        None if ours else function.wall,
+    )
 
 
-def _judged(check: Check, candidate: Candidate) -> Verdict:
+def _judged(check: Check, candidate: Candidate) -> Outcome:
     """One failure, crash or time-out costs this check only."""
     try:
-        return check.judge(candidate)
+        verdict = check.judge(candidate)
+        return Outcome(check, Verdict(verdict.share, one_line(verdict.message)))
     except StudentError as error:
-        return fail(str(error))
+        return Outcome(check, fail(str(error)), error.kind)
     except Exception as error:  # a check of ours that stumbles over an odd answer must not stop a batch
-        return fail(f"The answer could not be judged ({type(error).__name__}: {' '.join(str(error).split())}).")
+        return Outcome(check, fail(one_line(f"The answer could not be judged ({type(error).__name__}: {error}).")))
+
+
+def _makes(mistake: Mistake, calls: Sequence[Call], exercise: Exercise, answer: Answer) -> bool:
+    return max(_telling(calls, exercise, form, answer) for form in exercise.forms(mistake)) > 0
 
 
 def recognised(calls: Sequence[Call], exercise: Exercise, answer: Answer) -> Mistake | None:

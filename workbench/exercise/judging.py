@@ -73,7 +73,7 @@ def refused(candidate: Function, *args: Any, what: str) -> Verdict:
     try:
         value = candidate(*args)
     except StudentError as error:
-        if error.error == "ValueError":
+        if "ValueError" in error.errors:
             return full(f"{what} is refused with a ValueError.")
         if error.error in ("", "NotImplementedError"):
             raise

@@ -8,24 +8,33 @@ from xml.etree import ElementTree
 
 import workbench
 from workbench.atomic import write_atomic
+from workbench.errors import InputError, one_line
 from workbench.exercise.grading import Outcome, Report
+from workbench.exercise.model import Exercise
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 SCHEMA = Path(__file__).with_name("result.schema.json")
+UNSAFE = (
+    "Marks are not safe: nothing but limits stood between this code and the machine that graded it (--sandbox none)."
+)
+PRINTED_LINES, PRINTED_SIGNS = 5, 160
 MARKS = {"pass": "✓", "partial": "◐", "fail": "✗"}
 
 
 def terminal(report: Report) -> str:
     """Return a report for a person: per check its mark, points, promise and what was found, then what was run."""
-    lines = [f"{report.exercise.name} · {report.file}"]
+    lines = [f"{report.exercise.name} · {one_line(report.file)}"]
     for outcome in report.outcomes:
         points = f"{outcome.points:g}/{outcome.check.points:g}"
         lines.append(f"  {MARKS[outcome.verdict.word]} {outcome.verdict.word:<7} {points:>5}  {outcome.check.promise}")
         lines.append(f"{'':18}{outcome.verdict.message}")
     if report.mistake is not None:
         lines.append(f"  → {report.mistake.sentence}")
-    if report.printed.strip():
-        lines.append("  Your code printed: " + report.printed.strip().splitlines()[-1][:200])
+    printed = shown(report.printed)
+    if printed:
+        lines += ["  Your code printed:", *(f"    {line}" for line in printed)]
+    if _is_unsafe(report):
+        lines.append(f"  {UNSAFE}")
     lines.append("  " + counted(report))
     return "\n".join(lines)
 
@@ -43,6 +52,27 @@ def counted(report: Report) -> str:
     return " · ".join([*parts, f"{report.points:g} of {report.possible:g} points"])
 
 
+def shown(printed: str) -> list[str]:
+    """Return the first lines of what was printed, with signs that a terminal would obey written out."""
+    lines = [one_line(line)[:PRINTED_SIGNS] for line in printed.split("\n") if line.strip()]
+    return [*lines[:PRINTED_LINES], *(["..."] if len(lines) > PRINTED_LINES else [])]
+
+
+def _is_unsafe(report: Report) -> bool:
+    return report.wall is not None and not report.wall.holds
+
+
+def ungraded(file: str, exercise: Exercise | None, error: str) -> dict[str, Any]:
+    """Return what could not be graded as plain data: it has no points out of all those there were."""
+    return {
+        "file": one_line(file),
+        "exercise": None if exercise is None else exercise.name,
+        "points": 0,
+        "possible": 0 if exercise is None else exercise.points,
+        "error": one_line(error),
+    }
+
+
 def as_dict(report: Report) -> dict[str, Any]:
     """Return a report as plain data, after `result.schema.json`."""
     return {
@@ -57,7 +87,13 @@ def as_dict(report: Report) -> dict[str, Any]:
         "not_run": [check.name for check in report.not_run],
         "mistake": None
         if report.mistake is None
-        else {"name": report.mistake.name, "sentence": report.mistake.sentence},
+        else {
+            "name": report.mistake.name,
+            "sentence": report.mistake.sentence,
+            "checks": [outcome.check.name for outcome in report.outcomes if outcome.check.name in report.concerned],
+        },
+        "printed": shown(report.printed),
+        "sandbox": None if report.wall is None else report.wall.name,
     }
 
 
@@ -67,14 +103,19 @@ def _check(outcome: Outcome) -> dict[str, Any]:
         "promise": outcome.check.promise,
         "public": outcome.check.public,
         "result": outcome.verdict.word,
+        "kind": outcome.kind,
         "points": outcome.points,
         "possible": outcome.check.points,
         "message": outcome.verdict.message,
     }
 
 
-def gradescope(reports: Sequence[Report]) -> dict[str, Any]:
+def gradescope(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> dict[str, Any]:
     """Return the `results.json` that Gradescope reads.
+
+    Args:
+        reports: What was graded.
+        failed: What could not be, as `ungraded` says it.
 
     Source: Gradescope autograder specification, "Output format".
     """
@@ -84,33 +125,79 @@ def gradescope(reports: Sequence[Report]) -> dict[str, Any]:
             "score": outcome.points,
             "max_score": outcome.check.points,
             "status": "passed" if outcome.verdict.share == 1.0 else "failed",
-            "output": "\n".join([outcome.verdict.message, *([report.mistake.sentence] if report.mistake else [])]),
+            "output": "\n".join([outcome.verdict.message, *_named(report, outcome)]),
             "visibility": "visible" if outcome.check.public else "after_published",
         }
         for report in reports
         for outcome in report.outcomes
     ]
-    return {"score": sum(report.points for report in reports), "tests": tests}
+    tests += [
+        {
+            "name": item["exercise"] or item["file"] or "The file",
+            "score": 0,
+            "max_score": item["possible"],
+            "status": "failed",
+            "output": item["error"],
+            "visibility": "visible",
+        }
+        for item in failed
+    ]
+    said = [item["error"] for item in failed]
+    said += [
+        f"{report.exercise.name} printed:\n" + "\n".join(shown(report.printed)) for report in reports if report.printed
+    ]
+    said += [UNSAFE] if any(map(_is_unsafe, reports)) else []
+    return {"score": sum(report.points for report in reports), "output": "\n".join(said), "tests": tests}
 
 
-def junit(reports: Sequence[Report]) -> str:
-    """Return JUnit XML: a suite per function, a case per check."""
+def _named(report: Report, outcome: Outcome) -> list[str]:
+    return [report.mistake.sentence] if report.mistake and outcome.check.name in report.concerned else []
+
+
+def junit(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> str:
+    """Return JUnit XML, as Jenkins reads it: a suite per function, a case per check; an error where none could be run."""
     root = ElementTree.Element("testsuites")
     for report in reports:
         failures = sum(outcome.verdict.share < 1.0 for outcome in report.outcomes)
-        suite = ElementTree.SubElement(
-            root, "testsuite", name=report.exercise.name, tests=str(len(report.outcomes)), failures=str(failures)
-        )
+        suite = _suite(root, report.exercise.name, tests=len(report.outcomes), failures=failures, errors=0)
         for outcome in report.outcomes:
-            case = ElementTree.SubElement(suite, "testcase", classname=report.file, name=outcome.check.name)
+            case = ElementTree.SubElement(
+                suite, "testcase", classname=printable(report.file) or report.exercise.name, name=outcome.check.name
+            )
             if outcome.verdict.share < 1.0:
-                ElementTree.SubElement(case, "failure", message=printable(outcome.verdict.message))
+                ElementTree.SubElement(
+                    case,
+                    "failure",
+                    message=printable(outcome.verdict.message),
+                    type=outcome.kind or outcome.verdict.word,
+                )
+        if _is_unsafe(report):
+            ElementTree.SubElement(suite, "system-err").text = UNSAFE
+    for item in failed:
+        name = printable(item["exercise"] or item["file"] or "file")
+        case = ElementTree.SubElement(
+            _suite(root, name, tests=1, failures=0, errors=1), "testcase", classname=name, name="can be graded"
+        )
+        ElementTree.SubElement(case, "error", message=printable(item["error"]), type="ungraded")
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=True)
 
 
-def markdown(reports: Sequence[Report]) -> str:
+def _suite(root: ElementTree.Element, name: str, **counts: int) -> ElementTree.Element:
+    return ElementTree.SubElement(
+        root, "testsuite", {"name": name, **{what: str(count) for what, count in counts.items()}}
+    )
+
+
+def markdown(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> str:
     """Return a summary for a job's page on GitHub."""
-    lines = []
+    lines = [f"**{UNSAFE}**", ""] if any(map(_is_unsafe, reports)) else []
+    for item in failed:
+        lines += [
+            f"### {_cell(item['exercise'] or item['file'])}: could not be graded",
+            "",
+            f"> {_cell(item['error'])}",
+            "",
+        ]
     for report in reports:
         lines += [f"### {report.exercise.name}: {report.points:g} of {report.possible:g}", ""]
         lines += ["| | check | points | found |", "|---|---|---|---|"]
@@ -123,18 +210,34 @@ def markdown(reports: Sequence[Report]) -> str:
     return "\n".join(lines)
 
 
-def write_files(reports: Sequence[Report], folder: Path) -> None:
-    """Write result.json, Gradescope's results.json, junit.xml and summary.md into a folder."""
-    folder.mkdir(parents=True, exist_ok=True)
-    result = {"schema": SCHEMA_VERSION, "reports": [as_dict(report) for report in reports]}
+def write_files(reports: Sequence[Report], folder: Path, failed: Sequence[dict[str, Any]] = ()) -> None:
+    """Write result.json, Gradescope's results.json, junit.xml and summary.md into a folder.
+
+    Args:
+        reports: What was graded.
+        folder: Made where it is not there.
+        failed: What could not be graded, as `ungraded` says it.
+
+    Raises:
+        InputError: If one of them cannot be written; names it.
+    """
+    result = {
+        "schema": SCHEMA_VERSION,
+        "reports": [as_dict(report) for report in reports],
+        "ungraded": list(failed),
+    }
     files = {
         "result.json": json.dumps(result, indent=1, ensure_ascii=False),
-        "results.json": json.dumps(gradescope(reports), indent=1, ensure_ascii=False),
-        "junit.xml": junit(reports),
-        "summary.md": markdown(reports),
+        "results.json": json.dumps(gradescope(reports, failed), indent=1, ensure_ascii=False),
+        "junit.xml": junit(reports, failed),
+        "summary.md": markdown(reports, failed),
     }
     for name, text in files.items():
-        write_atomic(folder / name, text.encode())
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            write_atomic(folder / name, text.encode("utf-8", "backslashreplace"))
+        except OSError as error:
+            raise InputError(f"{folder / name}: {error.strerror or 'cannot be written'}") from None
 
 
 def printable(text: str) -> str:
@@ -143,4 +246,4 @@ def printable(text: str) -> str:
 
 
 def _cell(text: str) -> str:
-    return text.replace("|", "\\|").replace("\n", " ").replace("<", "&lt;")
+    return one_line(text).replace("|", "\\|").replace("<", "&lt;").replace("`", "\\`")

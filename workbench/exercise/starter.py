@@ -11,6 +11,9 @@ import numpy as np
 from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
+from workbench.exercise.sandbox.python import ALLOWED
+from workbench.exercise.sandbox.student import MEGABYTES
+from workbench.exercise.sandbox.walls import OUTPUT_BYTES
 from workbench.lesson import catalog
 from workbench.loading import word_for
 
@@ -37,6 +40,8 @@ def starter(exercise: Exercise) -> str:
 
 Watch it live:  {watching}
 Have it judged: {judging}
+
+{textwrap.fill(allowed(exercise), 100)}
 """
 
 import numpy as np
@@ -47,6 +52,16 @@ def {exercise.name}({arguments}) -> {returned}:
     """
     raise NotImplementedError
 '''
+
+
+def allowed(exercise: Exercise) -> str:
+    """Return what a student's function may use, in sentences."""
+    return (
+        f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside this file. One call may "
+        f"take {exercise.contract.seconds:g} s and {MEGABYTES >> 10} GB. It may print: the first {OUTPUT_BYTES >> 10} KB "
+        "are kept. It reaches no network, no other program and no file that is not its own. The first line above says what "
+        "this file is handed in for: leave it there."
+    )
 
 
 def commands(exercise: Exercise) -> tuple[str, str, str]:

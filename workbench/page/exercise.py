@@ -44,7 +44,7 @@ def report_data(said: Report | str) -> dict[str, Any]:
             }
             for outcome in said.outcomes
         ],
-        "printed": said.printed.strip()[-400:],
+        "printed": said.printed.strip()[:400],
     }
 
 

@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 
 MOST_BYTES = 64 * 2**20
+MOST_HEADER = 4 * 2**20
 MOST_PARTS = 10_000
 _KINDS = "biuf"
+_TYPES = {f"{order}{kind}{size}" for order in "<|" for kind in _KINDS for size in (1, 2, 4, 8)}
 
 
 class WireError(ValueError):
@@ -28,7 +30,7 @@ def pack(message: dict[str, Any]) -> bytes:
     blobs: list[bytes] = []
     header = json.dumps({key: _describe(value, blobs, 0) for key, value in message.items()}).encode()
     payload = b"".join(blobs)
-    if len(payload) > MOST_BYTES or len(header) > MOST_BYTES:
+    if len(payload) > MOST_BYTES or len(header) > MOST_HEADER:
         raise WireError(f"{len(payload) >> 20} MB is more than the {MOST_BYTES >> 20} MB a result may have")
     return struct.pack("<QQ", len(header), len(payload)) + header + payload
 
@@ -40,7 +42,7 @@ def lengths(start: bytes) -> tuple[int, int]:
         WireError: If they are out of bounds.
     """
     header, payload = struct.unpack("<QQ", start)
-    if header > MOST_BYTES or payload > MOST_BYTES:
+    if header > MOST_HEADER or payload > MOST_BYTES:
         raise WireError("the lengths are out of bounds")
     return header, payload
 
@@ -59,7 +61,7 @@ def unpack(header: bytes, payload: bytes) -> dict[str, Any]:
         return {str(key): reader.value(value, 0) for key, value in described.items()}
     except WireError:
         raise
-    except (ValueError, TypeError, KeyError, RecursionError) as error:
+    except (ValueError, TypeError, KeyError, OverflowError, RecursionError, MemoryError) as error:
         raise WireError(f"not a message: {type(error).__name__}") from None
 
 
@@ -104,9 +106,11 @@ class _Reader:
             return float.fromhex(described["f"])
         if "l" in described:
             return [self.value(item, depth + 1) for item in described["l"]]
+        if described["a"] not in _TYPES:
+            raise WireError("not a message")
         dtype = np.dtype(described["a"])
         shape = tuple(int(n) for n in described["s"])
-        if dtype.kind not in _KINDS or any(n < 0 for n in shape) or len(shape) > 8:
+        if any(n < 0 for n in shape) or len(shape) > 8:
             raise WireError("not a message")
         size = dtype.itemsize
         for n in shape:

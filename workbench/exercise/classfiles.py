@@ -1,0 +1,113 @@
+"""A class in files for teachers: a row per student, a matrix of students and checks, a summary."""
+
+import csv
+import io
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from workbench.errors import one_line
+from workbench.exercise.reports import UNSAFE
+
+Result = dict[str, Any]
+HOW = {"timeout": "hangs", "died": "crashes", "raised": "raises", "result": "returns no result"}
+
+
+def is_full(result: Result) -> bool:
+    """Whether all that a student handed in was graded, and has full marks."""
+    full = all(report["points"] == report["possible"] for report in result["reports"])
+    return bool(result["reports"]) and not result["ungraded"] and full
+
+
+def class_csv(results: Sequence[Result]) -> str:
+    """Return one row per student: points in all and per exercise, and what was wrong but for wrong answers.
+
+    What could not be graded counts out of its full points; what was not handed in is empty.
+    """
+    names = list(dict.fromkeys(item["exercise"] for result in results for item in _items(result) if item["exercise"]))
+    rows = [["student", "points", "possible", *names, "trouble"]]
+    for result in results:
+        points: dict[str, float] = {}
+        for item in _items(result):
+            if item["exercise"]:
+                points[item["exercise"]] = points.get(item["exercise"], 0.0) + item["points"]
+        possible = sum(item["possible"] for item in _items(result))
+        cells = [f"{points[name]:g}" if name in points else "" for name in names]
+        rows.append([result["student"], f"{sum(points.values()):g}", f"{possible:g}", *cells, _trouble(result)])
+    return _csv(rows)
+
+
+def matrix_csv(results: Sequence[Result]) -> str:
+    """Return students by checks: the share of the points, or how it failed; below, sums and the most frequent mistake."""
+    checks = list(
+        dict.fromkeys((r["exercise"], c["name"]) for result in results for r in result["reports"] for c in r["checks"])
+    )
+    rows = [["student", *(f"{exercise}.{name}" for exercise, name in checks)]]
+    mistakes: dict[tuple[str, str], Counter] = {check: Counter() for check in checks}
+    shares: dict[tuple[str, str], list[float]] = {check: [] for check in checks}
+    for result in results:
+        cells = {}
+        for report in result["reports"]:
+            for found in report["checks"]:
+                key = (report["exercise"], found["name"])
+                shares[key].append(found["points"] / found["possible"] if found["possible"] else 0.0)
+                cells[key] = HOW.get(found["kind"], f"{shares[key][-1]:g}")
+                if report["mistake"] and found["name"] in report["mistake"]["checks"]:
+                    mistakes[key][report["mistake"]["name"]] += 1
+        rows.append([result["student"], *(cells.get(key, "") for key in checks)])
+    rows.append(["graded", *(str(len(shares[key])) for key in checks)])
+    rows.append(["full marks", *(str(sum(share == 1 for share in shares[key])) for key in checks)])
+    rows.append(["mean share", *(f"{sum(shares[key]) / len(shares[key]):.3g}" for key in checks)])
+    frequent = [next((f"{name} ({n})" for name, n in mistakes[key].most_common(1)), "") for key in checks]
+    return _csv([*rows, ["most frequent mistake", *frequent]])
+
+
+def summary(results: Sequence[Result]) -> str:
+    """Return the class in a few lines of Markdown."""
+    graded = [result for result in results if result["reports"]]
+    perfect = sum(map(is_full, results))
+    lines = [f"# {len(results)} submissions", ""]
+    lines.append(f"{len(graded)} graded, {perfect} with full marks, {len(results) - len(graded)} could not be graded.")
+    if any(result["sandbox"] == "none" for result in results):
+        lines += ["", f"**{UNSAFE}**"]
+    mistakes = Counter(r["mistake"]["sentence"] for result in graded for r in result["reports"] if r["mistake"])
+    if mistakes:
+        told = (f"- {count} × {_plain(said)}" for said, count in mistakes.most_common(8))
+        lines += ["", "Most frequent mistakes:", "", *told]
+    troubled = [f"- {_plain(result['student'])}: {_plain(said)}" for result in results if (said := _trouble(result))]
+    if troubled:
+        lines += ["", "To look at:", "", *troubled]
+    return "\n".join(lines) + "\n"
+
+
+def _items(result: Result) -> Iterator[dict[str, Any]]:
+    yield from result["reports"]
+    yield from result["ungraded"]
+
+
+def _trouble(result: Result) -> str:
+    said = [item["error"] for item in result["ungraded"]]
+    for report in result["reports"]:
+        kinds = Counter(HOW[check["kind"]] for check in report["checks"] if check["kind"] in ("timeout", "died"))
+        said += [f"{report['exercise']} {how} in {_checks(count)}" for how, count in kinds.items()]
+    return "; ".join([*said, *([result["note"]] if result["note"] else [])])
+
+
+def _checks(count: int) -> str:
+    return "1 check" if count == 1 else f"{count} checks"
+
+
+def _csv(rows: Sequence[Sequence[str]]) -> str:
+    out = io.StringIO()
+    csv.writer(out, lineterminator="\n").writerows([[_inert(one_line(cell)) for cell in row] for row in rows])
+    return out.getvalue()
+
+
+def _inert(cell: str) -> str:
+    """Keep a spreadsheet from running what a student named a file."""
+    return "'" + cell if cell.startswith(("=", "+", "-", "@")) else cell
+
+
+def _plain(text: str) -> str:
+    """Return text that is no Markdown and no HTML."""
+    return "".join(f"\\{sign}" if sign in "\\`*[]|<>#" else sign for sign in one_line(text))

@@ -1,0 +1,130 @@
+"""What a class handed in: a folder is read once, before anything of it runs; who handed in nothing is found by a roster."""
+
+import csv
+import io
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from workbench.errors import InputError
+from workbench.exercise.submission import SUFFIXES, content
+
+MOST_FILES, MOST_TOGETHER = 200, 8 << 20
+NOT_IN_ROSTER = "not in the roster"
+COLUMNS = ("student", "name", "login", "username", "id", "sid", "email")
+
+
+@dataclass(frozen=True)
+class Handed:
+    """What one student handed in.
+
+    Attributes:
+        student: By the file's or the folder's name.
+        files: What is in each Python file or notebook, by its path in the student's folder.
+        troubles: What could not be read: the file, and one line.
+        note: What else is to be said of the student.
+    """
+
+    student: str
+    files: dict[str, bytes]
+    troubles: tuple[tuple[str, str], ...] = ()
+    note: str = ""
+
+
+def handed_in(folder: Path, out: Path | None = None) -> dict[str, Handed]:
+    """Return what each student handed in: `NAME.py`, `NAME.ipynb`, or a folder `NAME` with files at any depth.
+
+    Args:
+        folder: Where the students' files are.
+        out: Where the results are; it is no student's.
+
+    Raises:
+        InputError: If it is no folder or holds no file of any student.
+    """
+    if not folder.is_dir():
+        raise InputError(f"{folder}: no such folder")
+    found: dict[str, Handed] = {}
+    for path in sorted(folder.iterdir()):
+        if path.name.startswith((".", "__")) or (out is not None and path.absolute() == out.absolute()):
+            continue
+        if path.suffix.lower() in SUFFIXES and not path.is_dir():
+            handed = _read(path.stem, folder, [path])
+        elif path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
+            handed = Handed(path.name, {}, ((path.name, "a link that leads out of the folder"),))
+        elif path.is_dir():
+            handed = _read(path.name, path, list(_below(path)))
+        else:
+            continue
+        if handed.student in found:
+            handed = _clashing(found[handed.student], handed)
+        found[handed.student] = handed
+    if not any(handed.files or handed.troubles for handed in found.values()):
+        raise InputError(f"{folder}: holds no .py file")
+    nothing = (("", "the folder holds no .py file and no notebook"),)
+    return {
+        name: handed if handed.files or handed.troubles else replace(handed, troubles=nothing)
+        for name, handed in found.items()
+    }
+
+
+def with_roster(found: dict[str, Handed], roster: Path) -> dict[str, Handed]:
+    """Return what was handed in by those of a roster, in its order, then by those who are not in it.
+
+    Raises:
+        InputError: If the roster cannot be read.
+    """
+    names = _names(roster)
+    by_name = {name.casefold(): handed for name, handed in found.items()}
+    listed = {name: by_name.pop(name.casefold(), Handed(name, {}, (("", "handed in nothing"),))) for name in names}
+    others = {handed.student: replace(handed, note=NOT_IN_ROSTER) for handed in by_name.values()}
+    return {handed.student: handed for handed in (*listed.values(), *others.values())}
+
+
+def _names(roster: Path) -> list[str]:
+    try:
+        text = content(roster).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError(f"{roster}: not UTF-8") from None
+    first = text.partition("\n")[0]
+    rows = [row for row in csv.reader(io.StringIO(text), delimiter=max(",;\t", key=first.count)) if any(row)]
+    header = [cell.strip().lower() for cell in rows[0]] if rows else []
+    column = next((header.index(name) for name in COLUMNS if name in header), None)
+    names = [row[column or 0].strip() for row in rows[column is not None :] if len(row) > (column or 0)]
+    if not any(names):
+        raise InputError(f"{roster}: names no student; its first row may say which column does: {', '.join(COLUMNS)}")
+    return list(dict.fromkeys(name for name in names if name))
+
+
+def _read(student: str, root: Path, paths: list[Path]) -> Handed:
+    files: dict[str, bytes] = {}
+    troubles: list[tuple[str, str]] = []
+    left = MOST_TOGETHER
+    for path in paths:
+        name = path.relative_to(root).as_posix()
+        try:
+            if len(files) >= MOST_FILES or left <= 0:
+                raise InputError(
+                    f"{name}: not read; a student may hand in {MOST_FILES} files, {MOST_TOGETHER >> 20} MB"
+                )
+            files[name] = content(path, root)
+            left -= len(files[name])
+        except InputError as error:
+            troubles.append((name, str(error)))
+    return Handed(student, files, tuple(troubles[:20]))
+
+
+def _below(folder: Path) -> Iterator[Path]:
+    for place, folders, names in os.walk(folder):  # follows no link
+        folders[:] = sorted(name for name in folders if not name.startswith((".", "__")))
+        yield from (
+            Path(place, name)
+            for name in sorted(names)
+            if os.path.splitext(name)[1].lower() in SUFFIXES and not name.startswith(".")
+        )
+
+
+def _clashing(one: Handed, other: Handed) -> Handed:
+    files = sorted({*one.files, *other.files, *(file for each in (one, other) for file, _ in each.troubles)})
+    said = f"two things here are named {one.student} ({', '.join(files)[:200]}): leave one of them"
+    return Handed(one.student, {}, (("", said),))

@@ -1,0 +1,51 @@
+"""How long a student's function is waited for: an endless loop costs its limit once, not once for every check."""
+
+REFUSED_AFTER = 3
+LEAST_SECONDS = 1.0
+CALLS = 20
+
+
+class Patience:
+    """The time that calls of one function may take together.
+
+    The first call that is late costs its whole limit, the next ones a fifth of it. After three that were late or ended
+    their process, no call is made any more.
+
+    Args:
+        seconds: The longest one call may take.
+    """
+
+    def __init__(self, seconds: float):
+        self._seconds, self._late, self._lost, self._spent = seconds, 0, 0, 0.0
+
+    @property
+    def seconds(self) -> float:
+        """How long the next call may take."""
+        return self._seconds if not self._late else min(self._seconds, max(LEAST_SECONDS, self._seconds / 5))
+
+    @property
+    def over(self) -> str:
+        """Why no call is made any more; nothing where one is."""
+        if self._late + self._lost >= REFUSED_AFTER:
+            what = (
+                "took too long"
+                if not self._lost
+                else "ended its process"
+                if not self._late
+                else "took too long or crashed"
+            )
+            return f"{self._late + self._lost} calls already {what}"
+        if self._spent > CALLS * self._seconds:
+            return f"its calls together took more than {CALLS * self._seconds:g} s"
+        return ""
+
+    def took(self, seconds: float, how: str) -> None:
+        """Count a call that ended as a `kind` of StudentError, or with an answer."""
+        self._spent += seconds
+        self._late += how == "timeout"
+        self._lost += how == "died"
+
+    @property
+    def kind(self) -> str:
+        """As what a call that is not made counts."""
+        return "died" if self._lost > self._late else "timeout"

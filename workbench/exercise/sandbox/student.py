@@ -1,0 +1,230 @@
+"""A student's function as the grader calls it: every call crosses to a process that is shut in."""
+
+import contextlib
+import os
+import secrets
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+from pathlib import Path
+from typing import IO, Any
+
+from workbench.errors import InputError
+from workbench.exercise.inside.wire import WireError
+from workbench.exercise.sandbox.patience import Patience
+from workbench.exercise.sandbox.pipe import Pipe
+from workbench.exercise.sandbox.walls import START_SECONDS, Wall, anonymous, best
+from workbench.exercise.submission import Submission, read_submission
+
+MEGABYTES = 2048
+LOAD_SECONDS = 10.0
+"""How long a file may take to load."""
+
+
+class StudentError(InputError):
+    """The student's function gave no result; the message says what happened and where in the student's file.
+
+    Args:
+        message: One line for the student.
+        kind: `raised`, `timeout`, `died`, `result` (what came back is no value) or `load`.
+        error: The name of the exception that was raised, if one was.
+        line: The student's own line, 0 where it is not known.
+        errors: The names of the exception's class and of the classes it is one of.
+    """
+
+    def __init__(self, message: str, kind: str, error: str = "", line: int = 0, errors: tuple[str, ...] = ()):
+        super().__init__(message)
+        self.kind, self.error, self.line, self.errors = kind, error, line, errors or (error,)
+
+
+class Student:
+    """A student's function, callable; every call crosses to a process of its own, which is started when it is needed.
+
+    Args:
+        given: The student's file, or what was read of it.
+        name: The function's name in it.
+        seconds: The longest one call may take, wall time; the process is killed then.
+        megabytes: Address space of the process.
+        wall: What shuts it in; the best of this machine by default.
+        patience: How long all its calls are waited for; None waits `seconds` for each.
+
+    Raises:
+        InputError: If the file cannot be read.
+    """
+
+    def __init__(
+        self,
+        given: Path | Submission,
+        name: str,
+        *,
+        seconds: float = 5.0,
+        megabytes: int = MEGABYTES,
+        wall: Wall | None = None,
+        patience: Patience | None = None,
+    ):
+        self.submission = given if isinstance(given, Submission) else read_submission(given)
+        self.name, self.__name__ = name, name
+        self.wall = best() if wall is None else wall
+        self.changed_inputs = False  # whether the last call changed what it was given
+        self._seconds, self._megabytes = seconds, megabytes
+        self._patience = patience
+        self._lock = threading.Lock()  # one call at a time: several runs may share a function
+        self._process: subprocess.Popen | None = None
+        self._pipe: Pipe | None = None
+        self._folder: str | None = None
+        self._printed: IO[bytes] | None = None
+
+    def __call__(self, *args: Any, **options: Any) -> Any:
+        """Return what the student's function returns for these arguments, as plain values.
+
+        Raises:
+            StudentError: If it raised, took too long, ended its process, or returned what is no value.
+        """
+        with self._lock:
+            if self._patience is not None and self._patience.over:
+                raise StudentError(f"{self.name} was not called: {self._patience.over}", self._patience.kind)
+            if self._process is None or self._process.poll() is not None:
+                self.start()
+            reply = self._called({"do": "call", "args": list(args), "options": list(options.items())})
+            self.changed_inputs = reply.get("changed") is True
+            return reply.get("value")
+
+    @property
+    def source(self) -> str:
+        """The text that is run."""
+        return self.submission.source
+
+    def _called(self, request: dict[str, Any]) -> dict[str, Any]:
+        seconds, began, how = self._patience.seconds if self._patience else self._seconds, time.monotonic(), ""
+        try:
+            return self._ask(request, seconds)
+        except StudentError as error:
+            how = error.kind
+            raise
+        finally:
+            if self._patience is not None:
+                self._patience.took(time.monotonic() - began, how)
+
+    def start(self) -> None:
+        """Start the process and load the student's file.
+
+        Raises:
+            StudentError: If the file does not load or lacks the function.
+        """
+        self._end()
+        self._pipe = Pipe()
+        self._printed = self._printed or anonymous()
+        if not self.wall.holds:
+            self._folder = tempfile.mkdtemp(prefix="exercise-")
+        pipe_in, pipe_out = self._pipe.theirs
+        try:
+            self._process = self.wall.start(
+                pipe_in=pipe_in,
+                pipe_out=pipe_out,
+                printed=self._printed,
+                folder=self._folder or "/",
+                megabytes=self._megabytes,
+                cpu_seconds=int(60 + 20 * self._seconds),
+            )
+        finally:
+            self._pipe.inherited()
+        self._ask({"do": "start"}, START_SECONDS)
+        modules = [list(pair) for pair in self.submission.modules.items()]
+        self._ask({"do": "load", "source": self.source, "name": self.name, "modules": modules}, LOAD_SECONDS)
+
+    def printed(self, most: int = 8000) -> str:
+        """Return the beginning of what the student's code printed."""
+        return "" if self._printed is None else os.pread(self._printed.fileno(), most, 0).decode("utf-8", "replace")
+
+    def close(self) -> None:
+        """End the process and everything it started; nothing of it is left."""
+        self._end()
+        if self._printed is not None:
+            self._printed.close()
+            self._printed = None
+
+    def __enter__(self) -> "Student":
+        """Return itself; leaving the block ends the process."""
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """End the process."""
+        self.close()
+
+    def _end(self) -> int | None:
+        """End the process; its exit code, where it ended by itself."""
+        process, self._process = self._process, None
+        pipe, self._pipe = self._pipe, None
+        folder, self._folder = self._folder, None
+        code = None
+        if process is not None:
+            code = process.poll()
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+        if pipe is not None:
+            pipe.close()
+        if folder is not None:
+            shutil.rmtree(folder, ignore_errors=True)
+        return code
+
+    def _ask(self, request: dict[str, Any], seconds: float) -> dict[str, Any]:
+        assert self._pipe is not None
+        nonce = secrets.token_hex(8)
+        try:
+            reply = self._pipe.ask(request | {"nonce": nonce, "file": self.submission.file}, seconds)
+        except WireError as error:
+            self._end()
+            raise StudentError(f"{self.name}: what came back is no result ({error})", "result") from None
+        except TimeoutError:
+            self._end()
+            raise self._too_long(request["do"], seconds) from None
+        except OSError:
+            raise self._gone(request["do"]) from None
+        if reply.get("nonce") != nonce:
+            self._end()
+            raise StudentError(f"{self.name}: something else than the result was written to the grader", "result")
+        if "error" in reply:
+            raise self._raised(reply, loading=request["do"] == "load")
+        return reply
+
+    def _raised(self, reply: dict[str, Any], loading: bool) -> StudentError:
+        error, said, line = str(reply["error"])[:80], str(reply.get("message", ""))[:500], reply.get("line")
+        names = reply.get("errors")
+        errors = tuple(str(name)[:80] for name in names[:12]) if isinstance(names, list) else ()
+        line = line if isinstance(line, int) and not isinstance(line, bool) else 0
+        where = f"{self.submission.file}, line {line}: " if line else f"{self.submission.file}: "
+        if loading:
+            self.close()
+            return StudentError(f"{where}the file does not load: {error}: {said}", "load", error, line)
+        if error == "WireError":
+            return StudentError(f"{where}{self.name} returned what is no result: {said}", "result", "", line)
+        if error == "NotImplementedError":
+            return StudentError(f"{where}{self.name} is not written yet", "raised", error, line)
+        said = f"{where}{self.name} raised {error}" + (f": {said}" if said else "")
+        return StudentError(said, "raised", error, line, errors)
+
+    def _too_long(self, doing: str, seconds: float) -> StudentError:
+        if doing == "start":
+            return StudentError(f"Python did not start within {seconds:g} s: is this machine too busy?", "died")
+        what = self.name if doing == "call" else f"{self.submission.file}: loading the file"
+        return StudentError(
+            f"{what} took more than {seconds:g} s and was stopped: is there an endless loop?", "timeout"
+        )
+
+    def _gone(self, doing: str) -> StudentError:
+        process = self._process
+        if process is not None:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(2.0)  # its pipe is closed: it is about to end, and its exit code tells why
+        code = self._end()
+        if doing == "start":
+            return StudentError(f"Python did not start: {self.printed().strip()[-200:] or f'exit code {code}'}", "died")
+        number = None if code is None else -code if code < 0 else code - 128  # bubblewrap says 128 and the signal
+        how = f"ended (exit code {code}): does it call exit, or crash a library?"
+        if number in (signal.SIGKILL, signal.SIGXCPU):
+            how = "was killed: too much memory, or processor time?"
+        return StudentError(f"{self.name}: its process {how}", "died")

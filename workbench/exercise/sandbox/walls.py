@@ -1,0 +1,174 @@
+"""What shuts a student's process in on this machine: bubblewrap, else Landlock, else nothing but limits.
+
+Whether a wall holds here is tried, not looked up: a program may be installed and not be allowed to do its work.
+"""
+
+import functools
+import json
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import IO
+
+from workbench.errors import InputError
+from workbench.exercise.sandbox import bubblewrap, python
+
+START_SECONDS = 30.0
+"""How long Python and numpy may take to start."""
+OUTPUT_BYTES = 64 << 10
+"""How much of what a student prints is kept: the first."""
+NAMES = ("bubblewrap", "landlock", "none")
+
+
+@dataclass(frozen=True)
+class Wall:
+    """What stands between a student's process and this machine.
+
+    Attributes:
+        name: `bubblewrap`, `landlock`, or `none`: limits only, so that marks are not safe.
+        why: Where it is `none`, why there is nothing better; one line.
+    """
+
+    name: str
+    why: str = ""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the kernel shuts the process in."""
+        return self.name != "none"
+
+    def start(
+        self, *, pipe_in: int, pipe_out: int, printed: IO[bytes], folder: str, megabytes: int, cpu_seconds: int
+    ) -> subprocess.Popen:
+        """Start a student's process; it dies with this one wherever the wall holds.
+
+        Args:
+            pipe_in: Where it reads, a descriptor.
+            pipe_out: Where it answers.
+            printed: Where what it prints goes.
+            folder: Where it works, if it has no folder of its own.
+            megabytes: Most address space.
+            cpu_seconds: Most processor time.
+        """
+        files = python.here()
+        settings = {
+            "in": pipe_in, "out": pipe_out, "packages": files.places, "megabytes": megabytes, "cpu": cpu_seconds,
+            "output": OUTPUT_BYTES, "filter": self.holds, "grader": os.getpid(),
+            "landlock": list(files.listed()) if self.name == "landlock" else None,
+        }  # fmt: skip
+        boxed = self.name == "bubblewrap"
+        child = f"{bubblewrap.CHILD}/child.py" if boxed else str(python.INSIDE / "child.py")
+        quiet = ["-W", "ignore::RuntimeWarning"]  # numpy's are not what the student printed
+        environment = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": bubblewrap.FOLDER if boxed else folder}
+        environment |= {f"{library}_NUM_THREADS": "1" for library in ("OPENBLAS", "OMP", "MKL")}
+        command = [files.executable, "-I", "-S", "-B", "-u", *quiet, child, json.dumps(settings)]
+        if boxed:
+            known = [word for pair in environment.items() for word in ("--setenv", *pair)]
+            *before, end = bubblewrap.arguments(files)
+            command = [*before, *known, end, *command]
+        return _from_a_lasting_thread(
+            lambda: subprocess.Popen(
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=printed,
+                stderr=printed,
+                pass_fds=(pipe_in, pipe_out),
+                cwd=folder,
+                env=environment,
+                start_new_session=True,
+            )
+        )
+
+
+@functools.cache
+def best() -> Wall:
+    """Return the best wall of this machine."""
+    troubles = []
+    for name, trouble in (("bubblewrap", _without_bubblewrap), ("landlock", _without_landlock)):
+        wrong = trouble() or _tried(Wall(name))
+        if not wrong:
+            return Wall(name)
+        troubles.append(wrong)
+    return Wall("none", "; ".join(troubles))
+
+
+def named(name: str) -> Wall:
+    """Return a wall by its name, `auto` for the best.
+
+    Raises:
+        InputError: If there is no wall of that name, or it does not hold on this machine.
+    """
+    if name == "auto":
+        return best()
+    if name not in NAMES:
+        raise InputError(f"--sandbox {name}: there are auto, {', '.join(NAMES)}")
+    wrong = ""
+    if name == "bubblewrap":
+        wrong = _without_bubblewrap() or _tried(Wall(name))
+    elif name == "landlock":
+        wrong = _without_landlock() or _tried(Wall(name))
+    if wrong:
+        raise InputError(f"--sandbox {name}: {wrong}")
+    return Wall(name, "it was asked for" if name == "none" else "")
+
+
+def _without_bubblewrap() -> str:
+    if sys.platform != "linux":
+        return "bubblewrap needs Linux"
+    return "" if bubblewrap.program() else "bubblewrap is not installed (apt install bubblewrap)"
+
+
+def _without_landlock() -> str:
+    return "" if sys.platform == "linux" else "Landlock needs Linux"
+
+
+@functools.cache
+def _tried(wall: Wall) -> str:
+    """Return why a process cannot be shut in by a wall here; nothing where it can: it starts, and ends with its pipe."""
+    pipe_in, other = os.pipe()
+    os.close(other)
+    pipe_out = os.open(os.devnull, os.O_WRONLY)
+    with anonymous() as said:
+        try:
+            process = wall.start(
+                pipe_in=pipe_in, pipe_out=pipe_out, printed=said, folder="/", megabytes=2048, cpu_seconds=60
+            )
+            try:
+                code = process.wait(START_SECONDS)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+                return f"{wall.name} does not start within {START_SECONDS:g} s"
+        except OSError as error:
+            return f"{wall.name} does not start ({error.strerror})"
+        finally:
+            os.close(pipe_in)
+            os.close(pipe_out)
+        said.seek(0)
+        lines = said.read(1 << 16).decode("utf-8", "replace").strip().splitlines() or [f"exit code {code}"]
+    return "" if code == 0 else f"{wall.name} cannot do its work here ({lines[-1][:200]})"
+
+
+def anonymous() -> IO[bytes]:
+    """Return a file without a name, so that nothing can stay behind: in memory where there is such a thing."""
+    if hasattr(os, "memfd_create"):
+        return os.fdopen(os.memfd_create("printed", os.MFD_CLOEXEC), "w+b", buffering=0)
+    import tempfile
+
+    return tempfile.TemporaryFile(buffering=0)
+
+
+def _from_a_lasting_thread(start: Callable[[], subprocess.Popen]) -> subprocess.Popen:
+    """Start a process from a thread that lives as long as this process: the kernel ends it with the thread it came from."""
+    if threading.current_thread() is threading.main_thread():
+        return start()
+    return _thread(os.getpid()).submit(start).result()
+
+
+@functools.cache
+def _thread(process: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(1, thread_name_prefix=f"sandbox-{process}")
