@@ -362,8 +362,8 @@ def test_one_run_alone_plays_and_takes_neither_focus_nor_scrolls_its_host(opened
     page = opened(f"{address}/host.html", until="")
     page.locator("#mine").focus()
     page.evaluate("""() => {
-      const frame = Object.assign(document.createElement("iframe"), { src: "icp/runs/default.html", width: 800, height: 500 });
-      document.body.append(frame);
+      const frame = document.createElement("iframe");
+      document.body.append(Object.assign(frame, { src: "icp/runs/default.html", width: 800, height: 500 }));
     }""")
     page.frame_locator("iframe").locator("#caption").wait_for()
     embedded = next(one for one in page.frames if "/default.html" in one.url)
