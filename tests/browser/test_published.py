@@ -358,12 +358,13 @@ def test_a_pinned_run_stands_behind_the_next_in_its_curves_and_its_scene(opened,
 
 def test_one_run_alone_plays_and_takes_neither_focus_nor_scrolls_its_host(opened, out, address):
     host = out / "host.html"
-    host.write_text(
-        '<input id="mine" autofocus><div style="height:3000px"></div>'
-        '<iframe src="icp/runs/default.html" width="800" height="500" title="ICP"></iframe>'
-    )
+    host.write_text('<link rel="icon" href="data:,"><input id="mine"><div style="height:3000px"></div>')
     page = opened(f"{address}/host.html", until="")
     page.locator("#mine").focus()
+    page.evaluate("""() => {
+      const frame = document.createElement("iframe");
+      document.body.append(Object.assign(frame, { src: "icp/runs/default.html", width: 800, height: 500 }));
+    }""")
     page.frame_locator("iframe").locator("#caption").wait_for()
     embedded = next(one for one in page.frames if "/default.html" in one.url)
     embedded.wait_for_function(SCENE_IS_THERE)
