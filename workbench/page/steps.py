@@ -4,6 +4,7 @@ import base64
 import hashlib
 import threading
 import weakref
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -20,8 +21,7 @@ from workbench.timeline import Step, Timeline
 class Steps:
     """Makes the data of a run's steps. What repeats from step to step is kept once, in `things`, and named by its number.
 
-    Each step is made once and shared by all who ask; any thread may ask. The run is somebody else's to hold: its data may
-    be kept beside it without keeping it.
+    Each step is made once and shared by all who ask; any thread may ask.
 
     Attributes:
         things: What repeats, by its number.
@@ -29,7 +29,7 @@ class Steps:
     """
 
     def __init__(self, timeline: Timeline):
-        self._timeline = weakref.ref(timeline)
+        self._run: Callable[[], Timeline | None] = lambda: timeline
         self.bytes = 0
         self.things: list[Any] = []
         self._numbers: dict[Any, int] = {}
@@ -37,12 +37,19 @@ class Steps:
         self._series: dict[tuple[int, int], dict[str, Any]] = {}
         self._lock = threading.Lock()
 
+    @classmethod
+    def beside(cls, timeline: Timeline) -> "Steps":
+        """Return the data of a run that somebody else holds: kept beside it, they do not keep it."""
+        made = cls(timeline)
+        made._run = weakref.ref(timeline)
+        return made
+
     @property
     def timeline(self) -> Timeline:
         """The run."""
-        timeline = self._timeline()
+        timeline = self._run()
         if timeline is None:
-            raise ReferenceError("the run is gone: hold it as long as its steps are asked for")
+            raise ReferenceError("the run is gone: hold it as long as the steps beside it are asked for")
         return timeline
 
     def step(self, k: int) -> dict[str, Any]:

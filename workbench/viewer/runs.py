@@ -95,7 +95,7 @@ class Runs:
         with self._lock:
             steps = self._steps.get(timeline)
             if steps is None:
-                steps = self._steps[timeline] = Steps(timeline)
+                steps = self._steps[timeline] = Steps.beside(timeline)
             return steps
 
     def close(self) -> None:
