@@ -51,12 +51,14 @@ ALLOWED = {
     "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
-        "workbench.publish", "workbench.page", "workbench.exercise", "workbench.recording", "workbench.viewer", "workbench.typeset",
+        "workbench.publish", "workbench.page", "workbench.exercise",
+        "workbench.recording", "workbench.viewer", "workbench.typeset",
         "workbench.session",
         "workbench.links", "workbench.images", "workbench.progress", "workbench.flags", "workbench.atomic",
     },
     "workbench.viewer": LESSON | {
-        "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.motion", "workbench.emphasis", "workbench.links",
+        "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.motion",
+        "workbench.emphasis", "workbench.links",
         "workbench.picking", "workbench.typeset", "workbench.recording", "workbench.exercise",
         "workbench.authoring.reloading",
     },
