@@ -1,0 +1,60 @@
+"""The small picture of a lesson: what stands where, in which colour, and that it stays small."""
+
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from tests import fake
+from tests.runs import finished
+from workbench.lesson import View, catalog
+from workbench.page.thumbnail import picture_of, thumbnail
+from workbench.scene import PALETTE, Points, Segments
+
+VIEW = View(eye=(0.0, -4.0, 0.0), target=(0.0, 0.0, 0.0), fov_degrees=53.130102)  # at 4 m it sees 4 m of height
+
+
+def pixels(data: bytes) -> np.ndarray:
+    return np.asarray(Image.open(io.BytesIO(data)).convert("RGBA")).astype(int)
+
+
+def middle_of(picture: np.ndarray, role: str) -> tuple[float, float]:
+    """Return column and row of what has a role's colour."""
+    near = np.abs(picture[..., :3] - PALETTE[role]).max(-1) < 30  # type: ignore[index]
+    rows, columns = np.nonzero(near & (picture[..., 3] > 200))
+    return columns.mean(), rows.mean()
+
+
+def test_what_is_right_is_right_and_what_is_up_is_up():
+    frame = np.array([[[-3.2, 0, -2.0], [3.2, 0, -2.0]], [[-3.2, 0, 2.0], [3.2, 0, 2.0]]])  # the whole picture
+    T_world_moved = np.eye(4)
+    T_world_moved[:3, 3] = (-1.6, 0.0, -1.0)
+    scene = {
+        "frame": Segments(frame, "neutral"),
+        "right": Points(np.array([[1.6, 0.0, 0.0]]), "source", 0.2),
+        "up": Points(np.array([[0.0, 0.0, 1.0]]), "truth", 0.2),
+        "moved": Points(np.zeros((1, 3)), "target", 0.2, T_world_moved),
+    }
+    picture = pixels(picture_of(scene, VIEW))
+    assert picture.shape == (200, 320, 4)
+    assert middle_of(picture, "source") == pytest.approx((240, 100), abs=3)
+    assert middle_of(picture, "truth") == pytest.approx((160, 50), abs=3)
+    assert middle_of(picture, "target") == pytest.approx((80, 150), abs=3)
+
+
+def test_the_nearer_hides_the_farther_and_what_is_behind_the_eye_is_left_out():
+    scene = {
+        "near": Points(np.array([[0.0, -1.0, 0.0]]), "source", 0.3),
+        "far": Points(np.array([[0.0, 1.0, 0.0], [0.0, -5.0, 0.0]]), "target", 0.3),
+    }
+    picture = pixels(picture_of(scene, VIEW))
+    assert np.abs(picture[100, 160, :3] - PALETTE["source"]).max() < 20
+
+
+@pytest.mark.parametrize("lesson", [fake.lesson, *catalog().values()], ids=lambda lesson: lesson.name)
+def test_every_lesson_has_a_picture_that_is_small_and_shows_something(lesson):
+    timeline = None if lesson is fake.lesson else finished(lesson.name, lesson.params())
+    data = thumbnail(lesson, timeline)
+    assert len(data) < 40_000
+    assert (pixels(data)[..., 3] > 128).mean() > 0.03
