@@ -44,7 +44,7 @@ class FakePage:
         """Open it as a browser does."""
         page = await self._page()
         self.lesson = re.findall(r'data-lesson="([^"]+)"', page)[0]
-        self.knobs = json.loads(re.findall(r"const LESSON = (\{.*?\});</script>", page)[0])["knobs"]
+        self.knobs = json.JSONDecoder().raw_decode(page.partition("const LESSON = ")[2])[0]["knobs"]
         self.token = re.findall(r'data-token="([^"]+)"', page)[0]
         self.live = await self.socket(f"live?token={self.token}")
         await self.say(verb="open", query=self.query, lesson=self.lesson)

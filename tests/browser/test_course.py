@@ -19,17 +19,17 @@ def first_words(lesson) -> str:
 def test_every_lesson_opens_from_the_course_page_and_from_the_one_before(visit, server):
     me = visit()
     cards = me.page.locator(".cards li")
-    assert [card.get_attribute("data-lesson") for card in cards.all()] == [lesson.name for lesson in LESSONS]
+    assert [card.get_attribute("data-card") for card in cards.all()] == [lesson.name for lesson in LESSONS]
     assert cards.locator(".done").all_inner_texts() == [""] * len(LESSONS)
-    me.page.locator(f"[data-lesson={LESSONS[0].name}] a").click()
+    me.page.locator(f"[data-card={LESSONS[0].name}] a").click()
     for lesson, behind in zip(LESSONS, [*LESSONS[1:], None], strict=True):
         me.page.wait_for_url(re.compile(f"lesson={lesson.name}"))
         me.says(first_words(lesson))
         me.scene()
         if behind is not None:
-            me.page.locator("nav.beside [rel=next]").click()
-    assert me.page.locator("nav.beside [rel=next]").count() == 0
-    me.page.locator("nav.beside [rel=prev]").click()
+            me.page.locator("#around [rel=next]").click()
+    assert me.page.locator("#around [rel=next]").count() == 0
+    me.page.locator("#around [rel=prev]").click()
     me.page.wait_for_url(re.compile(f"lesson={LESSONS[-2].name}"))
     me.says(first_words(LESSONS[-2]))
     me.scene()
@@ -56,7 +56,7 @@ def test_a_lesson_is_done_when_all_its_questions_are_answered_in_this_browser(vi
         said.nth(k).get_by_text("The answer: ").wait_for()
         me.go("?course")
         done = f"{k + 1} of {len(lesson.questions)} questions answered"
-        me.page.locator(f"[data-lesson={lesson.name}] .done", has_text=done).wait_for()
+        me.page.locator(f"[data-card={lesson.name}] .done", has_text=done).wait_for()
         assert me.page.locator("li.all").count() == int(k + 1 == len(lesson.questions))
         me.go(f"?lesson={lesson.name}")
     other = visit("?course")

@@ -16,6 +16,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from tests.fake_page import FakePage
+from tests.loops import run_apart
 from workbench import cli, flags
 from workbench.lesson import catalog
 from workbench.timeline import Timeline
@@ -105,7 +106,7 @@ def test_behind_a_prefix_a_page_runs_and_a_link_leads_to_its_moment(site):
         assert page.step["step"]["caption"] == run[5].caption.text
         await page.close()
 
-    asyncio.run(visit())
+    run_apart(visit())
 
 
 @needs_nginx
@@ -124,19 +125,19 @@ def test_behind_a_prefix_every_address_of_a_page_leads_somewhere(site):
         token = re.findall(r'data-token="(\w+)"', page)[0]
         assert (await asked(site, f"/workbench/scene/{token}/"))[0] == 200
 
-    asyncio.run(visit())
+    run_apart(visit())
 
 
 @needs_nginx
 def test_behind_a_proxy_another_name_is_still_refused(site):
     async def visit() -> None:
         assert (await asked(site, "/workbench/", host="evil.example"))[0] == 403
-        page = visitor(site)
+        page = visitor(site, "?lesson=icp")
         page.headers["Origin"] = "https://evil.example"
         with pytest.raises(Exception, match="403"):
             await page.open()
 
-    asyncio.run(visit())
+    run_apart(visit())
 
 
 @needs_nginx
@@ -157,7 +158,7 @@ def test_before_several_servers_a_page_and_its_scene_meet(tmp_path):
 
     try:
         with nginx(tmp_path, http, location) as port:
-            shares = asyncio.run(visit(port))
+            shares = run_apart(visit(port))
     finally:
         for one in servers:
             one.stop()

@@ -18,6 +18,7 @@ import websockets
 
 from tests import fake
 from tests.fake_page import CAMERA, FakePage
+from tests.loops import run_apart
 from workbench import links
 from workbench.knobs import fields_of
 from workbench.lesson import catalog
@@ -70,7 +71,7 @@ def meanwhile(server: Server, attack: Callable[[FakePage], Awaitable[None]]) -> 
             await goes_on(page)
         await until(lambda: not server.students and not server._scenes and not server.scenes.open)
 
-    asyncio.run(all_of_it())
+    run_apart(all_of_it())
     assert len(server.runs.scheduler) == 0
 
 
@@ -132,7 +133,7 @@ def test_a_page_that_takes_nothing_is_sent_the_latest_when_it_takes_again():
         working.cancel()
         runs.close()
 
-    asyncio.run(attack())
+    run_apart(attack())
 
 
 def test_a_connection_that_takes_nothing_is_closed_after_a_while(monkeypatch):

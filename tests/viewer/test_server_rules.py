@@ -1,6 +1,5 @@
 """Who is let in by the live server: Host, Origin, token, and what answers carry."""
 
-import asyncio
 import http.client
 from collections.abc import Iterator
 from contextlib import closing
@@ -9,6 +8,7 @@ import pytest
 import websockets
 
 from tests.fake_page import FakePage
+from tests.loops import run_apart
 from workbench.errors import InputError
 from workbench.viewer.rules import Rules, addresses, is_loopback
 from workbench.viewer.server import Server
@@ -56,7 +56,7 @@ def enters(server: Server, path: str, **headers: str) -> bool:
         await socket.close()
         return True
 
-    return asyncio.run(attempt())
+    return run_apart(attempt())
 
 
 SOCKETS = (f"live?token={TOKEN}", f"scene/{TOKEN}/", f"scene/{TOKEN}")
@@ -174,7 +174,7 @@ def test_answers_say_what_keeps_a_browser_safe(local):
         assert "frame-ancestors 'self'" in headers["content-security-policy"]
         assert "default-src 'none'" in headers["content-security-policy"]
         assert "server" not in headers
-    _, headers, said = get(local)
+    _, headers, said = get(local, "/?lesson=icp")
     nonce = headers["content-security-policy"].partition("'nonce-")[2].partition("'")[0]
     assert said.count("<script") == said.count(f'<script nonce="{nonce}"') > 5
     assert get(local)[1]["content-security-policy"] != headers["content-security-policy"]

@@ -3,12 +3,12 @@
 import asyncio
 import json
 import threading
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import viser
 
 from tests import fake
+from tests.loops import run_apart
 from workbench.lesson import Lesson, Preset, View
 from workbench.timeline import Timeline
 from workbench.viewer.runs import Runs
@@ -48,8 +48,6 @@ class Talk:
 
 
 def talk(script, lesson: Lesson = fake.lesson) -> None:
-    """Run the script in a thread of its own: a browser test before may have left its loop running in this one."""
-
     async def run() -> None:
         me = Talk(lesson)
         try:
@@ -57,8 +55,7 @@ def talk(script, lesson: Lesson = fake.lesson) -> None:
         finally:
             me.runs.close()
 
-    with ThreadPoolExecutor(1) as threads:
-        threads.submit(lambda: asyncio.run(run())).result()
+    run_apart(run())
 
 
 def test_steps_are_those_of_the_timeline():
