@@ -271,8 +271,8 @@ def test_a_question_is_answered_wrong_and_right_and_its_run_shown(opened, out):
     page.wait_for_function("page.k === page.known() - 1")
     number = page.locator("form.question").first
     number.get_by_role("button", name="Answer", exact=True).click()
-    number.locator("output", has_text="type an answer first").wait_for()
-    number.locator("input[type=number]").fill("0")
+    number.locator("output", has_text="Type a number first").wait_for()
+    number.locator("input[name=given]").fill("0")
     number.get_by_role("button", name="Answer", exact=True).click()
     number.locator("output", has_text="Right").wait_for()
     page.reload()
@@ -403,14 +403,20 @@ def test_a_phone_sees_the_scene_and_the_caption_without_scrolling_sideways(opene
 
 def test_what_can_be_taken_along_is_there(opened, out):
     page = opened(f"{(out / 'fake' / 'index.html').as_uri()}#run=half&step=2")
-    page.locator("#take").click()
-    box = page.locator("#large")
-    box.get_by_text("#run=half&step=2").wait_for()
+    mine = page.locator("#this-run")
     with page.expect_download() as download:
-        box.get_by_role("link", name="Download the recording").click()
+        mine.get_by_role("link", name="Download recording").click()
     assert download.value.suggested_filename == "fake-half.rrd"
-    assert (out / "fake" / "runs" / "half.html").as_uri() in box.inner_text()
-    assert "workbench show fake.py --angle=180" in box.inner_text()
+    page.evaluate("navigator.clipboard.writeText = (text) => { window.copied = text; return Promise.resolve(); }")
+    site = (out / "fake").as_uri()
+    for words, text in {
+        "Copy link": f"{site}/index.html#run=half&step=2",
+        "Copy command": "workbench show fake.py --angle=180",
+        "Copy for a page of your own": f'<iframe src="{site}/runs/half.html"',
+    }.items():
+        mine.get_by_role("button", name=words).click()
+        mine.locator("output", has_text="is copied").wait_for()
+        assert text in page.evaluate("copied")
 
 
 def test_where_no_script_runs_a_picture_and_the_text_stand(chromium, out):
@@ -428,7 +434,7 @@ def test_where_no_script_runs_a_picture_and_the_text_stand(chromium, out):
 def test_the_course_has_pictures_ticks_and_leads_from_lesson_to_lesson(opened, out):
     page = opened((out / "index.html").as_uri(), until="")
     assert page.locator("[data-card]").count() == len(catalog()) + 1
-    assert page.evaluate("$$('.cards img').slice(0, 3).every((one) => one.complete && one.naturalWidth === 320)")
+    page.wait_for_function("$$('.cards img').slice(0, 3).every((one) => one.complete && one.naturalWidth === 320)")
     page.get_by_role("link", name="Every primitive").click()
     page.wait_for_function(SCENE_IS_THERE)
     for i in range(2):
@@ -440,7 +446,7 @@ def test_the_course_has_pictures_ticks_and_leads_from_lesson_to_lesson(opened, o
     page.wait_for_function("name => LESSON.name === name", arg=second)
     page.locator("#around a[rel=prev]").wait_for()
     page.locator("nav.top a").click()
-    page.locator("[data-card=fake].all", has_text="✓ done: 2 of 2 questions answered").wait_for()
+    page.locator("[data-card=fake].all", has_text="✓ done, 2 of 2 questions answered").wait_for()
 
 
 def test_the_same_page_plays_in_one_document_without_any_file(opened, out, tmp_path):
