@@ -40,6 +40,7 @@ ALLOWED = {
     "workbench.picking": DRAWING,
     "workbench.typeset": BASE | {"workbench.atomic"},
     "workbench.images": set(),
+    "workbench.workers": set(),
     "workbench.motion": DRAWING,
     "workbench.emphasis": DRAWING,
     "workbench.progress": set(),
@@ -47,7 +48,8 @@ ALLOWED = {
     "workbench.session": LESSON | {"workbench.session"},
     "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
                                      "workbench.images", "workbench.progress", "workbench.atomic"},
-    "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic"},
+    "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic",
+                           "workbench.workers"},
     "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
@@ -55,6 +57,7 @@ ALLOWED = {
         "workbench.recording", "workbench.viewer", "workbench.typeset",
         "workbench.session",
         "workbench.links", "workbench.images", "workbench.progress", "workbench.flags", "workbench.atomic",
+        "workbench.workers",
     },
     "workbench.viewer": LESSON | {
         "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.motion",

@@ -23,8 +23,12 @@ from workbench.exercise.handed import Handed, handed_in, with_roster
 from workbench.exercise.marking import Asked, Result, digest, empty, grade_student, summed
 from workbench.exercise.reports import SCHEMA_VERSION, ungraded
 from workbench.exercise.sandbox import best, named
-from workbench.exercise.workers import worked
 from workbench.progress import Progress, bar
+from workbench.workers import shared_out
+
+Task = tuple[Handed, Asked]
+LONGEST_SECONDS = 900.0
+"""How long one student may take: far beyond what the limits of the exercises allow."""
 
 
 def grade_class(
@@ -66,12 +70,11 @@ def grade_class(
         kept = _kept(places[name])
         if kept is not None and kept.get("digest") == digest(handed, asked):
             results[name] = kept
-    waiting = {name: (handed, asked) for name, handed in found.items() if name not in results}
+    waiting = [(handed, asked) for name, handed in found.items() if name not in results]
     done = len(results)
     with contextlib.closing(_graded(waiting, executor, jobs)) as graded:
         for name, result in graded:
             done += 1
-            result = _lost(*waiting[name]) if result is None else result
             _write(places[name], json.dumps(result, indent=1, ensure_ascii=False))
             results[name] = result
             if progress is not None:
@@ -83,19 +86,23 @@ def grade_class(
     return ordered
 
 
-def _graded(
-    waiting: Mapping[str, tuple[Handed, Asked]], executor: Executor | None, jobs: int
-) -> Generator[tuple[str, Result | None], None, None]:
+def _graded(waiting: list[Task], executor: Executor | None, jobs: int) -> Generator[tuple[str, Result], None, None]:
     if executor is None:
-        yield from worked(grade_student, waiting, jobs)
+        graded = shared_out(_grade, waiting, jobs, seconds=LONGEST_SECONDS, lost=_lost, start="fork")
+        with contextlib.closing(graded):  # type: ignore[type-var]
+            yield from ((handed.student, result) for (handed, _), result in graded)
         return
-    futures: dict[Future, str] = {executor.submit(grade_student, *given): name for name, given in waiting.items()}
+    futures: dict[Future, str] = {executor.submit(_grade, task): task[0].student for task in waiting}
     for future in as_completed(futures):
         yield futures[future], future.result()
 
 
-def _lost(handed: Handed, asked: Asked) -> Result:
-    result = empty(handed, asked)
+def _grade(task: Task) -> Result:
+    return grade_student(*task)
+
+
+def _lost(task: Task) -> Result:
+    result = empty(*task)
     result["ungraded"] = [ungraded("", None, "could not be graded: the grading process ended")]
     return summed(result)
 

@@ -17,9 +17,9 @@ from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
 from workbench.publish.replay import Renderer
 from workbench.publish.sources import sources_digest
-from workbench.publish.workers import WorkerLostError, shared_out
 from workbench.recording import file_name, record_bytes
 from workbench.timeline import Timeline
+from workbench.workers import WorkerLostError, shared_out
 
 VISER_PAGE = "viser.js"
 PAGE = "page"
@@ -247,7 +247,8 @@ def run_page(lesson: Lesson, run: Run) -> str:
 
 def digest_of(lesson: Lesson, run: Run) -> str:
     """Return what a published run must agree with: itself, its params, and all source and data that it depends on."""
-    said = f"{lesson.name}\0{lesson.title}\0{lesson.view}\0{run}\0{knobs.to_json(run.params)}\0{sources_digest(lesson)}"
+    view = lesson.view_of(run.params)
+    said = f"{lesson.name}\0{lesson.title}\0{view}\0{run}\0{knobs.to_json(run.params)}\0{sources_digest(lesson)}"
     return hashlib.sha256(said.encode()).hexdigest()
 
 

@@ -12,15 +12,15 @@ from typing import Any
 
 import pytest
 
-from workbench.publish.workers import WorkerLostError, shared_out
+from workbench.workers import WorkerLostError, shared_out
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[1]
 PATIENCE = 120.0
 """Seconds after which a process that should have ended counts as one that never will."""
 RUNS_LONG = """
 import sys
-from tests.publish.test_workers import begin_and_wait
-from workbench.publish.workers import shared_out
+from tests.test_processes import begin_and_wait
+from workbench.workers import shared_out
 if __name__ == "__main__":
     for task in shared_out(begin_and_wait, [sys.argv[1] + "/a", sys.argv[1] + "/b"], 2):
         pass
@@ -61,6 +61,20 @@ def test_an_error_is_raised_here():
 def test_a_process_that_is_ended_from_outside_is_noticed():
     with pytest.raises(WorkerLostError):
         list(shared_out(vanish, [1], 1))
+
+
+def vanish_or_hang(number: int) -> int:
+    if number == 1:
+        os._exit(3)
+    while number == 2:
+        time.sleep(0.1)
+    return number
+
+
+@pytest.mark.parametrize("start", ["spawn", "fork"])
+def test_what_is_lost_or_takes_too_long_costs_no_other(start):
+    found = shared_out(vanish_or_hang, range(6), 2, seconds=3.0, lost=lambda number: -number, start=start)
+    assert sorted(found) == [(0, 0), (1, -1), (2, -2), (3, 3), (4, 4), (5, 5)]
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
