@@ -1,12 +1,15 @@
 """What is read of stands out, all else steps back, and nothing else changes."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
 from workbench.emphasis import lit
 from workbench.scene import Caption, Label, Points, Segments
 
 P = np.eye(3)
-SCENE = {
+SCENE: dict[str, Any] = {
     "source/points": Points(P, "source"),
     "source/normals": Segments(np.zeros((1, 2, 3))),
     "sources": Points(P, "other"),
@@ -16,7 +19,7 @@ SCENE = {
 
 
 def test_what_is_meant_is_stronger_and_the_rest_is_fainter():
-    seen = lit(SCENE, "source")
+    seen: Mapping[str, Any] = lit(SCENE, "source")
     assert seen.keys() == SCENE.keys()
     assert seen["source/points"].radius > SCENE["source/points"].radius
     assert seen["source/normals"].width > SCENE["source/normals"].width

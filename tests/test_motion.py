@@ -1,5 +1,7 @@
 """What only moves is seen on its way: it starts and ends where the steps say, turns evenly, and stays rigid."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -17,13 +19,20 @@ def pose(degrees: float, t: tuple[float, float, float]) -> np.ndarray:
 
 CLOUD = Points(np.array([[4.0, 0, 0], [6.0, 0, 0]]), T_world_object=None)
 LINES = Segments(np.ones((2, 2, 3)))
-BEFORE = {"cloud": CLOUD, "still": Points(np.eye(3)), "lines": LINES, "caption": Caption("Before.")}
-AFTER = {
+BEFORE: dict[str, Any] = {"cloud": CLOUD, "still": Points(np.eye(3)), "lines": LINES, "caption": Caption("Before.")}
+AFTER: dict[str, Any] = {
     "cloud": Points(CLOUD.p, T_world_object=pose(80, (1, 2, 3))),
     "still": BEFORE["still"],
     "lines": Segments(np.zeros((2, 2, 3))),
     "caption": Caption("After."),
 }
+
+
+def on_its_way(*way) -> np.ndarray:
+    cloud = between(*way)["cloud"]
+    assert isinstance(cloud, Points)
+    assert cloud.T_world_object is not None
+    return cloud.T_world_object
 
 
 def test_only_what_has_another_pose_moves():
@@ -37,7 +46,7 @@ def test_only_what_has_another_pose_moves():
 
 def test_a_move_starts_and_ends_where_the_steps_say():
     moving = moves(BEFORE, AFTER)
-    start, end = (between(BEFORE, AFTER, moving, share)["cloud"].T_world_object for share in (0.0, 1.0))
+    start, end = (on_its_way(BEFORE, AFTER, moving, share) for share in (0.0, 1.0))
     assert start == pytest.approx(np.eye(4), abs=1e-12)
     assert end == pytest.approx(AFTER["cloud"].T_world_object, abs=1e-12)
 
@@ -46,7 +55,7 @@ def test_it_turns_evenly_and_its_middle_goes_straight():
     moving = moves(BEFORE, AFTER)
     p_start, p_end = np.array([5.0, 0, 0]), pose(80, (1, 2, 3)) @ [5, 0, 0, 1]
     for share in (0.25, 0.5, 0.9):
-        T = between(BEFORE, AFTER, moving, share)["cloud"].T_world_object
+        T = on_its_way(BEFORE, AFTER, moving, share)
         assert is_rigid(T)
         assert np.degrees(np.arctan2(T[1, 0], T[0, 0])) == pytest.approx(80 * share)
         assert (T @ [5, 0, 0, 1])[:3] == pytest.approx((1 - share) * p_start + share * p_end[:3])

@@ -180,7 +180,7 @@ def test_a_pinned_run_stays_as_ghost_and_curve():
     assert isinstance(ghost, Points)
     assert isinstance(source, Points)
     assert ghost.p is source.p
-    assert set(look.pinned_series) == set(look.series)
+    assert set(look.pinned_series) == set(look.timeline.series())
     session.unpin()
     assert not any(path.startswith("ghost/") for path in seen(session).scene)
     session.pin()

@@ -14,7 +14,6 @@ from workbench.errors import AuthorError, InputError
 from workbench.lesson import Lesson
 from workbench.scene import Caption, Scene, ghost
 from workbench.timeline import Series, Timeline, Timelines
-from workbench.tracing import Moment
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -27,8 +26,7 @@ class Look:
         finished: Whether all steps are known.
         scene: The step's scene, the pinned run's ghost included.
         caption: The step's caption, or what went wrong.
-        moment: Where the algorithm stood.
-        series, pinned_series: Every scalar over the steps, of this run and of the pinned one.
+        pinned_series: Every scalar over the steps of the pinned run.
         pinned: Whether a run is pinned.
     """
 
@@ -40,8 +38,6 @@ class Look:
     finished: bool
     scene: Scene
     caption: Caption
-    moment: Moment | None
-    series: Mapping[str, Series]
     pinned_series: Mapping[str, Series]
     pinned: bool
 
@@ -194,11 +190,6 @@ class Session:
         """The step that is wanted, known or not; negative counts from the end."""
         return self._wanted
 
-    @property
-    def waits(self) -> bool:
-        """Whether the step that is wanted is still to be computed."""
-        return self.pending and not 0 <= self._wanted < len(self.timeline)
-
     # computing and looking ------------------------------------------------------------------------------------------
 
     @property
@@ -238,8 +229,6 @@ class Session:
             finished=timeline.finished,
             scene=scene,
             caption=self._trouble(k) or step.caption,
-            moment=step.moment,
-            series=timeline.series(),
             pinned_series=pinned_series,
             pinned=self.pinned,
         )
@@ -281,8 +270,6 @@ class Session:
             finished=True,
             scene={},
             caption=Caption(text, "wrong"),
-            moment=None,
-            series={},
             pinned_series={},
             pinned=self.pinned,
         )

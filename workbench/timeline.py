@@ -3,7 +3,7 @@
 import threading
 import weakref
 from collections import OrderedDict
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -92,7 +92,7 @@ class Timeline:
         """Return a step that is already known; negative counts from the last known one."""
         return self._steps[k]
 
-    def known(self) -> Iterable[Step]:
+    def known(self) -> Sequence[Step]:
         """Return the steps known so far."""
         return tuple(self._steps)
 

@@ -100,3 +100,26 @@ def test_a_phone_shows_caption_and_controls(visit):
     assert box["width"] > 300
     me.act("next")
     me.says(run[3].caption.text)
+
+
+def test_what_one_points_at_in_the_text_stands_out(visit, server):
+    me = visit("?lesson=icp")
+    me.scene()
+    me.page.locator("#legend [data-things]").first.wait_for()
+    term = me.page.locator(".term").first
+    path = term.get_attribute("data-thing")
+    for point, away in ((term.hover, me.page.locator("h1").hover), (term.focus, term.blur)):
+        point()
+        me.page.locator("#legend .lit").first.wait_for()
+        until(me, lambda: path in [one._scene.path for one in server.students.values()])
+        away()
+        until(me, lambda: {one._scene.path for one in server.students.values()} == {""})
+        assert me.page.locator("#legend .lit").count() == 0
+
+
+def until(me, holds) -> None:
+    for _ in range(600):
+        if holds():
+            return
+        me.page.wait_for_timeout(100)
+    raise AssertionError

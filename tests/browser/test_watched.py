@@ -57,7 +57,7 @@ def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
         report.get_by_text("pairs: ").wait_for()
         me.page.locator("#bar .flag").wait_for(state="detached")
         assert me.button("Go to the first difference").is_disabled()
-        assert me.page.evaluate("page.k") == first  # where it was before the file was saved
+        me.page.wait_for_function(f"page.k === {first}")  # where it was before the file was saved
         assert "print(" in me.page.locator("#large .lines").first.inner_text()
 
         late = visit("?lesson=icp&step=2", at=server)

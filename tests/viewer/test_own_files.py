@@ -96,8 +96,7 @@ def test_a_file_sets_its_field_stays_through_reset_and_goes_with_its_page(server
         assert [path.name for path in tmp_path.rglob("*.npy")] == ["scan.npy"]
         page.say(verb="forget", field="scan")
         page.until(lambda told: told["tell"] == "run" and told["files"] == {})
-        told = page.until(lambda told: told["tell"] == "step")
-        assert "200 points" in told["step"]["caption"]
+        page.until(lambda told: told["tell"] == "step" and "200 points" in told["step"]["caption"])
     gone(tmp_path)
 
 

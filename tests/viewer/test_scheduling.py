@@ -182,7 +182,8 @@ def test_memory_counts_runs_their_data_and_lessons_caches_each_array_once():
         here = replace(fake.lesson, params=Params, presets=(), questions=())
         assert cached in caches([here])
         before = runs.held([here])
-        cached(1), cached(2)
+        for n in (1, 2):
+            cached(n)
         assert runs.held([here]) - before == 2 * 8_000_000
     finally:
         cached.cache_clear()

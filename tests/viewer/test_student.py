@@ -85,6 +85,25 @@ def test_a_wish_of_another_thread_wakes_a_page_at_rest():
     talk(script)
 
 
+def test_what_is_read_of_tells_the_page_nothing_new():
+    async def script(me: Talk) -> None:
+        me.say(verb="open", query="?lesson=fake", lesson="fake")
+        await me.at_rest()
+        me.say(verb="seek", k=2)
+        await me.until(lambda message: message["tell"] == "step" and message["k"] == 2)
+        me.told.clear()
+        for verb, more in (("light", {"path": "cloud"}), ("handles", {"on": True}), ("theme", {"dark": True})):
+            me.say(verb=verb, **more)
+            await asyncio.sleep(0.3)
+        assert me.student._scene.path == "cloud"
+        assert me.student._scene.dark
+        me.say(verb="seek", k=3)
+        await me.until(lambda message: message["tell"] == "step")
+        assert {message["k"] for message in me.told if message["tell"] == "step"} == {3}
+
+    talk(script)
+
+
 def test_what_is_no_wish_is_ignored_and_files_are_not_set():
     async def script(me: Talk) -> None:
         me.say(verb="open", query="?lesson=fake", lesson="fake")

@@ -136,7 +136,7 @@ def document_head(title: str, summary: str, root: str | None, more: str, *, math
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<title>{escape(title)}</title><meta name="description" content="{escape(summary)}">'
-        f'<link rel="icon" href="data:,">'
+        '<link rel="icon" href="data:,">'
         + "".join(_style(root, name) for name in (*STYLES, *([MATH] if math else [])))
         + f"{more}</head>"
     )

@@ -43,6 +43,11 @@ def lessons_script(lessons: Mapping[str, Listed]) -> str:
     return f"const COURSE = {in_script([{'name': name, 'title': one.title} for name, one in lessons.items()])};\n"
 
 
+def moment(run: str, step: int | None) -> str:
+    """Return the address, on a lesson's page, of a step of a run; without a name, of the default run."""
+    return f"#run={run or 'default'}" + ("" if step is None else f"&step={step}")
+
+
 def lesson_page(lesson: Lesson, known: Mapping[str, Any], head: str = "") -> str:
     """Return a lesson's page.
 
@@ -51,10 +56,9 @@ def lesson_page(lesson: Lesson, known: Mapping[str, Any], head: str = "") -> str
         known: What the page knows of its runs.
         head: More for the head, such as a canonical address.
     """
-    text = article_html(lesson, lambda run, step: f"runs/{known['files'][run or 'default']}.html")
     return lesson_document(
         lesson,
-        text,
+        article_html(lesson, moment),
         home="site",
         root=f"../{PAGE}/",
         ending=exercises_html(exercises_of(lesson)),

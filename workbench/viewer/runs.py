@@ -74,7 +74,7 @@ def _settle(answer: asyncio.Future, found: Any, error: Exception | None) -> None
 
 
 class Runs:
-    """What the pages of a server share.
+    """What the pages of a server share; `showing` makes what they see, `asking` answers, `keeping` records and pictures.
 
     Args:
         most_bytes: What runs, their steps' data and lessons' caches may hold together. Runs that nobody looks at go
@@ -85,7 +85,7 @@ class Runs:
     def __init__(self, most_bytes: int = MOST_BYTES, threads: int = 2):
         self.timelines = Timelines(most_bytes=most_bytes)
         self.scheduler = Scheduler(threads)
-        self.showing, self.asking = Crew("showing", 2), Crew("asking", 1)
+        self.showing, self.asking, self.keeping = Crew("showing", 2), Crew("asking", 1), Crew("keeping", 1)
         self._most_bytes = most_bytes
         self._steps: weakref.WeakKeyDictionary[Timeline, Steps] = weakref.WeakKeyDictionary()
         self._lock = threading.Lock()
@@ -103,6 +103,7 @@ class Runs:
         self.scheduler.close()
         self.showing.close()
         self.asking.close()
+        self.keeping.close()
 
     def held(self, lessons: Iterable[Lesson]) -> int:
         """Return the bytes of all runs, their steps' data and these lessons' caches, each array counted once."""

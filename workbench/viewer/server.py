@@ -95,7 +95,7 @@ class Server:
         self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
         self.students: dict[str, Student] = {}
         self._scenes: dict[str, viser.ClientHandle] = {}
-        self._pictures: dict[str, tuple[Lesson, bytes]] = {}
+        self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
         self.following = start and Following(start.lesson, watched, edited, self._replace, self._pages)
         with contextlib.redirect_stdout(io.StringIO()):  # its banner
             self._viser = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
@@ -235,15 +235,17 @@ class Server:
 
     async def _picture(self, request: Request) -> Response:
         lesson = self.lessons.get(request.path_params["lesson"])
-        kept, picture = self._pictures.get(lesson.name, (None, b"")) if lesson else (None, b"")
-        if lesson is not None and kept is not lesson:
-            try:
-                picture = await self.runs.asking.do(thumbnail, lesson)
-            except Exception as error:  # what is wrong with a lesson is told on its page
-                picture = f"no picture: {error}".encode()
-            self._pictures[lesson.name] = lesson, picture
-        if not picture.startswith(b"RIFF"):
+        if lesson is None:
             return PlainTextResponse("no such picture", 404)
+        kept, making = self._pictures.get(lesson.name, (None, None))
+        if making is None or kept is not lesson:  # made once for all who ask
+            timeline = self.runs.timelines.get(lesson, lesson.params())
+            making = asyncio.create_task(self.runs.keeping.do(thumbnail, lesson, timeline))
+            self._pictures[lesson.name] = lesson, making
+        try:
+            picture = await asyncio.shield(making)
+        except Exception:  # what is wrong with a lesson is told on its page
+            return PlainTextResponse("this lesson has no picture", 404)
         return Response(picture, media_type="image/webp", headers={"cache-control": "max-age=600"})
 
     async def _file(self, request: Request) -> Response:

@@ -38,6 +38,9 @@ from workbench.viewer.runs import Runs
 from workbench.viewer.terminal import tell_terminal
 from workbench.viewer.wishes import Wishes, read_wish
 
+SCENE_ALONE = frozenset({"light", "handles", "theme"})
+"""Wishes that change how a step is drawn, and nothing of what is said of it."""
+
 
 class Student:
     """What one page sees.
@@ -146,7 +149,8 @@ class Student:
         if session is None or self.asleep:
             return
         self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
-        for text in await self.runs.showing.do(self._show, session, bool(wishes)):
+        redraw, tell = bool(wishes), any(wish["verb"] not in SCENE_ALONE for wish in wishes)
+        for text in await self.runs.showing.do(self._show, session, redraw, tell):
             await self._send(text)
         await self._glide()
 
@@ -185,7 +189,7 @@ class Student:
             self._news += self.following.news(place.lesson)
 
     async def seek(self, message: Mapping[str, Any]) -> None:
-        """Go to a step; negative counts from the end."""
+        """Go to a step; a negative one is the last."""
         k = message.get("k")
         if self.session is not None and isinstance(k, int):
             self.session.last() if k < 0 else self.session.seek(k)
@@ -199,9 +203,10 @@ class Student:
             session.reset()
         elif name:
             session.use_preset(name)
+        if name:
+            self._scene.aim.open(session.lesson, session.params)
         if isinstance(step, int):
             session.open(session.lesson, session.params, step)
-        self._scene.aim.open(session.lesson, session.params)
 
     async def change(self, message: Mapping[str, Any]) -> None:
         """Set params; files are not set from a browser."""
@@ -327,12 +332,13 @@ class Student:
 
     # telling --------------------------------------------------------------------------------------------------------
 
-    def _show(self, session: Session, asked: bool) -> list[str]:
+    def _show(self, session: Session, redraw: bool, tell: bool) -> list[str]:
         """Show what is to be seen now in the scene; return what the page is to be told. Not on the event loop.
 
         Args:
             session: Where the person is.
-            asked: Whether they wished for something; else what they have seen is not said again.
+            redraw: Whether the scene is looked at again though the step is the one that was seen.
+            tell: Whether the step is told again though it is that one.
         """
         look = session.look()
         if look is None or session is not self.session:
@@ -344,10 +350,11 @@ class Student:
             self._timeline, self._steps = timeline, self.runs.steps(timeline)
             self._sent, self._told, self._told_steps, self._run = set(), None, 0, self._run + 1
         pinned = None if session.pinned_run is None else (id(session.pinned_run), len(session.pinned_run))
-        now = self._run, look.k, look.known > 0, look.caption, pinned, self._scene.client, self._scene.dark
-        again = asked or now != self._seen
-        trouble = self._scene.show(look, current=timeline is session.timeline) if again else None
+        now = self._run, look.k, look.known > 0, look.caption, pinned, self._scene.client
+        new = now != self._seen
+        trouble = self._scene.show(look, current=timeline is session.timeline) if new or redraw else None
         told = [self._run_told(self._steps, look, pinned)]
+        again = new or tell or trouble is not None
         if look.known and again:
             told.append(self._step_told(self._steps, look, trouble))
         elif not look.known and trouble is None and look.caption.text and again:

@@ -1,7 +1,5 @@
 """What goes over HTTP beside a page: the recording of its run, and a file of its own. Both are asked for by its token."""
 
-import asyncio
-from concurrent.futures import ThreadPoolExecutor
 from urllib.parse import quote
 
 from starlette.requests import ClientDisconnect, Request
@@ -12,8 +10,6 @@ from workbench.timeline import Timeline
 from workbench.viewer.student import Student
 from workbench.viewer.terminal import tell_terminal
 
-_recorders = ThreadPoolExecutor(1, "recording")  # many recordings at once wait for each other, and nobody else for them
-
 
 async def recording(student: Student | None) -> Response:
     """Return the run that a page shows as a recording."""
@@ -21,7 +17,7 @@ async def recording(student: Student | None) -> Response:
         return PlainTextResponse("This page is not open any more; reload it.", 404)
     timeline = student.session.timeline
     try:
-        name, content = await asyncio.get_running_loop().run_in_executor(_recorders, _recorded, timeline)
+        name, content = await student.runs.keeping.do(_recorded, timeline)
     except InputError as error:
         tell_terminal(error)
         return PlainTextResponse(str(error), 422)

@@ -12,9 +12,7 @@ const beside = {
     box.hidden = !enlarged;
     if (!enlarged) return;
     const top = $(".body", box) ? $(".body", box).scrollTop : 0;
-    const close = element("button", { type: "button", className: "close", textContent: "×", ariaLabel: "Close", onclick: () => this.enlarge(null) });
-    const body = element("div", { className: "body", tabIndex: 0 }, enlarged.whole());
-    box.replaceChildren(close, body);
+    const body = this.fill(enlarged.whole());
     body.scrollTop = top;
     const line = $(".here", body);
     if (line && !exercise.scrolled(body)) body.scrollTop = line.offsetTop - body.offsetTop - 0.5 * body.clientHeight;
@@ -90,10 +88,17 @@ const beside = {
   lay(title, body) {
     this.large = null;
     this.show();
-    const close = element("button", { type: "button", className: "close", textContent: "×", ariaLabel: "Close", onclick: () => this.enlarge(null) });
-    $("#large").replaceChildren(close, element("div", { className: "body", tabIndex: 0 }, element("h2", { textContent: title }), body));
+    this.fill(element("h2", { textContent: title }), body);
     $("#large").hidden = false;
-    close.focus();
+    $("#large .close").focus();
+  },
+
+  // puts something into the box for what is large; returns the part of it that scrolls
+  fill(...parts) {
+    const close = element("button", { type: "button", className: "close", textContent: "×", ariaLabel: "Close", onclick: () => this.enlarge(null) });
+    const body = element("div", { className: "body", tabIndex: 0 }, ...parts);
+    $("#large").replaceChildren(close, body);
+    return body;
   },
 
   enlarge(key) {

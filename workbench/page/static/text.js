@@ -34,7 +34,7 @@ const text = {
 
   step(run, k) {
     const numbers = run.series.filter((one) => (one.values[k] ?? null) !== null)
-      .map((one) => `${one.name} ${number(one.values[k])} ${one.unit}`.trim()).join(" · ");
+      .map((one) => `${one.name} ${measured(one.values[k], one.unit)}`).join(" · ");
     const go = element("button", { type: "button", textContent: k, title: `Go to step ${k}`, onclick: () => page.seek(k) });
     return element("li", {}, go, element("span", { textContent: run.steps[k].caption }), element("small", { textContent: numbers }));
   },
