@@ -147,6 +147,7 @@ class Lesson(Generic[P, S]):
         first_step: Where the default run opens (negative counts from the end).
         sweeps: Params whose runs are published at several values.
         telling: The chart or title of what tells most beside the scene: it is shown first.
+        needs: Names of the lessons it builds on; they stand before it in the course.
     """
 
     name: str
@@ -163,6 +164,7 @@ class Lesson(Generic[P, S]):
     first_step: int = 0
     sweeps: tuple[Sweep, ...] = ()
     telling: str = ""
+    needs: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         try:

@@ -70,6 +70,7 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=600,
+    needs=("icp",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

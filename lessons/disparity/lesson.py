@@ -116,6 +116,7 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=700,
+    needs=("pinhole",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -70,6 +70,7 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=300,
+    needs=("transforms",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -73,6 +73,7 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=200,
+    needs=("transforms",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

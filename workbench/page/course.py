@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from html import escape
 
 from workbench.page.document import document_head
+from workbench.page.map import course_map
 
 WELCOME = (
     "Every lesson is one algorithm that you can watch, step back through, break and write yourself. "
@@ -14,11 +15,12 @@ WELCOME = (
 
 @dataclass(frozen=True, kw_only=True)
 class Card:
-    """A lesson on the course page: its name, title and summary, and the addresses of its page and of its picture."""
+    """A lesson on the course page: name, title, summary, what it builds on, and where its page and picture are."""
 
     name: str
     title: str
     summary: str
+    needs: tuple[str, ...]
     address: str
     picture: str
 
@@ -32,13 +34,22 @@ def course_document(cards: Iterable[Card], *, root: str, trouble: str | None = N
         trouble: Why the page that was asked for is not shown, in one line.
         head: More HTML for the head.
     """
+    cards = list(cards)
     shown = "".join(_card(number, card) for number, card in enumerate(cards, 1))
     said = f'<p class="trouble" role="alert">{escape(trouble)}</p>' if trouble else ""
     return (
         f"{document_head('Geometry workbench', WELCOME, root, head)}"
         '<body class="course"><a class="skip" href="#course">To the lessons</a><main id="course">'
-        f'<h1>Geometry workbench</h1><p>{WELCOME}</p>{said}<ol class="cards">{shown}</ol></main>'
+        f'<h1>Geometry workbench</h1><p>{WELCOME}</p>{said}<ol class="cards">{shown}</ol>{_map(cards)}</main>'
         f'<script src="{root}tools.js"></script><script src="{root}progress.js"></script></body></html>\n'
+    )
+
+
+def _map(cards: list[Card]) -> str:
+    return course_map(
+        {card.name: card.title for card in cards},
+        {card.name: card.needs for card in cards},
+        {card.name: card.address for card in cards},
     )
 
 

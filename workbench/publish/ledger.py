@@ -34,6 +34,7 @@ class Listed:
     title: str
     summary: str
     order: float
+    needs: tuple[str, ...] = ()
 
 
 class Ledger:
@@ -169,4 +170,7 @@ def _listed(name: str, value: Any) -> Listed | None:
     title, summary, order = value.get("title"), value.get("summary"), value.get("order")
     if not isinstance(title, str) or not isinstance(summary, str) or not isinstance(order, (int, float)):
         return None
-    return Listed(title, summary, order) if abs(order) < 1e9 else None
+    needs = value.get("needs", [])
+    if not isinstance(needs, list) or not all(isinstance(one, str) and NAME.fullmatch(one) for one in needs):
+        return None
+    return Listed(title, summary, order, tuple(needs)) if abs(order) < 1e9 else None

@@ -28,6 +28,7 @@ def course_page(lessons: Mapping[str, Listed], head: str = "") -> str:
                 name=name,
                 title=one.title,
                 summary=one.summary,
+                needs=one.needs,
                 address=f"{name}/index.html",
                 picture=f"{name}/picture.webp",
             )
@@ -40,7 +41,8 @@ def course_page(lessons: Mapping[str, Listed], head: str = "") -> str:
 
 def lessons_script(lessons: Mapping[str, Listed]) -> str:
     """Return the script that tells a lesson's page which lessons there are."""
-    return f"const COURSE = {in_script([{'name': name, 'title': one.title} for name, one in lessons.items()])};\n"
+    course = [{"name": name, "title": one.title, "needs": one.needs} for name, one in lessons.items()]
+    return f"const COURSE = {in_script(course)};\n"
 
 
 def moment(run: str, step: int | None) -> str:

@@ -108,7 +108,9 @@ def _publish(
     timelines = Timelines()
     for lesson in lessons:
         _write_page(ledger, lesson, timelines, canonical(base_url, f"{lesson.name}/"))
-    listed = others | {lesson.name: Listed(lesson.title, lesson.summary, lesson.order) for lesson in lessons}
+    listed = others | {
+        lesson.name: Listed(lesson.title, lesson.summary, lesson.order, lesson.needs) for lesson in lessons
+    }
     ledger.lessons = dict(sorted(listed.items(), key=lambda item: (item[1].order, item[0])))
     course = {
         COURSE_PAGE: course_page(ledger.lessons, canonical(base_url, "")),

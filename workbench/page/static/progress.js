@@ -1,5 +1,5 @@
 // What was done in this browser, told on the course page; and the lessons before and after the one that is open. COURSE holds
-// all lessons in order, {name, title}.
+// all lessons in order, {name, title, needs}.
 "use strict";
 
 const progress = {
@@ -28,7 +28,15 @@ const progress = {
     const here = COURSE.findIndex((one) => one.name === LESSON.name);
     const link = (one, words, rel) => one && element("a", { rel, href: nav.dataset.address.replace("LESSON", one.name) },
       element("small", { textContent: words }), element("span", { textContent: one.title }));
-    nav.replaceChildren(...[link(COURSE[here - 1], "← before", "prev"), link(COURSE[here + 1], "next →", "next")].filter(Boolean));
+    nav.replaceChildren(...[link(COURSE[here - 1], "← before", "prev"), link(COURSE[here + 1], "next →", "next"),
+      this.ways("Builds on", COURSE.filter((one) => COURSE[here]?.needs.includes(one.name)), nav),
+      this.ways("Leads to", COURSE.filter((one) => one.needs.includes(LESSON.name)), nav)].filter(Boolean));
+  },
+
+  ways(words, lessons, nav) {
+    const links = lessons.flatMap((one, i) => [i ? ", " : "",
+      element("a", { href: nav.dataset.address.replace("LESSON", one.name), textContent: one.title })]);
+    return lessons.length && element("p", {}, `${words} `, ...links);
   },
 };
 
