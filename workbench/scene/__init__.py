@@ -7,7 +7,7 @@ A path such as `"source/points"` names a thing for the length of a run: a sink m
 A thing that moves keeps its arrays (the same objects) and changes `T_world_object`, so that sinks send a pose.
 """
 
-from workbench.scene.beside import Caption, Curve, Scalar, Table
+from workbench.scene.beside import Caption, Chart, Curve, Scalar, Table
 from workbench.scene.colors import PALETTE, UNKNOWN, Classes, Color, Field, Role, color_map, color_rows
 from workbench.scene.comparing import PRIMITIVES, Primitive, Scene, arrays, caption_of, ghost, in_space, same
 from workbench.scene.spatial import Axes, Camera, Label, Mesh, Picture, Points, Segments, Spatial, is_rigid
@@ -19,6 +19,7 @@ __all__ = [
     "Axes",
     "Camera",
     "Caption",
+    "Chart",
     "Classes",
     "Color",
     "Curve",

@@ -58,6 +58,16 @@ class Field:
         if self.map == "diverging":
             need(bool(np.isclose(self.low, -self.high)), "a diverging Field has zero in the middle: low = -high")
 
+    @classmethod
+    def magnitude(cls, values: np.ndarray, title: str, unit: str = "", *, percent: float = 95.0) -> "Field":
+        """Return sizes from zero to where so many per cent of the known values are reached, so that a few do not pale all.
+
+        The bar ends at 1 where no value is known, and never at 0.
+        """
+        known = values[np.isfinite(values)]
+        top = float(np.percentile(known, percent)) if known.size else 1.0
+        return cls(values, 0.0, max(top, 1e-6), title, unit)
+
     def rgb(self) -> np.ndarray:
         """Return the colours, uint8, one more axis of length 3 than `values`."""
         known = np.isfinite(self.values)
@@ -80,6 +90,11 @@ class Classes:
         check_array("Classes.ids", self.ids)
         need(self.ids.dtype.kind in "iub", "Classes.ids are whole numbers")
         need(self.ids.size == 0 or int(self.ids.max()) < len(self.roles), "a class id is beyond the roles")
+
+    @classmethod
+    def marking(cls, marked: np.ndarray, role: Role, name: str, *, others: tuple[Role, str]) -> "Classes":
+        """Return two classes: the items that are `marked` (n,) bool, and the others, with their role and name."""
+        return cls(marked.astype(np.uint8), (others[0], role), (others[1], name))
 
     def rgb(self) -> np.ndarray:
         """Return (n, 3) uint8 colours."""

@@ -160,12 +160,32 @@ class Picture:
             return self.image.rgb()
         return self.image if self.image.ndim == 3 else np.repeat(self.image[:, :, None], 3, 2)
 
-    def places(self, uv: np.ndarray) -> np.ndarray:
-        """Return where pixels (..., 2), column first, lie in the world, (..., 3); for a picture that stands in space."""
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height, pixels."""
         h, w = (self.image.values if isinstance(self.image, Field) else self.image).shape[:2]
+        return w, h
+
+    def places(self, uv: np.ndarray, nearer: float = 0.0) -> np.ndarray:
+        """Return where pixels (..., 2), column first, lie in the world, (..., 3); for a picture that stands in space.
+
+        `nearer` is how far in front of the picture, metres: what is drawn on it is not to be hidden by it.
+        """
+        w, h = self.size
         xy = (uv - np.array([w - 1, h - 1]) / 2) * (self.width or 1.0) / w
         T = np.eye(4) if self.T_world_object is None else self.T_world_object
-        return xy @ T[:3, :2].T + T[:3, 3]
+        p = xy @ T[:3, :2].T + T[:3, 3]
+        return p - nearer * T[:3, 2] if nearer else p
+
+    def box(self, low: np.ndarray, high: np.ndarray, nearer: float = 0.0) -> np.ndarray:
+        """Return the outline (4, 2, 3) of the pixels between two corners, in the world, as `places` does."""
+        (u0, v0), (u1, v1) = low, high
+        corners = self.places(np.array([[u0, v0], [u1, v0], [u1, v1], [u0, v1]]), nearer)
+        return np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
+
+    def border(self, nearer: float = 0.0) -> np.ndarray:
+        """Return the outline (4, 2, 3) of all pixels, in the world."""
+        return self.box(np.array([-0.5, -0.5]), np.array(self.size) - 0.5, nearer)
 
 
 Spatial: TypeAlias = Points | Segments | Mesh | Axes | Camera | Label | Picture
