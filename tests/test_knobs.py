@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from tests.fake import Params
 from workbench.errors import InputError
-from workbench.knobs import Knob, changed, fields_of, from_json, make, to_json
+from workbench.knobs import Knob, changed, fields_of, from_json, make, only, to_json
 
 ANYTHING = st.one_of(
     st.none(),
@@ -111,3 +111,11 @@ def test_a_name_that_is_a_symbol_is_written_as_in_formulas():
         doffs: Annotated[float, Knob("Offset", 0, 9, label="doffs")] = 0.0
 
     assert [field.label for field in fields_of(Lens)] == ["f", "k₁", "Start angle", "doffs"]
+
+
+def test_only_these_fields_differ_from_the_defaults():
+    names = [field.name for field in fields_of(Params) if field.kind in ("float", "int")]
+    mine = make(Params, {name: next(f for f in fields_of(Params) if f.name == name).knob.low for name in names})
+    assert set(changed(only(mine, names[0]))) == set(changed(mine)) & {names[0]}
+    assert only(mine) == Params()
+    assert only(mine, *[field.name for field in fields_of(Params)]) == mine

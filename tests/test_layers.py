@@ -26,7 +26,7 @@ ALLOWED = {
     "workbench.tracing": set(),
     "workbench.authors": {"workbench", "workbench.errors"},
     "workbench.questions": LESSON,
-    "workbench.scene": set(),
+    "workbench.scene": {"workbench.scene", "workbench.numerals"},
     "workbench.knobs": {"workbench.errors"},
     "workbench.numerals": set(),
     "workbench.geometry": MATHS,

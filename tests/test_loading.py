@@ -147,5 +147,5 @@ def test_an_exercise_of_no_lesson_says_which_there_are(folder, capsys):
 
 def test_what_a_folder_s_runs_depend_on_is_found(folder):
     names = {file.name for file in sources_of(load(folder))}
-    assert {"lesson.py", "draw.py", "state.py", "page.md", "tracing.py", "scene.py"} <= names
+    assert {"lesson.py", "draw.py", "state.py", "page.md", "tracing.py", "spatial.py"} <= names
     assert len(exercises_of(load(folder))) == 1

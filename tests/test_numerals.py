@@ -7,7 +7,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.numerals import angle, brief, counted, fixed, fixed_or_power, fixed_row, length, percent, pixels
+from workbench.numerals import (
+    angle,
+    brief,
+    coordinates,
+    counted,
+    fixed,
+    fixed_or_power,
+    fixed_row,
+    length,
+    percent,
+    pixels,
+)
 
 NUMERAL = re.compile(r"−?\d{1,3}(,\d{3})*(\.\d+)?")
 
@@ -102,3 +113,10 @@ def test_an_angle_is_the_angle_to_its_digits(degrees):
 @given(st.floats(1e-4, 100.0))
 def test_a_share_is_the_share_to_its_digits(share):
     assert read(percent(share).removesuffix(" %")) == pytest.approx(100.0 * share, rel=0.051)
+
+
+def test_a_point_in_brackets_is_whole_or_none():
+    assert coordinates((1.0, -2.345, 0.0), 2) == "(1.00, −2.35, 0.00)"
+    assert coordinates((3.0, math.nan), 1) == "none"
+    assert coordinates((-math.inf,), 1) == "none"
+    assert coordinates((0.0, 3.28e9), 0) == "(0, 3.28 × 10⁹)"

@@ -9,6 +9,7 @@ from workbench.scene import (
     Axes,
     Camera,
     Caption,
+    Chart,
     Classes,
     Curve,
     Field,
@@ -143,3 +144,68 @@ def test_a_picture_beside_the_scene_has_a_pinned_version_where_it_differs():
 )
 def test_rigid_means_a_rotation_and_a_translation(T, rigid):
     assert is_rigid(T) is rigid
+
+
+def test_what_is_marked_has_its_role_and_the_others_theirs():
+    classes = Classes.marking(np.array([False, True, True]), "wrong", "outlier", others=("target", "inlier"))
+    assert [(classes.roles[i], classes.names[i]) for i in classes.ids] == [
+        ("target", "inlier"),
+        ("wrong", "outlier"),
+        ("wrong", "outlier"),
+    ]
+
+
+def test_a_field_of_magnitudes_ends_where_most_values_are_reached():
+    values = np.append(np.arange(100.0), [np.nan, 1e6])
+    field = Field.magnitude(values, "error", "m", percent=50)
+    assert (field.low, field.high) == (0, 50)
+    assert Field.magnitude(np.full(3, np.nan), "error").high == 1
+    assert Field.magnitude(np.zeros(3), "error").high > 0
+
+
+def test_what_a_chart_makes_shares_its_plot():
+    chart, x = Chart("error", "distance (m)", "px"), np.arange(3.0)
+    made = [
+        chart.curve(x, x, "a", marks=(1.0,)),
+        chart.dots(x, x, "b"),
+        chart.histogram(np.array([0.5, 1.5, 1.6]), 2, "c"),
+    ]
+    assert {(one.chart, one.x_label, one.y_label) for one in made} == {("error", "distance (m)", "px")}
+    assert [one.kind for one in made] == ["line", "dots", "bars"]
+    assert made[2].y.sum() == 3
+    assert (made[2].y == [1, 2]).all()
+    np.testing.assert_allclose(made[2].x, [0.775, 1.325])
+    number = chart.scalar(2.0, "d", "truth", log=True)
+    assert (number.chart, number.unit, number.color, number.log) == ("error", "px", "truth", True)
+
+
+def test_a_matrix_is_a_table_of_its_numbers():
+    assert Table.of_matrix("M", ("a", "b"), np.array([[1.0, -0.001], [2.5, 1000.0]])).rows == (
+        ("1.00", "0.00"),
+        ("2.50", "1,000.00"),
+    )
+
+
+@pytest.mark.parametrize(
+    ("right", "settled", "text", "tone"),
+    [
+        (True, True, "End.", "good"),
+        (False, True, "End. It looks settled, and it is wrong.", "wrong"),
+        (False, False, "End. It is wrong.", "wrong"),
+    ],
+)
+def test_a_verdict_says_what_only_the_truth_shows(right, settled, text, tone):
+    caption = Caption.verdict("End.", right=right, settled=settled)
+    assert (caption.text, caption.tone) == (text, tone)
+
+
+def test_a_picture_in_space_knows_where_its_pixels_and_boxes_are():
+    T = np.array([[1.0, 0, 0, 5], [0, 0, 1, 6], [0, -1, 0, 7], [0, 0, 0, 1]])  # columns right, rows down, seen along +y
+    picture = Picture(np.zeros((2, 4), np.uint8), width=8.0, T_world_object=T)
+    assert picture.size == (4, 2)
+    np.testing.assert_allclose(picture.places(np.array([0.0, 0.0])), [5 - 3, 6, 7 + 1])
+    np.testing.assert_allclose(picture.places(np.array([3.0, 1.0]), 0.5), [5 + 3, 5.5, 7 - 1])
+    border = picture.border(0.5)
+    np.testing.assert_allclose(border.min(axis=(0, 1)), [1, 5.5, 5])
+    np.testing.assert_allclose(border.max(axis=(0, 1)), [9, 5.5, 9])
+    np.testing.assert_allclose(border[1:, 0], border[:-1, 1])

@@ -251,6 +251,11 @@ def make(params: type[P], values: Mapping[str, Any], *, base: P | None = None, c
         raise InputError(str(error)) from None
 
 
+def only(params: P, *names: str) -> P:
+    """Return the defaults with these fields of the params: what one part of a run depends on, as the key of its cache."""
+    return dataclasses.replace(type(params)(), **{name: getattr(params, name) for name in names})  # type: ignore[type-var]
+
+
 def with_own_files(params: P, mine: P) -> P:
     """Return the params with a person's own files in them, and with what says how to read these (`Knob.of_files`).
 

@@ -4,6 +4,7 @@
 What is not finite has no numeral: say in words what is missing.
 """
 
+import math
 from collections.abc import Iterable
 from decimal import Decimal
 
@@ -37,6 +38,14 @@ def fixed_or_power(value: float, places: int) -> str:
 def fixed_row(values: Iterable[float], places: int) -> str:
     """Write some numbers in a row, each with so many decimals."""
     return ", ".join(fixed(value, places) for value in values)
+
+
+def coordinates(values: Iterable[float], places: int) -> str:
+    """Write a point, pixel or vector in brackets, each number with so many decimals; "none" where one is not finite."""
+    numbers = [float(value) for value in values]
+    if not all(math.isfinite(value) for value in numbers):
+        return "none"
+    return f"({', '.join(fixed_or_power(value, places) for value in numbers)})"
 
 
 def length(metres: float, digits: int = 3) -> str:

@@ -7,10 +7,11 @@ from lessons.chamfer_emd.pairing import unrolled
 from lessons.chamfer_emd.state import Side, State
 from lessons.chamfer_emd.words import caption, left_label, right_label, significant
 from workbench.geometry.motions import motion
+from workbench.geometry.polylines import between
 from workbench.geometry.shape_distances import DEFINITIONS
 from workbench.lesson import View
 from workbench.numerals import brief, percent
-from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments, Table
+from workbench.scene import Chart, Classes, Curve, Label, Points, Primitive, Role, Scene, Segments, Table
 
 T_WORLD_LEFT = motion(np.eye(3), np.array([-1.25, 0.0, 0.0]))
 T_WORLD_RIGHT = motion(np.eye(3), np.array([1.25, 0.0, 0.0]))
@@ -42,8 +43,11 @@ def draw(state: State) -> Scene:
 
 
 def _pairs(side: Side, T_world_side: np.ndarray) -> Segments:
-    ends = np.stack([side.flow.p_moving[side.matching.i_a], side.p_target[side.matching.i_b]], axis=1)
-    return Segments(ends, "correspondence", 1.5, T_world_side)
+    return Segments(_matched(side), "correspondence", 1.5, T_world_side)
+
+
+def _matched(side: Side) -> np.ndarray:
+    return between(side.flow.p_moving[side.matching.i_a], side.p_target[side.matching.i_b])
 
 
 def _owed(state: State) -> dict[str, Primitive]:
@@ -52,8 +56,7 @@ def _owed(state: State) -> dict[str, Primitive]:
     far = left.matching.distances > state.params.near
     if not state.last or not far.any():
         return {}
-    ends = np.stack([left.flow.p_moving[left.matching.i_a], left.p_target[left.matching.i_b]], axis=1)[far]
-    return {"left/owed": Segments(ends, "truth", 1.0, T_WORLD_LEFT, 0.7, name="where the rest belongs")}
+    return {"left/owed": Segments(_matched(left)[far], "truth", 1.0, T_WORLD_LEFT, 0.7, name="where the rest belongs")}
 
 
 def _clouds(state: State) -> dict[str, Primitive]:
@@ -64,7 +67,7 @@ def _clouds(state: State) -> dict[str, Primitive]:
     p_target, left, right = state.clouds.p_target, state.left, state.right
     radius = float(np.clip(0.3 / np.sqrt(len(p_target)), 0.016, 0.04))
     dot, idle = 0.5 * radius, left.served == 0
-    who = Classes(idle.astype(np.uint8), ("source", "wrong"), ("source", "nobody's nearest"))
+    who = Classes.marking(idle, "wrong", "nobody's nearest", others=("source", "source"))
     # Where several share a place, the one that is somebody's nearest lies on top.
     p_left = nearer(left.flow.p_moving, np.where(idle, 0.75, 1.0))
     return {
@@ -102,11 +105,9 @@ def _left_edges(state: State) -> dict[str, Primitive]:
     p, p_target, near, lowers = state.left.flow.p_moving, state.clouds.p_target, state.left.near, state.params.lowers
     edges: dict[str, Primitive] = {}
     if lowers != "target to source":
-        ends = np.stack([p, p_target[near.a_to_b]], axis=1)
-        edges["left/to target"] = Segments(ends, "correspondence", 1.5, T_WORLD_LEFT)
+        edges["left/to target"] = Segments(between(p, p_target[near.a_to_b]), "correspondence", 1.5, T_WORLD_LEFT)
     if lowers != "source to target":
-        ends = np.stack([p_target, p[near.b_to_a]], axis=1)
-        edges["left/to source"] = Segments(ends, "other", 1.5, T_WORLD_LEFT, 0.8)
+        edges["left/to source"] = Segments(between(p_target, p[near.b_to_a]), "other", 1.5, T_WORLD_LEFT, 0.8)
     return edges
 
 
@@ -127,11 +128,11 @@ def _curves(state: State) -> dict[str, Primitive]:
     left, right = state.left, state.right
     curves: dict[str, Primitive] = {}
     for name, title, side in (("left", "Left flow", left), ("right", "Right flow", right)):
-        n = side.numbers
+        n, chart = side.numbers, Chart(title)
         value = n.chamfer if name == "right" or state.params.lowers == "both sides" else side.flow.value
-        curves[f"{name}/chamfer"] = Scalar(value, "Chamfer in m²", title, "", "source")
-        curves[f"{name}/earth movers"] = Scalar(n.earth_movers, "earth mover's in m", title, "", "other")
-        curves[f"{name}/astray"] = Scalar(n.astray, "truth: mass astray", title, "", "truth")
+        curves[f"{name}/chamfer"] = chart.scalar(value, "Chamfer in m²")
+        curves[f"{name}/earth movers"] = chart.scalar(n.earth_movers, "earth mover's in m", "other")
+        curves[f"{name}/astray"] = chart.scalar(n.astray, "truth: mass astray", "truth")
     return curves | {"left/served": _served(left, "left", "source"), "right/served": _served(right, "right", "other")}
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.chamfer_emd.state import Side, State
+from workbench.geometry.polylines import between
 from workbench.scene import Classes, Label, Points, Primitive, Segments
 
 WIDTH, TARGET_ROW, SOURCE_ROW = 2.1, -1.3, -2.0
@@ -15,12 +16,12 @@ def unrolled(state: State, side: Side, T_world_side: np.ndarray, *, nearest: boo
     source = _row(side.flow.p_moving, p_target, SOURCE_ROW)
     radius = min(0.02, 0.45 * WIDTH / max(len(target), len(source)))
     ends, used, words = _nearest(state, side) if nearest else _matched(state, side)
-    who = Classes((~used).astype(np.uint8), ("source", "wrong"), ("source", "nobody's nearest"))
+    who = Classes.marking(~used, "wrong", "nobody's nearest", others=("source", "source"))
     return {
         "target row": Points(target, "target", radius, T_world_side),
         "source row": Points(source, who if nearest else "source", radius, T_world_side),
         "pairing": Segments(
-            np.stack([target[ends[0]], source[ends[1]]], axis=1), "other" if nearest else "correspondence", 1.5, T_world_side
+            between(target[ends[0]], source[ends[1]]), "other" if nearest else "correspondence", 1.5, T_world_side
         ),
         "pairing words": Label(words, np.array([0.0, 0.0, SOURCE_ROW - 0.17]), "neutral", T_world_side),
     }  # fmt: skip

@@ -3,9 +3,10 @@
 import numpy as np
 
 from lessons.curvature.state import State
+from workbench.data.thinning import evenly
 from workbench.geometry.normals import surface_variation
 from workbench.numerals import brief
-from workbench.scene import Curve, Primitive, Role, Scalar, Table
+from workbench.scene import Chart, Primitive, Role, Scalar, Table
 
 SAMPLES = 300
 FLOOR = 0.001  # per cent: what lies below is rounding
@@ -45,45 +46,39 @@ def _against(state: State, letter: str, name: str, estimate: np.ndarray, which: 
     surface, fits = state.subject.truth, state.now.quadrics
     if surface is None:
         values = _rounded(np.clip(estimate[rows], *np.percentile(estimate[rows], [2, 98])))
-        heights, ends = np.histogram(values, bins=40)
-        middles = (ends[1:] + ends[:-1]) / 2
-        return {f"histogram {letter}": Curve(middles, heights.astype(float), f"vertices with this {letter}",
-                                             f"{letter} of all vertices", f"{letter} ({unit})", "vertices",
-                                             kind="bars")}  # fmt: skip
+        chart = Chart(f"{letter} of all vertices", f"{letter} ({unit})", "vertices")
+        return {f"histogram {letter}": chart.histogram(values, 40, f"vertices with this {letter}")}
     true = getattr(surface, name)
     rows = rows[np.argsort(true[rows], kind="stable")]
-    rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(SAMPLES, len(rows))).round().astype(int))]
+    rows = rows[evenly(len(rows), SAMPLES)]
     x = np.linspace(0, 100, len(rows))
-    chart, label = f"{letter} and its truth", f"vertices in the order of the true {letter} (%)"
+    chart = Chart(f"{letter} and its truth", f"vertices in the order of the true {letter} (%)", f"{letter} ({unit})")
+    way = "from angles" if letter == "K" else "from cotangents"
     scene: dict[str, Primitive] = {
-        f"estimates {letter}": Curve(x, _rounded(estimate[rows]), "from angles" if letter == "K" else "from cotangents",
-                                     chart, label, f"{letter} ({unit})", "source", "dots"),
-        f"truth {letter}": Curve(x, _rounded(true[rows]), "truth", chart, label, f"{letter} ({unit})", "truth"),
-    }  # fmt: skip
+        f"estimates {letter}": chart.dots(x, _rounded(estimate[rows]), way),
+        f"truth {letter}": chart.curve(x, _rounded(true[rows]), "truth", "truth"),
+    }
     if fits is not None:
-        fitted = _rounded(fits.curvatures()[which][rows])
-        scene[f"fits {letter}"] = Curve(
-            x, fitted, "quadric fit", chart, label, f"{letter} ({unit})", "highlight", "dots"
-        )
+        scene[f"fits {letter}"] = chart.dots(x, _rounded(fits.curvatures()[which][rows]), "quadric fit", "highlight")
     return scene
 
 
 def _sum(state: State) -> dict[str, Primitive]:
     now = state.now
     running = np.cumsum(np.sort(now.defects)[::-1])
-    k = np.unique(np.linspace(0, len(running) - 1, min(SAMPLES, len(running))).round().astype(int))
-    share, label = 100 * (k + 1) / len(running), "vertices added, largest defect first (%)"
-    chart = "Sum of angle defects"
+    k = evenly(len(running), SAMPLES)
+    share = 100 * (k + 1) / len(running)
+    chart = Chart("Sum of angle defects", "vertices added, largest defect first (%)", "rad")
     return {
-        "running sum": Curve(share, running[k], "sum so far", chart, label, "rad"),
-        "expected sum": Curve(share, np.full(len(k), 2 * np.pi * now.chi), "2π χ", chart, label, "rad", "truth"),
+        "running sum": chart.curve(share, running[k], "sum so far"),
+        "expected sum": chart.curve(share, np.full(len(k), 2 * np.pi * now.chi), "2π χ", "truth"),
     }
 
 
 def _finer(state: State) -> dict[str, Primitive]:
     study = state.study
     assert study is not None
-    x, label = np.log10(study.counts), "log₁₀ vertices"
+    x, chart = np.log10(study.counts), Chart("Error over resolution", "log₁₀ vertices", "log₁₀ error (%)")
     roles: tuple[tuple[str, np.ndarray, Role], ...] = (
         ("K from angles", study.K, "source"),
         ("H from cotangents", study.H, "other"),
@@ -91,10 +86,9 @@ def _finer(state: State) -> dict[str, Primitive]:
         ("H by fit", study.H_fit, "truth"),
     )
     return {
-        f"finer {name}": Curve(x, np.log10(np.maximum(100 * error, FLOOR)), name, "Error over resolution", label,
-                               "log₁₀ error (%)", role)
+        f"finer {name}": chart.curve(x, np.log10(np.maximum(100 * error, FLOOR)), name, role)
         for name, error, role in roles
-    }  # fmt: skip
+    }
 
 
 def vertex_table(state: State) -> Table:

@@ -7,6 +7,8 @@ from lessons.curvature.charts import beside
 from lessons.curvature.scales import DEFECT_SCALE, ERROR_SCALE, H_SCALE, K_SCALE, arrow, reach, share_within
 from lessons.curvature.state import State
 from lessons.curvature.words import caption
+from workbench.data.thinning import every
+from workbench.geometry.polylines import between
 from workbench.numerals import brief
 from workbench.scene import Color, Field, Mesh, Points, Primitive, Role, Scene, Segments
 
@@ -72,17 +74,17 @@ def _arrows(state: State) -> Segments:
     """Return the mean-curvature normals of all vertices that have one, or of enough of them."""
     v = state.now.normals_2H
     rows = np.flatnonzero(np.isfinite(v).all(axis=1))
-    rows = rows[:: max(1, -(-len(rows) // MOST_ARROWS))]
+    rows = rows[every(len(rows), MOST_ARROWS)]
     p, metres = state.now.p[rows], arrow(state)
     name = f"2 H n ({brief(100 * metres)} cm for 1 m⁻¹)"
-    return Segments(np.stack([p, p + metres * v[rows]], axis=1), "source", 1.5, name=name)
+    return Segments(between(p, p + metres * v[rows]), "source", 1.5, name=name)
 
 
 def _crosses(state: State) -> dict[str, Primitive]:
     """Return the two principal directions at all vertices, or at enough of them."""
     now = state.now
-    every = max(1, -(-len(now.p) // MOST_CROSSES))
-    p, n = now.p[::every], now.normals[::every]
+    rows = every(len(now.p), MOST_CROSSES)
+    p, n = now.p[rows], now.normals[rows]
     half = 0.3 * np.median(np.linalg.norm(np.diff(now.p[state.subject.edges], axis=1)[:, 0], axis=1))
     scene: dict[str, Primitive] = {}
     both: tuple[tuple[str, Role, np.ndarray], ...] = (
@@ -90,6 +92,6 @@ def _crosses(state: State) -> dict[str, Primitive]:
         ("k₂", "other", now.along_k2),
     )
     for name, role, v in both:
-        ends = np.stack([p - half * v[::every], p + half * v[::every]], axis=1) + 0.05 * half * n[:, None]
+        ends = between(p - half * v[rows], p + half * v[rows]) + 0.05 * half * n[:, None]
         scene[f"along {name}"] = Segments(ends, role, 2, name=f"direction of {name}")
     return scene

@@ -14,6 +14,7 @@ from workbench.errors import InputError
 from workbench.geometry.meshes import check_mesh, edges, on_boundary, vertex_normals, welded
 from workbench.geometry.motions import exp_so3
 from workbench.geometry.repair import oriented, split_where_sheets_touch, without_repeats
+from workbench.knobs import only
 from workbench.numerals import counted
 
 EYE = (2.5, -2.9, 2.3)
@@ -35,15 +36,8 @@ def subject_of(params: Params) -> Subject:
 
 def shape_of(params: Params) -> Params:
     """Return the params with nothing but what makes a built-in surface; its seed is 0 where nothing strays."""
-    return Params(
-        surface=params.surface,
-        vertices=params.vertices,
-        jitter=params.jitter,
-        noise=params.noise,
-        size=params.size,
-        inside_out=params.inside_out,
-        seed=params.seed if params.jitter or params.noise else 0,
-    )
+    chance = ("seed",) if params.jitter or params.noise else ()
+    return only(params, "surface", "vertices", "jitter", "noise", "size", "inside_out", *chance)
 
 
 @functools.lru_cache(maxsize=16)

@@ -4,7 +4,7 @@ import numpy as np
 
 from lessons.curvature.state import State
 from workbench.algorithms.curvature import Measured
-from workbench.geometry.polylines import segments
+from workbench.geometry.polylines import between, segments
 from workbench.numerals import brief
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
 
@@ -74,11 +74,11 @@ def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
         along = _unbent((1 - share) * rim / lengths[:, None] + share * along, now.angles)
     fan = np.vstack([centre, at(along, turned, lengths)])
     k = np.arange(1, len(turned))
-    spokes = np.stack([np.broadcast_to(centre, (len(turned), 3)), fan[1:]], axis=1)
+    spokes = between(np.broadcast_to(centre, (len(turned), 3)), fan[1:])
     scene: dict[str, Primitive] = {
         "flat ring": Mesh(fan, np.stack([0 * k, k, k + 1], 1), "highlight", opacity=0.5, flat=True),
         "flat edges": Segments(spokes, "highlight", 2),
-        "stalk": Segments(np.array([[now.p[now.vertex], centre]]), "correspondence", 1),
+        "stalk": Segments(between(now.p[now.vertex], centre), "correspondence", 1),
     }
     if share < 1:
         return scene
@@ -88,7 +88,7 @@ def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
     word = "gap" if defect > 0 else "overlap"
     return scene | {
         "gap": Segments(segments(at(flat(gap), gap, 0.8 * lengths.min(), 0.02)), "source", 5, name="angle defect"),
-        "gap edge": Segments(np.stack([centre[None], end], 1), "source", 3),
+        "gap edge": Segments(between(centre, end), "source", 3),
         "gap label": Label(
             f"{word} {abs(np.degrees(defect)):.2f}°", at(flat(full), full, 1.1 * lengths.max())[0], "source"
         ),
@@ -131,10 +131,8 @@ def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
         parts = scale * _pushes(now)
         chain = np.cumsum(np.vstack([np.zeros(3), parts]), axis=0) + start
         scene["pushes"] = Segments(segments(chain), "other", 3, name="cotangent × edge, neighbour after neighbour")
-        scene["mean normal"] = Segments(
-            np.array([[start, start + scale * total]]), "highlight", 6, name="their sum: 2 H n"
-        )
         tip = start + scale * total
+        scene["mean normal"] = Segments(between(start, tip), "highlight", 6, name="their sum: 2 H n")
         scene["mean label"] = Label(f"|2 H n| = {brief(float(np.linalg.norm(total)))} m⁻¹", tip, "highlight")
     return scene
 
@@ -174,7 +172,7 @@ def circles(now: Measured) -> dict[str, Primitive]:
         scene[f"label {name}"] = Label(f"{name} = {brief(k)} m⁻¹, {radius}", centre, role)
         if seen:
             scene[f"centre {name}"] = Points(centre[None], role, 0.025 / abs(k) ** 0.5)
-            scene[f"radius {name}"] = Segments(np.array([[here, centre]]), role, 2)
+            scene[f"radius {name}"] = Segments(between(here, centre), role, 2)
     return scene
 
 

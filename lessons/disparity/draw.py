@@ -9,9 +9,10 @@ from lessons.disparity.stage import R_WORLD_CAMERA, T_WORLD_LEFT, pictures
 from lessons.disparity.state import Setup, State
 from lessons.disparity.words import caption
 from workbench.algorithms.disparity import Stage
+from workbench.data.framing import round_below
 from workbench.geometry.cameras import back_project
 from workbench.geometry.motions import apply, motion
-from workbench.geometry.polylines import segments
+from workbench.geometry.polylines import between, segments
 from workbench.geometry.stereo import depth_cloud, depth_from_disparity, depth_interval, points_on_ray
 from workbench.numerals import brief, length
 from workbench.scene import Camera, Color, Field, Label, Points, Primitive, Scene, Segments
@@ -75,16 +76,13 @@ def _cloud_color(state: State, seen: np.ndarray) -> tuple[Color, str]:
         return state.setup.pair.left[seen], "points so far"
     if not state.setup.metric:
         off = 100.0 * state.uncertainty[seen] / state.depth[seen]
-        return Field(
-            off, 0.0, max(float(np.nanpercentile(off, 95)), 1e-6), "Depth error, of the depth", "%"
-        ), CLOUD_BY_ERROR
+        return Field.magnitude(off, "Depth error, of the depth", "%"), CLOUD_BY_ERROR
     if truth is None:
         off, title = state.uncertainty[seen], f"Depth error of {brief(state.disparity_error)} px"
     else:
         true_depth = camera.f * camera.baseline / np.maximum(truth + camera.doffs, 1e-9)
         off, title = np.abs(state.depth - true_depth)[seen], "Depth error"
-    top = float(np.nanpercentile(off, 95)) if np.isfinite(off).any() else 1.0
-    return Field(off, 0.0, max(top, 1e-6), title, "m"), CLOUD_BY_ERROR
+    return Field.magnitude(off, title, "m"), CLOUD_BY_ERROR
 
 
 def _bars(state: State, seen: np.ndarray) -> Segments:
@@ -114,9 +112,7 @@ def _followed(state: State) -> dict[str, Primitive]:
     depths = _depth(state, np.arange(setup.max_disparity + 1.0))
     shown = np.isfinite(depths) & (depths <= setup.far) & np.isfinite(state.costs)
     scene: dict[str, Primitive] = {
-        "ray": Segments(
-            np.stack([np.zeros((1, 3)), _along(setup, np.array([setup.far]))], 1), "highlight", 2.0, T_WORLD_LEFT
-        )
+        "ray": Segments(between(np.zeros(3), _along(setup, np.array([setup.far]))), "highlight", 2.0, T_WORLD_LEFT)
     }
     if shown.any():
         scene["candidates"] = Points(_along(setup, depths[shown]), "highlight", SIZE, T_WORLD_LEFT)
@@ -127,8 +123,8 @@ def _followed(state: State) -> dict[str, Primitive]:
         if state.stage is not Stage.COMPARE:
             text = f"d = {brief(state.chosen)} px{_away(setup, chosen)}"
             scene["label/chosen"] = Label(text, p[0] + (0, -4 * SIZE, 0), "highlight", T_WORLD_LEFT)
-        eye = np.array([[setup.scale * camera.baseline, 0.0, 0.0]])
-        scene["partner ray"] = Segments(np.stack([eye, p], 1), "source", 1.5, T_WORLD_LEFT)
+        eye = np.array([setup.scale * camera.baseline, 0.0, 0.0])
+        scene["partner ray"] = Segments(between(eye, p), "source", 1.5, T_WORLD_LEFT)
     if setup.true_depth[v, u] <= setup.far:
         scene["truth"] = Points(_along(setup, setup.true_depth[v, u : u + 1]), "truth", 1.7 * SIZE, T_WORLD_LEFT)
     return scene
@@ -155,14 +151,12 @@ def _swept(state: State) -> dict[str, Primitive]:
 def _ruler(setup: Setup) -> dict[str, Primitive]:
     """Show what the cameras see as a faint pyramid, along one edge of which the metres are counted."""
     far = _corners(setup, setup.far / 1.25)
-    edges = np.stack([np.zeros((4, 3)), far], axis=1)
+    edges = between(np.zeros((4, 3)), far)
     shown: dict[str, Primitive] = {
         "seen": Segments(np.concatenate([edges, segments(far, closed=True)]), "correspondence", 1.0, T_WORLD_LEFT, 0.45)
     }
     if setup.metric:
-        rough = setup.far / 3
-        apart = next(step for step in (5, 2, 1) if step <= rough / 10 ** math.floor(math.log10(rough)))
-        apart *= 10 ** math.floor(math.log10(rough))
+        apart = round_below(setup.far / 3)
         for i, z in enumerate(np.arange(1, setup.far / 1.25 / apart + 1e-9) * apart):
             shown[f"label/depth {i}"] = Label(
                 length(z), _corners(setup, z)[2] + (0.05, 0.05, 0.0), "neutral", T_WORLD_LEFT

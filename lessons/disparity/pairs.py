@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from lessons.disparity.state import Params, Setup
+from workbench.data.files import stamp
 from workbench.data.stereo import StereoPair, grey, motorcycle_pair, read_pair, shrunk, synthetic_pair
 from workbench.errors import InputError
 from workbench.geometry.stereo import StereoCamera
@@ -26,7 +27,7 @@ def setup_of(params: Params) -> Setup:
     """
     metric = True
     if params.left is not None and params.right is not None:
-        stamps = tuple(_stamp(path) for path in (params.left, params.right))
+        stamps = tuple(stamp(path) for path in (params.left, params.right))
         metric = params.own_focal_length > 0 and params.own_baseline > 0
         cameras = (params.own_focal_length, params.own_baseline) if metric else None
         pair, shrink = _own(params.left, params.right, stamps, cameras, params.doffs, params.shrink), params.shrink
@@ -94,12 +95,3 @@ def _own(
     if cameras is None:
         pair = replace(pair, camera=replace(pair.camera, f=float(pair.left.shape[1])))
     return shrunk(pair, shrink)
-
-
-def _stamp(path: Path) -> tuple[int, int]:
-    """Return what changes when a file changes."""
-    try:
-        status = path.stat()
-    except OSError:
-        return (0, 0)
-    return status.st_mtime_ns, status.st_size

@@ -8,7 +8,7 @@ from lessons.disparity.pairs import ROWS_OFF
 from lessons.disparity.state import Setup, State
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.motions import motion
-from workbench.geometry.polylines import segments
+from workbench.geometry.polylines import between
 from workbench.lesson import View
 from workbench.scene import Field, Label, Picture, Primitive, Role, Segments
 
@@ -21,6 +21,7 @@ LARGEST = (2.1, 1.575)
 """Metres, across and down, that a picture may have."""
 LEFT, RIGHT, ABOVE, BELOW = -1.09, 1.09, 0.775, -0.96
 LEAST_FRAME = 2.5  # pixels
+LAYER = 0.004  # metres from a picture to the lines on it, and from these to those before them
 
 
 def pictures(state: State) -> dict[str, Primitive]:
@@ -40,8 +41,8 @@ def pictures(state: State) -> dict[str, Primitive]:
         "left/name": _named(left, "left picture", "target"),
         "right/name": _named(right, "right picture", "source"),
         "map/name": _named(below, "disparity (grey: unknown)", "neutral"),
-        "left/edge": _edge(left, "target"),
-        "right/edge": _edge(right, "source"),
+        "left/edge": Segments(left.border(LAYER), "target", 2.5),
+        "right/edge": Segments(right.border(LAYER), "source", 2.5),
         **_row(state, left, right),
     }
 
@@ -52,26 +53,21 @@ def _upright(image: np.ndarray | Field, title: str, x: float, y: float) -> Pictu
 
 
 def _named(picture: Picture, name: str, color: Role) -> Label:
-    h, w = picture.rgb().shape[:2]
+    w, h = picture.size
     return Label(name, picture.places(np.array([w / 2, -0.02 * h])), color)
-
-
-def _edge(picture: Picture, color: Role) -> Segments:
-    h, w = picture.rgb().shape[:2]
-    return Segments(_box(picture, -0.5, -0.5, w - 0.5, h - 0.5), color, 2.5)
 
 
 def _row(state: State, left: Picture, right: Picture) -> dict[str, Primitive]:
     """Return the row of the followed pixel across both pictures: where it is, where its partner is sought, and found."""
     setup = state.setup
     (u, v), w = setup.pixel, setup.left.shape[1]
-    ends = np.stack([left.places(np.array([-0.5, v])), right.places(np.array([w - 0.5, v]))])
+    ends = between(left.places(np.array([-0.5, v]), LAYER), right.places(np.array([w - 0.5, v]), LAYER))
     comparing = state.stage is Stage.COMPARE
     tried = state.done - 1 if comparing else setup.max_disparity
-    sought = right.places(np.array([[max(u - tried, 0), v], [u, v]]))
+    sought = right.places(np.array([[max(u - tried, 0), v], [u, v]]), 2 * LAYER)
     shown: dict[str, Primitive] = {
-        "row": Segments(_lifted(ends[None]), "highlight", 1.5, name=f"row v = {v}"),
-        "row/sought": Segments(_lifted(sought[None], 2), "other", 5.0, name="tried so far" if comparing else ""),
+        "row": Segments(ends, "highlight", 1.5, name=f"row v = {v}"),
+        "row/sought": Segments(sought[None], "other", 5.0, name="tried so far" if comparing else ""),
         "left/window": _frame(setup, left, u, v, "highlight"),
     }
     at = tried if comparing else state.chosen
@@ -93,15 +89,5 @@ def _seen(setup: Setup) -> bool:
 
 
 def _frame(setup: Setup, picture: Picture, u: float, v: float, color: Role, name: str = "") -> Segments:
-    half = max(setup.params.window / 2, LEAST_FRAME)
-    return Segments(_box(picture, u - half, v - half, u + half, v + half, 3), color, 3.0, name=name)
-
-
-def _box(picture: Picture, u0: float, v0: float, u1: float, v1: float, layer: int = 1) -> np.ndarray:
-    corners = picture.places(np.array([[u0, v0], [u1, v0], [u1, v1], [u0, v1]]))
-    return _lifted(segments(corners, closed=True), layer)
-
-
-def _lifted(ends: np.ndarray, layer: int = 1) -> np.ndarray:
-    """Return lines moved from a picture towards the eye, in layers."""
-    return ends - 0.004 * layer * VIEW.facing(0, 0)[:3, 2]
+    half, middle = max(setup.params.window / 2, LEAST_FRAME), np.array([u, v])
+    return Segments(picture.box(middle - half, middle + half, 3 * LAYER), color, 3.0, name=name)

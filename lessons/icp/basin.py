@@ -9,6 +9,7 @@ import numpy as np
 from lessons.icp.scans import scans_of
 from lessons.icp.state import Params, Scans, Try
 from workbench.algorithms.icp import Align, Gate, icp
+from workbench.data.thinning import every
 from workbench.geometry.alignment import align_affine, align_rigid, align_similarity
 from workbench.geometry.motions import inverse
 from workbench.tracing import untraced
@@ -63,9 +64,4 @@ def _try(params: Params, angle: float) -> Try:
 
 def thinned(scans: Scans) -> np.ndarray:
     """Return the source points that the tries use."""
-    return scans.p_source[thin_rows(scans)]
-
-
-def thin_rows(scans: Scans) -> slice:
-    """Return every so many rows of the source, POINTS in all at most."""
-    return slice(None, None, -(-len(scans.p_source) // POINTS))
+    return scans.p_source[every(len(scans.p_source), POINTS)]

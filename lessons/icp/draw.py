@@ -2,18 +2,24 @@
 
 import numpy as np
 
-from lessons.icp.basin import ANGLES, thin_rows
-from lessons.icp.state import Error, Scans, State
+from lessons.icp.basin import ANGLES, POINTS
+from lessons.icp.state import Scans, State
 from lessons.icp.words import caption
+from workbench.data.thinning import every
+from workbench.geometry.alignment import MotionError
 from workbench.geometry.motions import apply, inverse
+from workbench.geometry.polylines import between
 from workbench.numerals import angle, length
-from workbench.scene import Classes, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments
+from workbench.scene import Chart, Classes, Color, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments
 
 MOST_LINES = 750, 200  # of small clouds and of large ones, whose recordings the lines would fill
 LARGE = 5000
 TIP, DIAL = 0.62, 0.7  # metres of the picture from its middle: of the arrows, and of the dial of starts
 ARROW = np.array([[[0.0, 0.0, 0.0], [TIP, 0.0, 0.0]], [[TIP, 0.0, 0.0], [0.54, 0.035, 0.0]],
                   [[TIP, 0.0, 0.0], [0.54, -0.035, 0.0]]])  # fmt: skip
+RMSE, OVERLAP = Chart("RMSE", unit="m"), Chart("Overlap", unit="%")
+BASIN_TURNS = Chart("Basin: final rotation error", "start angle (deg)", "deg")
+BASIN_METRES = Chart("Basin: final RMSE and final distance", "start angle (deg)", "m")
 HALF = np.radians(0.42 * (ANGLES[1] - ANGLES[0]))  # of a start's arc on the dial
 
 
@@ -50,7 +56,7 @@ def _from_another_start(state: State) -> dict[str, Primitive]:
     assert scans.T_truth is not None
     T_target_source = last.T_target_truth @ scans.T_truth
     T_world_try = scans.frame.shown_motion(T_target_source)
-    p = scans.p_source_shown[thin_rows(scans)]
+    p = scans.p_source_shown[every(len(scans.p_source), POINTS)]
     return {
         "try": Points(p, "highlight", 0.008, T_world_try, name="end from another start"),
         **_arrow("try", scans, T_target_source, "highlight", last.error),
@@ -59,7 +65,7 @@ def _from_another_start(state: State) -> dict[str, Primitive]:
     }
 
 
-def _arrow(path: str, scans: Scans, T_target_source: np.ndarray, color: Role, error: Error | None):
+def _arrow(path: str, scans: Scans, T_target_source: np.ndarray, color: Role, error: MotionError | None):
     """Return an arrow fixed to the source, which points along the picture's x axis at the truth; its turn stands at it."""
     pose = _arrow_pose(scans, T_target_source)
     scene: dict[str, Primitive] = {f"{path} arrow": Segments(ARROW, color, 4, pose)}
@@ -80,68 +86,62 @@ def _dial(state: State) -> dict[str, Primitive]:
 
     arcs = np.stack([at(starts + HALF * np.array([-1, -1 / 3, 1 / 3]), DIAL),
                      at(starts + HALF * np.array([-1 / 3, 1 / 3, 1]), DIAL)], axis=2)  # fmt: skip
-    color = Classes(
-        np.repeat(~home, 3).astype(np.uint8), ("truth", "neutral"), ("comes home from here", "does not come home")
+    color = Classes.marking(
+        np.repeat(~home, 3), "neutral", "does not come home", others=("truth", "comes home from here")
     )
     now = state.tries[-1].start_angle
     return {
         "dial": Segments(arcs.reshape(-1, 2, 3), color, 9),
-        "dial now": Segments(np.stack([at(starts[-1], 0.45), at(starts[-1], DIAL)], axis=1), "highlight", 3),
+        "dial now": Segments(between(at(starts[-1], 0.45), at(starts[-1], DIAL)), "highlight", 3),
         "dial name": Label(f"start {now:.0f}° away", at(starts[-1, 0], DIAL + 0.1), "highlight"),
     }
 
 
 def _curves(state: State) -> dict[str, Primitive]:
     now, params = state.icp, state.params
-    curves: dict[str, Primitive] = {"rmse": Scalar(now.rmse, "RMSE of kept matches", "RMSE", "m")}
+    curves: dict[str, Primitive] = {"rmse": RMSE.scalar(now.rmse, "RMSE of kept matches")}
     if params.fit == "point-to-plane":
-        curves["residual"] = Scalar(now.residual, "to tangent planes", "RMSE", "m", "other")
+        curves["residual"] = RMSE.scalar(now.residual, "to tangent planes", "other")
     if state.known:  # the truth stands beside what is minimised
         curves["rotation error"] = Scalar(state.error.rotation, "rotation error", "Rotation error", "deg", "truth")
         curves["translation error"] = Scalar(
             state.error.translation, "translation error", "Translation error", "m", "truth"
         )
-    curves["kept"] = Scalar(100 * now.overlap, "kept", "Overlap", "%")
+    curves["kept"] = OVERLAP.scalar(100 * now.overlap, "kept")
     if state.known:
         guessed = now.iteration == 1 and now.phase == "match"  # a question asks for it
-        curves["right"] = Scalar(np.nan if guessed else 100 * state.right, "right among them", "Overlap", "%", "truth")
+        curves["right"] = OVERLAP.scalar(np.nan if guessed else 100 * state.right, "right among them", "truth")
     return curves
 
 
 def _basin(state: State) -> dict[str, Primitive]:
     angles = np.array([t.start_angle for t in state.tries], float)
     marks = (state.params.start_angle,) if state.params.target is None else ()
-    x_label, metres = "start angle (deg)", "Basin: final RMSE and final distance"
 
-    def curve(values: list[float], name: str, chart: str, unit: str, color: Role) -> Curve:
-        return Curve(
-            angles, np.array(values), name, chart=chart, x_label=x_label, y_label=unit, color=color, marks=marks
-        )
+    def curve(chart: Chart, values: list[float], name: str, color: Role) -> Curve:
+        return chart.curve(angles, np.array(values), name, color, marks=marks)
 
     turns, distances = ([getattr(t.error, name) for t in state.tries] for name in ("rotation", "displacement"))
     return {
-        "basin": curve(turns, "final error", "Basin: final rotation error", "deg", "truth"),
-        "basin rmse": curve([t.rmse for t in state.tries], "final RMSE", metres, "m", "source"),
-        "basin distance": curve(distances, "RMS distance from the truth", metres, "m", "truth"),
+        "basin": curve(BASIN_TURNS, turns, "final error", "truth"),
+        "basin rmse": curve(BASIN_METRES, [t.rmse for t in state.tries], "final RMSE", "source"),
+        "basin distance": curve(BASIN_METRES, distances, "RMS distance from the truth", "truth"),
     }
 
 
 def _matches(state: State, T_world_source: np.ndarray) -> Segments:
     scans, now = state.scans, state.icp
     n = len(now.indices)
-    rows = np.arange(0, n, -(-n // MOST_LINES[n > LARGE]))
-    ends = np.stack(
-        [apply(T_world_source, scans.p_source_shown[rows]), scans.p_target_shown[now.indices[rows]]], axis=1
-    )
-    refused = ~now.kept[rows]
-    color = Classes(refused.astype(np.uint8), ("correspondence", "wrong"), ("match", "refused by the gate"))
+    rows = every(n, MOST_LINES[n > LARGE])
+    ends = between(apply(T_world_source, scans.p_source_shown[rows]), scans.p_target_shown[now.indices[rows]])
+    color = Classes.marking(~now.kept[rows], "wrong", "refused by the gate", others=("correspondence", "match"))
     return Segments(ends, color, 2, name="matches")
 
 
-def _source_color(scans: Scans):
+def _source_color(scans: Scans) -> Color:
     if not scans.is_outlier.any():
         return "source"
-    return Classes(scans.is_outlier.astype(np.uint8), ("source", "wrong"), ("source", "outlier"))
+    return Classes.marking(scans.is_outlier, "wrong", "outlier", others=("source", "source"))
 
 
 def _arrow_pose(scans: Scans, T_target_source: np.ndarray) -> np.ndarray:

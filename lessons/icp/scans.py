@@ -6,14 +6,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-import scipy
 
 from lessons.icp.state import Params, Planes, Scans, Thinning
 from workbench.data.clouds import pair
 from workbench.data.files import read_cloud, read_pose, stamp
 from workbench.data.framing import FAR, METRES, Frame, Unit, Up, extent, frame, ground_grid, round_below
 from workbench.data.lidar import lidar_pair
-from workbench.data.thinning import some_points, voxel_means
+from workbench.data.thinning import some_points, spacing, voxel_means
 from workbench.errors import InputError
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 from workbench.geometry.normals import on_a_line, point_normals
@@ -75,7 +74,7 @@ def _sampled(shape: str, points: int, overlap: float, noise: float, outliers: fl
         T_truth=np.eye(4),
         T_start=np.eye(4),
         frame=Frame(),
-        spacing=_spacing(p),
+        spacing=spacing(p),
         grid=ground_grid(0.5, -0.35),
         cell=0.5,
         p_target_shown=p,
@@ -139,7 +138,7 @@ def _framed(p_target: np.ndarray, p_source: np.ndarray, up: Up, planes: Planes) 
         T_truth=None,
         T_start=np.eye(4),
         frame=how,
-        spacing=_spacing(p_target),
+        spacing=spacing(p_target),
         grid=ground_grid(how.scale * cell, float(np.percentile(target_shown[:, 2], 1))),
         cell=cell,
         p_target_shown=target_shown,
@@ -154,11 +153,3 @@ def _normals_when_asked(p: np.ndarray, planes: Planes) -> Callable[[], np.ndarra
         return point_normals(p) * (pull if pull.any() else ~pull)[:, None]
 
     return functools.cache(normals)
-
-
-def _spacing(p: np.ndarray) -> float:
-    """Return the median distance to the nearest other place with a point, from a few hundred points."""
-    places = np.unique(p, axis=0)
-    some = places[:: max(1, len(places) // 400)]
-    distances = np.asarray(scipy.spatial.KDTree(places).query(some, k=min(2, len(places)))[0])
-    return float(np.median(distances.reshape(len(some), -1)[:, -1])) or 1e-9

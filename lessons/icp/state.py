@@ -9,8 +9,8 @@ import numpy as np
 
 from workbench.algorithms import icp
 from workbench.data.framing import Frame, Unit, Up
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.motions import apply, exp_so3, motion
+from workbench.geometry.alignment import MotionError, motion_error
+from workbench.geometry.motions import apply, exp_so3, turn_about
 from workbench.knobs import Gizmo, Knob
 
 Shape = Literal["rabbit", "vase", "corner", "lidar"]
@@ -98,22 +98,6 @@ class Params:
         return tuple(name for name in BUILT_IN if getattr(self, name) != getattr(Params, name))
 
 
-@dataclass(frozen=True)
-class Error:
-    """How far a motion is from the truth; NaN where that is not known.
-
-    Attributes:
-        rotation: Degrees.
-        translation: At the middle of the source, metres.
-        displacement: Root mean square distance of the source points from where they belong, metres: it holds all of the
-            error, also a wrong scale.
-    """
-
-    rotation: float
-    translation: float
-    displacement: float
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Scans:
     """Target and source in their own frames (metres), and what does not change while ICP runs.
@@ -149,20 +133,13 @@ class Scans:
 
     def about_centre(self, w_world: np.ndarray) -> np.ndarray:
         """Return the turn by a rotation vector of the picture about its middle, as a motion of the target frame."""
-        R = exp_so3(self.frame.R_world_file.T @ w_world)
-        return motion(R, self.frame.centre - R @ self.frame.centre)
+        return turn_about(self.frame.centre, exp_so3(self.frame.R_world_file.T @ w_world))
 
-    def error(self, T_target_source: np.ndarray) -> Error:
-        """Return how far a motion is from the truth."""
-        if self.T_truth is None:
-            return Error(np.nan, np.nan, np.nan)
-        p = self.p_source[~self.is_outlier]
-        off = apply(T_target_source, p) - apply(self.T_truth, p)
-        displacement = np.sqrt(np.einsum("ij,ij->", off, off) / len(off))
-        rotation = degrees_between(T_target_source, self.T_truth)
-        return Error(rotation, float(np.linalg.norm(off.mean(axis=0))), float(displacement))
+    def error(self, T_target_source: np.ndarray) -> MotionError:
+        """Return how far a motion is from the truth, by the points that belong to something."""
+        return motion_error(T_target_source, self.T_truth, self.p_source[~self.is_outlier])
 
-    def at_home(self, error: Error) -> bool:
+    def at_home(self, error: MotionError) -> bool:
         """Tell whether a motion with this error is the true one, but for sampling.
 
         It turns by less than HOME_DEGREES, and its points are, by root mean square, less than HOME_SPACINGS times the
@@ -191,7 +168,7 @@ class Try:
 
     start_angle: float
     T_target_truth: np.ndarray
-    error: Error
+    error: MotionError
     rmse: float
 
 
@@ -215,7 +192,7 @@ class State:
     icp: icp.State
     rmse_before: float
     turned: float
-    error: Error
+    error: MotionError
     right: float
     tries: tuple[Try, ...] = ()
 

@@ -22,9 +22,8 @@ def caption(state: State) -> Caption:
     text += f" Stop: {now.stop.message}."
     if not state.known:
         return Caption(text)
-    if state.home:
-        return Caption(f"{text} It has come home.", "good")
-    return Caption(f"{text} {'It looks settled, and it' if now.stop in SETTLED else 'It'} is wrong.", "wrong")
+    came = " It has come home." if state.home else ""
+    return Caption.verdict(text + came, right=state.home, settled=now.stop in SETTLED)
 
 
 def _of_match(state: State) -> str:

@@ -7,21 +7,21 @@ import numpy as np
 
 from lessons.pinhole.shot import FACTORS
 from lessons.pinhole.state import State, name_of
-from lessons.pinhole.words import caption, depth, pair, triple
+from lessons.pinhole.words import caption, depth
 from workbench.algorithms import pinhole
 from workbench.data.street import street
 from workbench.geometry.cameras import camera_center, depths
 from workbench.geometry.distortion import Distortion, distort, invertible_radius
 from workbench.geometry.motions import apply, inverse
-from workbench.geometry.polylines import segments
+from workbench.geometry.polylines import between, segments
 from workbench.lesson import View
-from workbench.numerals import fixed, pixels
+from workbench.numerals import coordinates, fixed, pixels
 from workbench.scene import (
     PALETTE,
     Axes,
     Camera,
+    Chart,
     Classes,
-    Curve,
     Field,
     Label,
     Mesh,
@@ -33,6 +33,7 @@ from workbench.scene import (
     Scene,
     Segments,
     Table,
+    color_rows,
 )
 
 VIEW = View(
@@ -40,10 +41,11 @@ VIEW = View(
 )
 SCREEN = (VIEW.facing(4.7, 2.9, -10.0), 20.4)
 """Where the photograph stands, enlarged, behind the street, and its width in metres."""
+GAP = Chart("Gap to orthographic", "log10 of dolly", "log10 of px")
+LAYER = 0.1  # metres from the photograph to what is drawn on it
 FAR = 30.0  # metres that a ray is drawn
 CANDIDATES = np.array([2.0, 4.0, 8.0, 16.0])  # depths marked on the ray back
 BEYOND = 0.12  # of the photograph's size: so far outside of it points are shown
-STEEL = (110, 118, 129)
 
 
 def draw(state: State) -> Scene:
@@ -65,10 +67,8 @@ def draw(state: State) -> Scene:
         **_lens_curves(shot.lens, float(np.linalg.norm(shot.xy[k])), state.now.stage),
     }
     if state.params.dolly != 1:
-        scene["gap"] = Curve(
-            np.log10(FACTORS), np.log10(shot.gaps), "largest gap", "Gap to orthographic", "log10 of dolly",
-            "log10 of px", "truth", marks=(float(np.log10(state.params.dolly)),),
-        )  # fmt: skip
+        dolly, gaps = np.log10(FACTORS), np.log10(shot.gaps)
+        scene["gap"] = GAP.curve(dolly, gaps, "largest gap", "truth", marks=(float(np.log10(state.params.dolly)),))
     stage = {"camera": _camera, "divide": _divide, "distort": _distort, "pixels": _pixels, "back": _back}
     if now.stage in stage:
         scene["camera frame"] = Axes(T_world_camera, 1.2)
@@ -85,8 +85,7 @@ def scenery() -> dict[str, Primitive]:
         p = np.concatenate([scene.solids[name].p_world[scene.solids[name].faces].reshape(-1, 3) for name in names])
         colors = np.concatenate([np.repeat(scene.solids[name].colors, 3, axis=0) for name in names])
         meshes[path] = Mesh(p, np.arange(len(p)).reshape(-1, 3), colors, flat=True, name=path)
-    steel = np.tile(np.array([STEEL], np.uint8), (2, 1))
-    return {**meshes, "rails": Segments(scene.rails, steel, 3, name="rails")}
+    return {**meshes, "rails": Segments(scene.rails, color_rows("neutral", 2), 3, name="rails")}
 
 
 def _point_color(state: State):
@@ -121,7 +120,7 @@ def _distort(state: State, photograph: Picture, T_world_camera: np.ndarray) -> d
     both = _near(photograph, ideal) & _near(photograph, bent)
     parts = _rays(state, state.now.xy, T_world_camera) | _landed(state, photograph, bent, "source", "calculated")
     if both.any():
-        ends = _on_screen(photograph, np.stack([ideal[both], bent[both]], axis=1))
+        ends = photograph.places(between(ideal[both], bent[both]), LAYER)
         parts["moves"] = Segments(ends, "other", 3, name="moved by the lens")
     return parts
 
@@ -130,14 +129,14 @@ def _pixels(state: State, photograph: Picture, T_world_camera: np.ndarray) -> di
     """Show which points are in the picture, and the pixel of the followed one."""
     uv, (h, w) = state.now.uv, state.shot.picture.shape[:2]
     inside = np.all((uv > -0.5) & (uv < np.array([w, h]) - 0.5), axis=1)
-    color = Classes(np.where(inside, 0, 1), ("source", "correspondence"), ("in the picture", "outside it"))
+    color = Classes.marking(~inside, "correspondence", "outside it", others=("source", "in the picture"))
     parts = _rays(state, state.now.xy, T_world_camera) | _landed(state, photograph, uv, color, "")
     if "landed" in parts:
-        k, place = state.params.point, _on_screen(photograph, uv[[state.params.point]])[0]
-        parts["pixel"] = Label(f"(u, v) = {pair(uv[k], 0)}", place + np.array([0.0, 0.0, 0.35]), "highlight")
+        k, place = state.params.point, photograph.places(uv[state.params.point], LAYER)
+        parts["pixel"] = Label(f"(u, v) = {coordinates(uv[k], 0)}", place + np.array([0.0, 0.0, 0.35]), "highlight")
     vanishing = state.shot.vanishing
     if state.params.point in (3, 4) and _near(photograph, vanishing[None])[0]:
-        place = _on_screen(photograph, vanishing[None])
+        place = photograph.places(vanishing[None], LAYER)
         parts["vanishing"] = Points(place, "truth", 0.2)
         parts["vanishing/name"] = Label("K R d", place[0] + np.array([0.0, 0.0, 0.35]), "truth")
     return parts
@@ -155,13 +154,13 @@ def _back(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict
         parts["back"] = Points(now.p_back[found], "source", 0.09, name="from pixel and depth")
         wrong = np.linalg.norm(now.p_back - now.p_world, axis=1) > 1e-6
         if (found & wrong).any():
-            ends = np.stack([now.p_world, now.p_back], axis=1)[found & wrong]
+            ends = between(now.p_world, now.p_back)[found & wrong]
             parts["back errors"] = Segments(ends, "wrong", 2, name="error")
     if found[k]:
         z = depths(now.p_world[k : k + 1], state.shot.T_camera_world)[0]
         v = (now.p_back[k] - now.p_center) / z  # one metre of depth
         reach = max(FAR, 1.2 * z)
-        parts["followed ray"] = Segments(np.stack([now.p_center, now.p_center + reach * v])[None], "highlight", 4)
+        parts["followed ray"] = Segments(between(now.p_center, now.p_center + reach * v), "highlight", 4)
         marks = now.p_center + CANDIDATES[:, None] * v
         parts["candidates"] = Points(marks, "other", 0.13)
         for i, mark in enumerate(marks):
@@ -173,8 +172,7 @@ def _back(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict
 
 def _rays(state: State, xy: np.ndarray, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     seen, k = np.isfinite(xy).all(axis=1), state.params.point
-    origin = np.broadcast_to(T_world_camera[:3, 3], state.now.p_world.shape)
-    rays = np.stack([origin, state.now.p_world], axis=1)
+    rays = between(np.broadcast_to(T_world_camera[:3, 3], state.now.p_world.shape), state.now.p_world)
     z = state.now.p_camera[k, 2]
     if z < 0 and np.isfinite(xy[k]).all():  # divided all the same: on through the camera, to the plane in front of it
         rays[k, 0] += (rays[k, 1] - rays[k, 0]) / z
@@ -189,21 +187,16 @@ def _landed(state: State, photograph: Picture, uv: np.ndarray, color, name: str)
     near, k = _near(photograph, uv), state.params.point if len(uv) > 1 else 0
     if isinstance(color, Classes):
         color = Classes(color.ids[near], color.roles, color.names)
-    parts: dict[str, Primitive] = {"plane": Points(_on_screen(photograph, uv[near]), color, 0.11, name=name)}
+    parts: dict[str, Primitive] = {"plane": Points(photograph.places(uv[near], LAYER), color, 0.11, name=name)}
     if near[k]:
-        parts["landed"] = Points(_on_screen(photograph, uv[[k]], 0.2), "highlight", 0.2)
+        parts["landed"] = Points(photograph.places(uv[[k]], 2 * LAYER), "highlight", 0.2)
     return parts
 
 
 def _near(photograph: Picture, uv: np.ndarray) -> np.ndarray:
     """Say which pixels are in the photograph or close to it."""
-    h, w = photograph.rgb().shape[:2]
-    low, high = -BEYOND * np.array([w, h]), (1 + BEYOND) * np.array([w, h])
-    return np.all((uv > low) & (uv < high), axis=1)
-
-
-def _on_screen(photograph: Picture, uv: np.ndarray, nearer: float = 0.1) -> np.ndarray:
-    return photograph.places(uv) - nearer * SCREEN[0][:3, 2]
+    size = np.array(photograph.size)
+    return np.all((uv > -BEYOND * size) & (uv < (1 + BEYOND) * size), axis=1)
 
 
 def _lens_curves(lens: Distortion, r_chosen: float, stage: pinhole.Stage) -> dict[str, Primitive]:
@@ -212,40 +205,42 @@ def _lens_curves(lens: Distortion, r_chosen: float, stage: pinhole.Stage) -> dic
     bent = distort(np.column_stack([r, np.zeros_like(r)]), *lens)[:, 0]
     fold = invertible_radius(lens)
     marks = tuple(float(mark) for mark in (r_chosen, fold) if mark < r[-1])
-    chart, x_label, y_label = "Lens: radius on the plane Z = 1", "ideal radius", "distorted radius"
+    chart = Chart("Lens: radius on the plane Z = 1", "ideal radius", "distorted radius")
     return {
-        "no lens": Curve(r, r, "no lens", chart, x_label, y_label, "correspondence"),
-        "lens": Curve(r, bent, "this lens", chart, x_label, y_label, "truth", marks=marks),
+        "no lens": chart.curve(r, r, "no lens", "correspondence"),
+        "lens": chart.curve(r, bent, "this lens", "truth", marks=marks),
     }
 
 
 def _tables(state: State) -> dict[str, Primitive]:
     """Return the followed point's journey so far, and what can be measured of the camera and in its picture."""
     shot, now, k = state.shot, state.now, state.params.point
-    rows = [("in the world", f"{triple(now.p_world[k])} m")]
+    rows = [("in the world", f"{coordinates(now.p_world[k], 2)} m")]
     if now.reached("camera"):
         p = now.p_camera[k]
         rows += [
-            ("in the camera frame", f"{triple(p)} m"),
+            ("in the camera frame", f"{coordinates(p, 2)} m"),
             ("depth Z · ray length", f"{depth(p[2])} · {depth(float(np.linalg.norm(p)))}"),
         ]
     if now.reached("divide"):
-        rows.append(("x, y = X/Z, Y/Z", pair(now.xy[k], 4)))
+        rows.append(("x, y = X/Z, Y/Z", coordinates(now.xy[k], 4)))
     if now.reached("distort"):
-        rows.append(("after the lens", pair(now.xy_bent[k], 4)))
+        rows.append(("after the lens", coordinates(now.xy_bent[k], 4)))
     if now.reached("pixels"):
-        rows += [("pixel (u, v)", pair(now.uv[k], 1)), ("true pixel", pair(shot.uv[k], 1))]
+        rows += [("pixel (u, v)", coordinates(now.uv[k], 1)), ("true pixel", coordinates(shot.uv[k], 1))]
     if now.reached("back"):
-        rows.append(("back in the world", triple(now.p_back[k]) + " m" * bool(np.isfinite(now.p_back[k]).all())))
+        rows.append(
+            ("back in the world", coordinates(now.p_back[k], 2) + " m" * bool(np.isfinite(now.p_back[k]).all()))
+        )
     h, w = shot.picture.shape[:2]
     ball = "the ball's outline" + ", without the lens" * any(shot.lens)
     measured = (
-        ("camera centre C = −Rᵀt", f"{triple(camera_center(shot.T_camera_world))} m"),
-        ("t of T_camera_world", f"{triple(shot.T_camera_world[:3, 3])} m"),
+        ("camera centre C = −Rᵀt", f"{coordinates(camera_center(shot.T_camera_world), 2)} m"),
+        ("t of T_camera_world", f"{coordinates(shot.T_camera_world[:3, 3], 2)} m"),
         ("focal length f", f"{fixed(shot.K[0, 0], 1)} px"),
-        ("principal point", pair(shot.K[:2, 2], 1)),
-        ("middle of the picture", pair(np.array([w - 1, h - 1]) / 2, 1)),
-        ("the rails run towards", pair(shot.vanishing, 1)),
+        ("principal point", coordinates(shot.K[:2, 2], 1)),
+        ("middle of the picture", coordinates(np.array([w - 1, h - 1]) / 2, 1)),
+        ("the rails run towards", coordinates(shot.vanishing, 1)),
         ("crate, 1 m high", _height(shot.crate)),
         ("tower, 5 m high", _height(shot.tower)),
         (ball, _ratio(shot.ball_ratio)),

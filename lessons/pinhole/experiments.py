@@ -9,7 +9,7 @@ from lessons.pinhole.state import Params, State
 from workbench.geometry.cameras import camera_center, project, vanishing_points
 from workbench.geometry.motions import motion
 from workbench.lesson import Preset, Question
-from workbench.numerals import fixed, fixed_row
+from workbench.numerals import coordinates, fixed
 
 DIVIDE, DISTORT, PIXELS, BACK = 2, 3, 4, 5
 
@@ -189,7 +189,7 @@ def _centre_why(states: Sequence[State]) -> str:
     T = states[-1].shot.T_camera_world
     C, t = camera_center(T), T[:3, 3]
     return (
-        f"It is at C = −Rᵀt = ({fixed_row(C, 2)}) m. t is where the camera sees the world's origin, along"
+        f"It is at C = −Rᵀt = {coordinates(C, 2)} m. t is where the camera sees the world's origin, along"
         f" its own axes. Both are {fixed(float(np.linalg.norm(t)), 2)} m long, since R only turns."
     )
 

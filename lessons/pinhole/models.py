@@ -12,7 +12,7 @@ from workbench.geometry.cameras import OPENGL_FROM_OPENCV
 from workbench.geometry.distortion import Distortion
 from workbench.geometry.motions import apply, inverse
 from workbench.geometry.raster import PointItem, SegmentItem, render
-from workbench.scene import PALETTE, Role
+from workbench.scene import Role, color_rows
 
 SWAP = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 
@@ -90,7 +90,7 @@ def overlaid(shot: Shot, model: Model, point: int) -> np.ndarray:
     h, w = shot.picture.shape[:2]
     lines = wires(shot.T_camera_world)
     drawn = render(
-        [SegmentItem(lines, _colors("source", len(lines)))],
+        [SegmentItem(lines, color_rows("source", len(lines)))],
         shot.T_camera_world, shot.K, w, h, shot.lens, to_pixels=model.pixels,
     )  # fmt: skip
     uv = model.pixels(street().points)
@@ -104,8 +104,4 @@ def overlaid(shot: Shot, model: Model, point: int) -> np.ndarray:
 
 def _flat(uv: np.ndarray, role: Role, width: int) -> PointItem:
     """Return points that a camera with K = I at the origin sees at these very pixels."""
-    return PointItem(np.column_stack([uv, np.ones(len(uv))]), _colors(role, len(uv)), width)
-
-
-def _colors(role: Role, n: int) -> np.ndarray:
-    return np.tile(np.array([PALETTE[role]], np.uint8), (n, 1))
+    return PointItem(np.column_stack([uv, np.ones(len(uv))]), color_rows(role, len(uv)), width)

@@ -24,7 +24,7 @@ from workbench.geometry.cameras import (
 from workbench.geometry.distortion import Distortion
 from workbench.geometry.polylines import segments
 from workbench.geometry.raster import MeshItem, SegmentItem, render
-from workbench.scene import PALETTE
+from workbench.scene import color_rows
 
 WIDTH, HEIGHT = 320, 240
 CROP_LEFT, CROP_TOP = 60, 40
@@ -94,8 +94,7 @@ def wires(T_camera_world: np.ndarray) -> np.ndarray:
 def _scenery() -> tuple[MeshItem | SegmentItem, ...]:
     scene = street()
     meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids.values()]
-    steel = np.tile(np.array([PALETTE["neutral"]], np.uint8), (2, 1))
-    return (*meshes, SegmentItem(scene.rails, steel, 2))
+    return (*meshes, SegmentItem(scene.rails, color_rows("neutral", 2), 2))
 
 
 def _edited(picture: np.ndarray, edit: Edit) -> np.ndarray:

@@ -7,7 +7,7 @@ import numpy as np
 from lessons.pinhole.state import Shot, State, name_of
 from workbench.geometry.distortion import invertible_radius
 from workbench.geometry.motions import apply
-from workbench.numerals import fixed, fixed_or_power, length, pixels
+from workbench.numerals import coordinates, fixed, fixed_or_power, length, pixels
 from workbench.scene import Caption
 
 VISIBLE = 0.5  # px: a smaller median error is not blamed on anybody
@@ -75,13 +75,14 @@ MISTAKES = {
 
 def _world(state: State) -> str:
     p, name = state.now.p_world[state.params.point], name_of(state.params.point)
-    return f"{len(state.now.p_world)} points of the street in world coordinates, z up. We follow {name}: {triple(p)} m."
+    where = coordinates(p, 2)
+    return f"{len(state.now.p_world)} points of the street in world coordinates, z up. We follow {name}: {where} m."
 
 
 def _camera(state: State) -> str:
     p = state.now.p_camera[state.params.point]
     return (
-        f"R p + t is the point in the camera's frame (x right, y down, z forward): {triple(p)} m. Its depth is"
+        f"R p + t is the point in the camera's frame (x right, y down, z forward): {coordinates(p, 2)} m. Its depth is"
         f" Z = {depth(p[2])}; along its ray it is {depth(_norm(p))} away."
     )
 
@@ -92,8 +93,8 @@ def _divide(state: State) -> str:
         where = "is not in front of" if z <= 0 else "is in front of"
         return f"The point {where} the camera, Z = {depth(z)}, and gets no place on the plane one metre in front."
     return (
-        f"Divided by Z = {depth(z)} the point is at (x, y) = {pair(state.now.xy[k], 3)} on the plane one metre in front"
-        f" of the camera. {state.found} of {len(state.now.xy)} points have a place there."
+        f"Divided by Z = {depth(z)} the point is at (x, y) = {coordinates(state.now.xy[k], 3)} on the plane one metre in"
+        f" front of the camera. {state.found} of {len(state.now.xy)} points have a place there."
     )
 
 
@@ -108,7 +109,7 @@ def _distort(state: State) -> str:
     nearer = _norm(state.now.xy_bent[k]) < _norm(state.now.xy[k])
     where = "" if moved[k] < 0.05 else f", {'nearer to' if nearer else 'further from'} the principal point"
     return (
-        f"The lens moves the point {pixels(moved[k])}{where}: (x′, y′) = {pair(state.now.xy_bent[k], 3)};"
+        f"The lens moves the point {pixels(moved[k])}{where}: (x′, y′) = {coordinates(state.now.xy_bent[k], 3)};"
         f" {most}. It acts here, before f."
     )
 
@@ -133,8 +134,8 @@ def _back(state: State) -> str:
     miss = _norm(now.p_back[k] - now.p_world[k])
     off = "where we began" if miss < SAME else f"{length(miss)} from where we began"
     return (
-        f"Back from the pixel: it gives a ray from {triple(now.p_center)} m, but not how far to go along it. {given} we"
-        f" come out {off}."
+        f"Back from the pixel: it gives a ray from {coordinates(now.p_center, 2)} m, but not how far to go along it. {given}"
+        f" we come out {off}."
     )
 
 
@@ -155,7 +156,7 @@ def _remark(state: State) -> str:
     if stage == "pixels" and params.dolly != 1:
         return _heights(shot)
     if stage == "pixels" and params.point in (3, 4) and np.isfinite(shot.vanishing).all():
-        return f" The rails stay 1.5 m apart; their pictures run towards {pair(shot.vanishing, 1)}."
+        return f" The rails stay 1.5 m apart; their pictures run towards {coordinates(shot.vanishing, 1)}."
     if stage == "pixels" and shot.ball_ratio > 1.2:
         return f"{bare or ' Here'} the ball's outline is {fixed(shot.ball_ratio, 2)} times as long as wide."
     return ""
@@ -174,16 +175,6 @@ def _heights(shot: Shot) -> str:
 
 def _many(n: int) -> str:
     return "1 point has" if n == 1 else f"{n} points have"
-
-
-def triple(p: np.ndarray) -> str:
-    """Write a point with two decimals; "none" where it has a part that is not finite."""
-    return f"({', '.join(fixed_or_power(value, 2) for value in p)})" if np.isfinite(p).all() else "none"
-
-
-def pair(p: np.ndarray, digits: int) -> str:
-    """Write a pixel or a place on the plane Z = 1; "none" where there is none."""
-    return f"({', '.join(fixed_or_power(value, digits) for value in p)})" if np.isfinite(p).all() else "none"
 
 
 def depth(metres: float) -> str:

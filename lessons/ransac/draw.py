@@ -7,13 +7,13 @@ from lessons.ransac.state import State, Subject
 from lessons.ransac.words import caption
 from workbench.algorithms.ransac import Fit
 from workbench.geometry.clipping import plane_in_box
-from workbench.geometry.polylines import fan
+from workbench.geometry.polylines import between, fan
 from workbench.numerals import brief
-from workbench.scene import Classes, Curve, Label, Mesh, Picture, Points, Primitive, Role, Scalar, Scene, Segments
+from workbench.scene import Chart, Classes, Curve, Label, Mesh, Picture, Points, Primitive, Role, Scene, Segments
 
 MOST_LINES = 150
 EPIPOLAR_ROWS = 8
-IN_OR_OUT: tuple[tuple[Role, ...], tuple[str, ...]] = (("target", "wrong"), ("inlier", "outlier"))
+SCORE, SAMPLES = Chart("Score"), Chart("Samples")
 BAND = np.array([[0, 1, 2], [1, 3, 2]])
 RIVAL_COLORS: dict[str, Role] = {"least squares": "other", "Huber": "neutral"}
 
@@ -30,7 +30,7 @@ def _rows(state: State) -> dict[str, Primitive]:
     subject, now = state.subject, state.now
     fit = now.trial if now.phase in ("inliers", "best", "refit") else now.best if now.phase == "stop" else None
     radius = _radius(subject)
-    color = "neutral" if fit is None else Classes((~fit.inliers).astype(np.uint8), *IN_OR_OUT)
+    color = "neutral" if fit is None else Classes.marking(~fit.inliers, "wrong", "outlier", others=("target", "inlier"))
     names = (subject.noun,) if len(subject.shown) == 1 else ("first image", "second image")
     scene: dict[str, Primitive] = {
         path: Points(p, color, radius, name=name)
@@ -38,7 +38,7 @@ def _rows(state: State) -> dict[str, Primitive]:
     }
     if len(subject.shown) == 2:
         rows = np.zeros(0, int) if fit is None else np.flatnonzero(fit.inliers)[:: 1 + fit.count // MOST_LINES]
-        ends = np.stack([p[rows] for p in subject.shown], axis=1)
+        ends = between(*(p[rows] for p in subject.shown))
         scene["matches"] = Segments(ends, "correspondence", 1.0, opacity=0.5, name="inlier matches")
     return scene
 
@@ -55,7 +55,7 @@ def _sample(state: State) -> dict[str, Primitive]:
     p = np.concatenate([shown[rows] for shown in subject.shown])
     scene: dict[str, Primitive] = {"sample": Points(p, "highlight", 2.2 * _radius(subject), name="the sample")}
     if len(subject.shown) == 2:
-        ends = np.stack([shown[rows] for shown in subject.shown], axis=1)
+        ends = between(*(p[rows] for p in subject.shown))
         scene["sample matches"] = Segments(ends, "highlight", 2.0, name="matches of the sample")
     return scene
 
@@ -144,18 +144,17 @@ def _curves(state: State) -> dict[str, Primitive]:
     subject, now = state.subject, state.now
     unit, drawn = subject.model.unit, float(now.iteration)
     scene: dict[str, Primitive] = {
-        "best score": Scalar(now.best.score if now.best else 0.0, "best so far", "Score", "", "source"),
-        "needed": Scalar(float(max(now.needed - drawn, 0.0)), "still needed", "Samples", "", "other"),
-        "drawn": Scalar(drawn, "drawn", "Samples", "", "neutral"),
+        "best score": SCORE.scalar(now.best.score if now.best else 0.0, "best so far"),
+        "needed": SAMPLES.scalar(float(max(now.needed - drawn, 0.0)), "still needed", "other"),
+        "drawn": SAMPLES.scalar(drawn, "drawn", "neutral"),
     }
     if now.trial is not None and now.phase == "inliers":
-        scene["trial score"] = Scalar(now.trial.score, "this sample", "Score", "", "highlight")
+        scene["trial score"] = SCORE.scalar(now.trial.score, "this sample", "highlight")
+    error = Chart("Error to the truth", unit=unit)
     if np.isfinite(state.best_error):
-        scene["best error"] = Scalar(state.best_error, "best so far", "Error to the truth", unit, "source", log=True)
-    if len(subject.p_true):
-        for rival in state.rivals:
-            color = RIVAL_COLORS[rival.name]
-            scene[f"error {rival.name}"] = Scalar(rival.error, rival.name, "Error to the truth", unit, color, log=True)
+        scene["best error"] = error.scalar(state.best_error, "best so far", log=True)
+    for rival in state.rivals if len(subject.p_true) else ():
+        scene[f"error {rival.name}"] = error.scalar(rival.error, rival.name, RIVAL_COLORS[rival.name], log=True)
     fit = now.trial if now.trial is not None else now.best
     if fit is not None:
         scene["distances"] = _histogram(fit, state)
@@ -165,17 +164,7 @@ def _curves(state: State) -> dict[str, Primitive]:
 def _histogram(fit: Fit, state: State) -> Curve:
     """Count how many rows lie how far from the model in question; the mark is the inlier distance."""
     limit, unit = state.inlier_distance, state.subject.model.unit
-    edges = np.linspace(0.0, 8.0 * limit, 33)
-    counts = np.histogram(fit.distances, edges)[0]
-    x = (edges[1:] + edges[:-1]) / 2.0
-    return Curve(
-        x,
-        counts.astype(float),
-        name=state.subject.noun,
-        chart="Distances to the model",
-        x_label=f"distance ({unit})",
-        y_label="how many",
-        color="target",
-        kind="bars",
-        marks=(limit,),
+    chart = Chart("Distances to the model", f"distance ({unit})", "how many")
+    return chart.histogram(
+        fit.distances, np.linspace(0.0, 8.0 * limit, 33), state.subject.noun, "target", marks=(limit,)
     )

@@ -1,7 +1,6 @@
 """Where the rows of a run come from, built-in scenes or the person's own files, and where they stand in the picture."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -15,6 +14,7 @@ from workbench.data.framing import METRES, extent, frame
 from workbench.data.matches import read_matches
 from workbench.data.robust import RobustScene
 from workbench.errors import InputError
+from workbench.knobs import only
 
 PIXEL = 1.0 / 500.0  # metres of the picture per pixel of the built-in images
 FLOOR = -0.35  # height of the picture's ground
@@ -39,11 +39,7 @@ def subject_of(params: Params) -> Subject:
         return _own_cloud(params, model)
     if params.matches is not None:
         return _own_matches(params, model)
-    return _built_in(
-        replace(Params(), **{name: getattr(params, name) for name in (
-            "model", "table", "points", "outliers", "noise", "noise_pixels", "scene_seed",
-        )})
-    )  # fmt: skip
+    return _built_in(only(params, "model", "table", "points", "outliers", "noise", "noise_pixels", "scene_seed"))
 
 
 @lru_cache(maxsize=64)

@@ -5,12 +5,11 @@ from functools import lru_cache
 import numpy as np
 
 from lessons.ransac.state import Subject
-from workbench.geometry.clipping import clip_lines, plane_in_box
+from workbench.geometry.clipping import clip_lines, plane_in_box, segments_inside
 from workbench.geometry.epipolar import epipolar_lines
-from workbench.geometry.homography import transform_pixels
-from workbench.geometry.polylines import segments
+from workbench.geometry.homography import warped_grid
+from workbench.geometry.polylines import circle, rectangle, segments, sphere_rings
 
-ARC = np.linspace(0.0, 2.0 * np.pi, 65)
 NOTHING = np.zeros((0, 2, 3))
 
 
@@ -31,12 +30,15 @@ def _outline(subject: Subject, numbers: bytes, shape: tuple[int, ...], rows: tup
         corners = plane_in_box(estimate, subject.low, subject.high)
         return segments(subject.places[0](corners), closed=True) if len(corners) else NOTHING
     if name == "circle":
-        points = estimate[:2] + estimate[2] * np.column_stack([np.cos(ARC), np.sin(ARC)])
-        return _placed(subject, _inside(segments(points), subject.low, subject.high))
+        return _placed(
+            subject, segments_inside(segments(estimate[:2] + estimate[2] * circle()), subject.low, subject.high)
+        )
     if name == "sphere":
-        return _placed(subject, _inside(_rings(estimate), subject.low, subject.high))
+        rings = sphere_rings(estimate[:3], estimate[3])
+        return _placed(subject, segments_inside(rings, subject.low, subject.high))
     if name == "homography":
-        return _warped_grid(subject, estimate)
+        low, high = -0.15 * subject.sizes[1], 1.15 * subject.sizes[1]
+        return _placed(subject, segments_inside(warped_grid(estimate, subject.sizes[0]), low, high), 1)
     return _epipolar(subject, estimate, np.array(rows))
 
 
@@ -60,14 +62,12 @@ def slab(subject: Subject, estimate: np.ndarray, distance: float) -> tuple[np.nd
 def frames(subject: Subject) -> np.ndarray:
     """Return the borders of the two images, of the 2D window, or nothing."""
     if subject.sizes:
-        borders = [np.array([[0, 0], [w, 0], [w, h], [0, h]], float) - 0.5 for w, h in subject.sizes]
+        borders = [rectangle(np.zeros(2), size) - 0.5 for size in subject.sizes]
         return np.concatenate(
             [segments(place(border), closed=True) for place, border in zip(subject.places, borders, strict=True)]
         )
     if len(subject.low) == 2:
-        (x0, y0), (x1, y1) = subject.low, subject.high
-        border = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
-        return segments(subject.places[0](border), closed=True)
+        return segments(subject.places[0](rectangle(subject.low, subject.high)), closed=True)
     return NOTHING
 
 
@@ -78,32 +78,6 @@ def _epipolar(subject: Subject, F: np.ndarray, rows: np.ndarray) -> np.ndarray:
         known = lines[np.isfinite(lines).all(axis=1)]
         ends.append(_placed(subject, clip_lines(known, np.zeros(2), subject.sizes[k]), k))
     return np.concatenate(ends)
-
-
-def _warped_grid(subject: Subject, H: np.ndarray, cells: int = 4, pieces: int = 8) -> np.ndarray:
-    """Return a grid of the first image, as the homography puts it into the second."""
-    w, h = subject.sizes[0]
-    t, ticks = np.linspace(0.0, 1.0, cells * pieces + 1), np.linspace(0.0, 1.0, cells + 1)
-    lines = [np.column_stack([np.full_like(t, x), t]) for x in ticks]
-    lines += [line[:, ::-1] for line in lines]
-    ends = np.concatenate([segments(line * [w, h]) for line in lines])
-    with np.errstate(all="ignore"):
-        moved = transform_pixels(H, ends.reshape(-1, 2)).reshape(-1, 2, 2)
-    return _placed(subject, _inside(moved, -0.15 * subject.sizes[1], 1.15 * subject.sizes[1]), 1)
-
-
-def _rings(sphere: np.ndarray) -> np.ndarray:
-    """Return three great circles and two circles of latitude."""
-    centre, radius = sphere[:3], sphere[3]
-    c, s, zero = np.cos(ARC), np.sin(ARC), np.zeros_like(ARC)
-    rings = [np.column_stack([c, s, zero]), np.column_stack([c, zero, s]), np.column_stack([zero, c, s])]
-    rings += [np.column_stack([0.8 * c, 0.8 * s, zero + z]) for z in (-0.6, 0.6)]
-    return np.concatenate([segments(centre + radius * ring) for ring in rings])
-
-
-def _inside(ends: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-    """Return the segments whose ends are both finite and inside the window."""
-    return ends[(np.isfinite(ends) & (ends >= low) & (ends <= high)).all(axis=(1, 2))]
 
 
 def _placed(subject: Subject, ends: np.ndarray, k: int = 0) -> np.ndarray:

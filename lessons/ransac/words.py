@@ -83,14 +83,14 @@ def _best(state: State) -> Caption:
 
 
 def _refit(state: State) -> Caption:
-    best, before, model = state.now.best, state.before, state.subject.model
+    best, before = state.now.best, state.before
     assert best is not None
     text = "Refit: "
     if before is not None:
         text += f"least squares on the {before.count:,} inliers, then counted anew: {before.count:,} → {best.count:,}"
         if len(state.subject.p_true):
-            old = np.sqrt(np.square(model.distances(before.estimate, state.subject.p_true)).mean())
-            text += f"; RMS error to the truth {_distance(state, float(old))} → {_distance(state, state.best_error)}"
+            old = state.subject.error(before.estimate)
+            text += f"; RMS error to the truth {_distance(state, old)} → {_distance(state, state.best_error)}"
     return Caption(text + ".")
 
 
@@ -106,11 +106,7 @@ def _stop(state: State) -> Caption:
         return Caption(f"{text}, RMS distance {_distance(state, now.best.rms)}.{_proportion(state)}")
     text += f". RMS error to the truth: RANSAC {_distance(state, state.best_error)}"
     text += "".join(f", {rival.name} {_distance(state, rival.error)}" for rival in state.rivals) + "."
-    if is_right(state):
-        return Caption(text, "good")
-    return Caption(
-        text + (" It looks settled, and it is wrong." if now.stop is Stop.ENOUGH else " It is wrong."), "wrong"
-    )
+    return Caption.verdict(text, right=is_right(state), settled=now.stop is Stop.ENOUGH)
 
 
 def _why_none(state: State) -> str:

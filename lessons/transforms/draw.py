@@ -7,10 +7,10 @@ import numpy as np
 from lessons.transforms.state import FRONT, Body, Built, Ghost, Moved, State
 from lessons.transforms.words import caption_of_build, caption_of_move
 from workbench.data.framing import ground_grid
-from workbench.geometry.affine import decompose, kind_of, transform, transform_directions, translation
+from workbench.geometry.affine import decompose, is_affine, kind_of, transform, transform_directions, translation
 from workbench.geometry.invariants import Change
 from workbench.geometry.motions import inverse
-from workbench.geometry.polylines import segments
+from workbench.geometry.polylines import between, segments
 from workbench.geometry.rotations import (
     EulerOrder,
     axis_angle_from_rotation,
@@ -20,8 +20,9 @@ from workbench.geometry.rotations import (
     quaternion_from_matrix,
 )
 from workbench.numerals import ROUND_OFF, angle, fixed, fixed_row, length, percent
-from workbench.scene import Axes, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments, Table, is_rigid
+from workbench.scene import Axes, Chart, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments, Table, is_rigid
 
+TURNED = Chart("Turned so far", "t", "deg")
 MIDDLE = np.arange(-180.0, 181.0, 5.0)  # degrees
 GROUND = ground_grid(0.5, 0.0, 2.5)
 AXIS_ROLES: tuple[Role, ...] = ("x", "y", "z")
@@ -41,7 +42,7 @@ def _draw_build(state: Built) -> Scene:
         "world": Axes(None, 0.4, name="world axes"),
         "start name": _above("start", body, np.eye(4)),
         "vertex": Label(f"vertex {body.point}", state.trail[-1], "highlight"),
-        "volume": Scalar(float(np.linalg.det(T[:3, :3])) if _affine(T) else np.nan, "det T", "det T", "", "source"),
+        "volume": Scalar(float(np.linalg.det(T[:3, :3])) if is_affine(T) else np.nan, "det T", "det T", "", "source"),
         "moved": Scalar(
             float(np.linalg.norm(state.trail[-1] - state.trail[0])),
             f"vertex {body.point} from its start",
@@ -59,12 +60,12 @@ def _draw_build(state: Built) -> Scene:
         scene["trail"] = Segments(
             segments(state.trail), "highlight", 2.5, name=f"vertex {body.point}, factor by factor"
         )
-    if _affine(T):
+    if is_affine(T):
         scene["front"] = _arrow(transform(T, body.p_door[None])[0], T, "highlight", "front: a direction, w = 0")
     if state.params.compare == "direction with w = 1":
         wrong = transform(T, FRONT[None])[0]
         p_door = transform(T, body.p_door[None])[0]
-        scene["wrong front"] = Segments(np.array([[p_door, p_door + 0.5 * wrong]]), "wrong", 3, name="with w = 1")
+        scene["wrong front"] = Segments(between(p_door, p_door + 0.5 * wrong), "wrong", 3, name="with w = 1")
     if state.factor.kind == "turn" or (state.complete and _shows_lock(state)):
         scene |= _turning_axes(state)
     for i, ghost in enumerate(state.ghosts):
@@ -95,8 +96,8 @@ def _draw_move(state: Moved) -> Scene:
         "matrix": _matrix(state.T_world_body, f"T at t = {state.t:.2f}"),
         "measured": _invariants(state),
         "numbers": _in_other_numbers(state.T_world_body, state.T_world_body, state.params.order),
-        "turned": Curve(way.times, way.turned, state.params.method, "Turned so far", "t", "deg", marks=(state.t,)),
-        "turned at best": Curve(x, state.shortest.turned, "shortest turn", "Turned so far", "t", "deg", "truth"),
+        "turned": TURNED.curve(way.times, way.turned, state.params.method, marks=(state.t,)),
+        "turned at best": TURNED.curve(x, state.shortest.turned, "shortest turn", "truth"),
         "caption": caption_of_move(state),
     }
     if len(way.path) > 1:
@@ -136,14 +137,14 @@ def _axes_of_turns(state: Moved) -> dict[str, Primitive]:
 
 def _line(path: str, p: np.ndarray, axis: np.ndarray, color: Role, name: str) -> dict[str, Primitive]:
     up = axis if axis[2] > -1e-9 else -axis
-    ends = np.array([[p - 0.6 * up, p + up]])
+    ends = between(p - 0.6 * up, p + up)
     return {path: Segments(ends, color, 2.5), f"{path} name": Label(name, ends[0, 1], color)}
 
 
 def _shown(path: str, body: Body, T: np.ndarray, color: Role, opacity: float, name: str = "") -> dict[str, Primitive]:
     """Return the body as a surface with its edges; the faces of a mirrored one go round the other way."""
     p, faces, pose = body.solid.p, body.solid.faces, T
-    if not _affine(T):
+    if not is_affine(T):
         p, pose = transform(T, p), None
     elif np.linalg.det(T[:3, :3]) < 0:
         faces = faces[:, ::-1]
@@ -155,7 +156,7 @@ def _shown(path: str, body: Body, T: np.ndarray, color: Role, opacity: float, na
 
 def _lines(body: Body, T: np.ndarray, color: Role, name: str) -> Segments:
     ends, pose = body.solid.lines, T
-    if not _affine(T):
+    if not is_affine(T):
         ends, pose = transform(T, ends.reshape(-1, 3)).reshape(-1, 2, 3), None
     return Segments(ends, color, 2.0, pose, name=name)
 
@@ -188,8 +189,7 @@ def _turning_axes(state: Built) -> dict[str, Primitive]:
         up = (1.6, 1.35, 1.1)[k] * (axis if axis[2] > -1e-9 else -axis)
         width = 6.0 if k == state.turns - 1 else 3.0
         role, name = AXIS_ROLES["xyz".index(letter.lower())], f"angle {k + 1} ({letter})"
-        ends = np.array([[middle - 0.7 * up, middle + up]])
-        scene[f"axis {k + 1}"] = Segments(ends, role, width)
+        scene[f"axis {k + 1}"] = Segments(between(middle - 0.7 * up, middle + up), role, width)
         scene[f"axis {k + 1} name"] = Label(name, middle + up, role)
     return scene
 
@@ -205,22 +205,14 @@ def _margins(order: EulerOrder) -> np.ndarray:
 
 
 def _gimbal_curve(state: Built) -> Curve:
-    return Curve(
-        MIDDLE,
-        _margins(state.params.order),
-        "0: the first and third axis are one",
-        "Gimbal lock",
-        "middle angle (deg)",
-        "sine between axes",
-        "highlight",
-        marks=(state.params.angles[1],),
-    )
+    chart = Chart("Gimbal lock", "middle angle (deg)", "sine between axes")
+    name, marks = "0: the first and third axis are one", (state.params.angles[1],)
+    return chart.curve(MIDDLE, _margins(state.params.order), name, "highlight", marks=marks)
 
 
 def _matrix(T: np.ndarray, title: str) -> Table:
     """Show a 4×4; its columns are where the axes and the origin go."""
-    header = ("x axis", "y axis", "z axis", "origin")
-    return Table(title, header, tuple(tuple(fixed(value, 2) for value in line) for line in T))
+    return Table.of_matrix(title, ("x axis", "y axis", "z axis", "origin"), T)
 
 
 def _amount(change: Change) -> str:
@@ -266,7 +258,7 @@ def _in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder
 
     A projective map has no such parts: then the rotation is that of its rigid factors alone.
     """
-    affine = np.array_equal(T[3], (0, 0, 0, 1))
+    affine = is_affine(T)
     parts = decompose(T if affine else T_world_body)
     R = parts.rotation
     axis, radians = axis_angle_from_rotation(R)
@@ -283,7 +275,3 @@ def _in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder
             ("det T", fixed(float(np.linalg.det(T[:3, :3])), 2)),
         ]
     return Table("The rotation, in other numbers", ("name", "numbers"), tuple(rows))
-
-
-def _affine(T: np.ndarray) -> bool:
-    return bool(np.array_equal(T[3], (0, 0, 0, 1)))

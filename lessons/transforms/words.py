@@ -6,6 +6,7 @@ from lessons.transforms.body import numbers_of
 from lessons.transforms.compare import in_degrees, other_triples
 from lessons.transforms.state import FRONT, SAME, Built, Ghost, Method, Moved
 from workbench.geometry.affine import Kind, kind_of, transform
+from workbench.geometry.motions import angle_between
 from workbench.geometry.rotations import gimbal_margin
 from workbench.numerals import angle, brief, fixed, length, percent
 from workbench.scene import Caption
@@ -50,11 +51,6 @@ def _front_with_w_1(state: Built) -> tuple[str, bool]:
     if apart < 1e-6:
         return "The front taken with w = 1 points the same way here, but its length is another.", True
     return f"The front taken with w = 1 points {angle(apart, 2)} away from it.", True
-
-
-def angle_between(v: np.ndarray, w: np.ndarray) -> float:
-    """Return the angle between two directions, radians."""
-    return float(np.arctan2(np.linalg.norm(np.cross(v, w)), v @ w))
 
 
 def _spread(ghosts: tuple[Ghost, ...]) -> str:

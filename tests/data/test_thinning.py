@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.thinning import some_points, voxel_means
+from workbench.data.thinning import evenly, every, some_points, spacing, voxel_means
 
 
 @settings(max_examples=25, deadline=None)
@@ -46,3 +46,24 @@ def test_some_points_are_different_ones_in_their_order(seed, n, most):
 def test_every_point_has_its_chance():
     drawn = [some_points(np.arange(5.0)[:, None], 2, np.random.default_rng(seed))[:, 0] for seed in range(200)]
     np.testing.assert_allclose(np.bincount(np.concatenate(drawn).astype(int), minlength=5) / 400, 0.2, atol=0.06)
+
+
+@given(count=st.integers(0, 500), most=st.integers(1, 60))
+def test_every_and_evenly_take_no_more_than_asked_and_the_first(count, most):
+    rows = np.arange(count)
+    taken = rows[every(count, most)]
+    assert len(taken) <= most
+    assert count == 0 or taken[0] == 0
+    assert len(set(np.diff(taken))) <= 1
+    if count:
+        spaced = evenly(count, most)
+        assert len(spaced) == min(count, most)
+        assert spaced[0] == 0
+        assert most == 1 or spaced[-1] == count - 1
+        assert np.ptp(np.diff(spaced)) <= 1 if len(spaced) > 2 else True
+
+
+def test_the_spacing_of_a_grid_is_its_step_whatever_is_there_twice():
+    p = 0.25 * np.stack(np.meshgrid(*[np.arange(8.0)] * 3), axis=-1).reshape(-1, 3)
+    assert spacing(np.vstack([p, p[:100]])) == pytest.approx(0.25)
+    assert spacing(np.zeros((5, 3))) == 1e-9

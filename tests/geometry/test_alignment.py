@@ -12,6 +12,7 @@ from workbench.geometry.alignment import (
     align_rigid,
     align_similarity,
     degrees_between,
+    motion_error,
     nearest_rotation,
     point_to_plane_step,
     rmse,
@@ -262,3 +263,19 @@ def test_the_angle_between_motions_is_a_distance_that_no_common_motion_changes(A
 def test_scale_and_shear_do_not_count_as_turning(degrees):
     turned = exp_so3(np.radians([0.0, degrees, 0.0]))
     assert degrees_between(turned @ np.diag([2.0, 3.0, 0.5]), np.eye(3)) == pytest.approx(degrees, rel=1e-6, abs=1e-12)
+
+
+def test_the_error_of_a_motion_is_what_was_added_to_the_truth():
+    rng = np.random.default_rng(0)
+    p = rng.normal(size=(50, 3))
+    T_true = motion(exp_so3(rng.normal(size=3)), rng.normal(size=3))
+    shifted = motion_error(motion(np.eye(3), np.array([0.3, 0.0, 0.4])) @ T_true, T_true, p)
+    assert (shifted.rotation, shifted.translation, shifted.displacement) == pytest.approx((0, 0.5, 0.5), abs=1e-9)
+    centre = apply(T_true, p).mean(axis=0)
+    turn = exp_so3(np.array([0.0, 0.0, np.radians(20)]))
+    turned = motion_error(motion(turn, centre - turn @ centre) @ T_true, T_true, p)
+    assert (turned.rotation, turned.translation) == pytest.approx((20, 0), abs=1e-9)
+    far = np.linalg.norm((apply(T_true, p) - centre)[:, :2], axis=1)  # a chord of 20 degrees at each radius
+    assert turned.displacement == pytest.approx(2 * np.sin(np.radians(10)) * np.sqrt(np.mean(far**2)))
+    unknown = motion_error(T_true, None, p)
+    assert np.isnan([unknown.rotation, unknown.translation, unknown.displacement]).all()

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.clipping import clip_lines, plane_in_box
+from workbench.geometry.clipping import clip_lines, plane_in_box, segments_inside
 from workbench.geometry.lines_planes import plane_from_points
 
 LOW, HIGH = np.array([-1.0, -2.0, -0.5]), np.array([1.5, 1.0, 2.0])
@@ -61,3 +61,9 @@ def test_a_polygon_does_not_depend_on_the_side_of_the_normal(seed):
 
 def test_a_plane_that_passes_by_has_no_corner():
     assert plane_in_box(np.array([0.0, 0.0, 1.0, -50.0]), LOW, HIGH).shape == (0, 3)
+
+
+def test_only_whole_and_finite_segments_are_inside():
+    inside = [[0.0, 0.0], [1.0, 2.0]]
+    ends = np.array([inside, [[0.0, 0.0], [1.0, 2.1]], [[np.nan, 0.0], [0.0, 0.0]], [[-0.1, 0.0], [0.0, 0.0]]])
+    np.testing.assert_array_equal(segments_inside(ends, np.zeros(2), np.array([1.0, 2.0])), [inside])

@@ -13,6 +13,7 @@ from workbench.geometry.homography import (
     refine_homography,
     transfer_distances,
     transform_pixels,
+    warped_grid,
 )
 
 seeds = st.integers(0, 2**32 - 1)
@@ -128,3 +129,14 @@ def test_normalised_pixels_have_the_promised_spread():
 def test_too_few_matches_are_refused():
     with pytest.raises(ValueError, match="at least 4"):
         fit_homography(np.zeros((3, 2)), np.zeros((3, 2)))
+
+
+def test_a_grid_stays_a_grid_under_the_identity_and_goes_where_its_corners_go():
+    size = np.array([640.0, 480.0])
+    ends = warped_grid(np.eye(3), size, cells=4, pieces=3)
+    assert len(ends) == 2 * 5 * 12
+    assert np.isclose(np.diff(ends, axis=1)[:, 0] / size, 0).any(axis=1).all()  # along the columns or the rows
+    H = np.array([[1.1, 0.1, 20], [-0.05, 0.9, 5], [1e-4, -2e-4, 1]])
+    np.testing.assert_allclose(
+        warped_grid(H, size, cells=4, pieces=3), transform_pixels(H, ends.reshape(-1, 2)).reshape(-1, 2, 2)
+    )

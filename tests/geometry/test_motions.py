@@ -7,7 +7,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from workbench.geometry.motions import apply, exp_se3, exp_so3, inverse, log_se3, log_so3, motion, rotation_angle, skew
+from workbench.geometry.motions import (
+    angle_between,
+    apply,
+    exp_se3,
+    exp_so3,
+    inverse,
+    log_se3,
+    log_so3,
+    motion,
+    rotation_angle,
+    skew,
+    turn_about,
+)
 
 DIRECTIONS = arrays(float, 3, elements=st.floats(-1, 1)).filter(lambda v: np.linalg.norm(v) > 0.1)
 ANGLES = st.one_of(
@@ -102,3 +114,17 @@ def test_one_point_moves_as_many_do(T):
     p = np.arange(6.0).reshape(2, 3)
     np.testing.assert_allclose(apply(T, p)[1], apply(T, p[1]), atol=1e-12)
     assert apply(T, np.empty((0, 3))).shape == (0, 3)
+
+
+@given(w=arrays(float, 3, elements=st.floats(-3, 3)), p=arrays(float, 3, elements=st.floats(-10, 10)))
+def test_a_turn_about_a_point_leaves_it_and_turns_as_much(w, p):
+    T = turn_about(p, exp_so3(w))
+    np.testing.assert_allclose(apply(T, p), p, atol=1e-12)
+    np.testing.assert_array_equal(T[:3, :3], exp_so3(w))
+
+
+@given(turn=st.floats(0, np.pi), length=st.floats(0.01, 100))
+def test_the_angle_between_vectors_does_not_depend_on_their_lengths(turn, length):
+    v, w = np.array([2.0, 0.0, 0.0]), length * np.array([np.cos(turn), 0.0, np.sin(turn)])
+    assert angle_between(v, w) == pytest.approx(turn, abs=1e-12)
+    assert angle_between(v, np.zeros(3)) == 0

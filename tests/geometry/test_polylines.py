@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workbench.geometry.polylines import fan, segments
+from workbench.geometry.polylines import between, circle, fan, rectangle, segments, sphere_rings
 
 
 @pytest.mark.parametrize("closed", [False, True])
@@ -30,3 +30,29 @@ def test_a_fan_has_the_area_of_its_polygon(n):
 
 def test_a_line_and_a_point_have_no_triangle():
     assert fan(2).shape == fan(1).shape == (0, 3)
+
+
+def test_partners_are_joined_row_by_row_and_two_points_too():
+    p, q = np.random.default_rng(0).normal(size=(2, 4, 3))
+    np.testing.assert_array_equal(between(p, q), [[a, b] for a, b in zip(p, q, strict=True)])
+    np.testing.assert_array_equal(between(p[0], q[0]), [[p[0], q[0]]])
+
+
+def test_a_rectangle_goes_round_its_middle_once():
+    corners = rectangle(np.array([-1.0, 2.0]), np.array([3.0, 5.0]))
+    edges = np.diff(np.vstack([corners, corners[:1]]), axis=0)
+    np.testing.assert_array_equal(np.abs(edges), [[4, 0], [0, 3], [4, 0], [0, 3]])
+    assert (edges[0, 0], edges[1, 1]) == (4, 3)
+
+
+def test_a_circle_is_round_closed_and_evenly_divided():
+    points = circle(12)
+    np.testing.assert_allclose(np.linalg.norm(points, axis=1), 1, atol=1e-12)
+    np.testing.assert_allclose(np.diff(np.unwrap(np.arctan2(points[:, 1], points[:, 0]))), np.pi / 6, atol=1e-12)
+
+
+def test_the_rings_of_a_sphere_lie_on_it():
+    centre = np.array([1.0, -2.0, 0.5])
+    ends = sphere_rings(centre, 0.7, 16)
+    assert ends.shape == (5 * 16, 2, 3)
+    np.testing.assert_allclose(np.linalg.norm(ends - centre, axis=-1), 0.7, atol=1e-12)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lessons.disparity.charts import framed, patches
 from lessons.disparity.experiments import (
     BARE,
     BOARDS,
@@ -347,20 +346,6 @@ class TestPicture:
         assert np.allclose(d, np.rint(d))
         assert isinstance(cloud.color, Field)
         assert np.median(cloud.color.values) < 0.05
-
-    def test_the_windows_are_the_pixels_of_both_pictures(self):
-        rng = np.random.default_rng(0)
-        left, right = rng.integers(0, 256, (2, 20, 30, 3)).astype(np.uint8)
-        image = patches(left, right, (15, 10), 4, 5)
-        assert image.shape == (9, 9 + 2 + 9, 3)
-        assert np.abs(image[2:7, 2:7] - 1.0 * left[8:13, 13:18]).max() <= 6  # already as bright as can be
-        assert np.abs(image[2:7, 13:18] - 1.0 * right[8:13, 9:14]).max() <= 6
-        dim = patches(left // 4, right // 4, (15, 10), 4, 5)
-        assert np.abs(dim[2:7, 2:7] - 1.0 * image[2:7, 2:7]).max() <= 12
-        outside = patches(left, right, (1, 10), 4, 5)[:, 11:]
-        assert (outside[:, 0] == 128).all()
-        assert (outside[2:7, 2:7] == 128).all()
-        assert np.array_equal(framed(left, (-50, 5), 3), left)
 
     def test_a_curve_has_gaps_where_nothing_was_compared(self):
         costs = timeline(HOME)[10].scene["costs"]

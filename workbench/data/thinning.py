@@ -1,6 +1,10 @@
-"""Fewer points of a cloud: one per voxel, so that dense and sparse parts of a scan count alike, or some drawn by chance."""
+"""Fewer rows: one per voxel, so that dense and sparse parts of a scan count alike; some by chance; or evenly spaced ones.
+
+And how far apart the points of a cloud are.
+"""
 
 import numpy as np
+import scipy
 from jaxtyping import Float
 
 
@@ -31,3 +35,24 @@ def some_points(p: Float[np.ndarray, "n d"], most: int, rng: np.random.Generator
     Nothing is drawn from `rng` where all are returned.
     """
     return p if len(p) <= most else p[np.sort(rng.choice(len(p), most, replace=False))]
+
+
+def every(count: int, most: int) -> slice:
+    """Return the slice that takes every so many rows, the first included, so that at most `most` of `count` are taken."""
+    return slice(None, None, max(1, -(-count // most)))
+
+
+def evenly(count: int, most: int) -> np.ndarray:
+    """Return the indices of at most `most` of `count` rows, evenly spaced, the first and the last included."""
+    return np.unique(np.linspace(0, count - 1, min(most, count)).round().astype(int))
+
+
+def spacing(p: Float[np.ndarray, "n 3"]) -> float:
+    """Return the median distance from a point to the nearest other place with a point, judged by a few hundred points.
+
+    It is 1e-9 where all points are at one place, so that it can divide.
+    """
+    places = np.unique(p, axis=0)
+    some = places[:: max(1, len(places) // 400)]
+    distances = np.asarray(scipy.spatial.KDTree(places).query(some, k=min(2, len(places)))[0])
+    return float(np.median(distances.reshape(len(some), -1)[:, -1])) or 1e-9

@@ -140,6 +140,11 @@ def transform_directions(A: Map, v: Float[np.ndarray, "n 3"]) -> Float[np.ndarra
     return v @ A[:3, :3].T
 
 
+def is_affine(H: Map) -> bool:
+    """Tell whether a map keeps parallel lines parallel: its last row is 0 0 0 1."""
+    return bool(np.array_equal(H[3], (0, 0, 0, 1)))
+
+
 def decompose(A: Map) -> Parts:
     """Return the rotation, mirror, stretch and translation of an affine map (its polar decomposition).
 
@@ -151,7 +156,7 @@ def decompose(A: Map) -> Parts:
 
     Reference: Shoemake and Duff, Matrix animation and polar decomposition, 1992: M = T F R S with F = +-1.
     """
-    if not np.array_equal(A[3], (0, 0, 0, 1)):
+    if not is_affine(A):
         raise ValueError(f"the last row {A[3]} is that of a projective map")
     linear = A[:3, :3]
     mirror = -1 if np.linalg.det(linear) < 0 else 1

@@ -171,6 +171,39 @@ def degrees_between(T: Float[np.ndarray, "n n"], other: Float[np.ndarray, "n n"]
     return float(np.degrees(rotation_angle(R @ R_other.T)))
 
 
+@dataclass(frozen=True)
+class MotionError:
+    """How far a motion is from the true one; all NaN where that is not known.
+
+    Attributes:
+        rotation: Degrees.
+        translation: How far the mean of the points is off, metres.
+        displacement: Root mean square distance of the points from where they belong, metres: it holds all of the error,
+            also a wrong scale.
+    """
+
+    rotation: float
+    translation: float
+    displacement: float
+
+
+def motion_error(
+    T: Float[np.ndarray, "4 4"], T_true: Float[np.ndarray, "4 4"] | None, p: Float[np.ndarray, "n 3"]
+) -> MotionError:
+    """Return how far a motion or an affine map is from the true motion, told by where it brings points.
+
+    Args:
+        T: The motion in question.
+        T_true: The true one between the same frames; None where nobody knows it.
+        p: Points that are moved, metres; one at least.
+    """
+    if T_true is None:
+        return MotionError(np.nan, np.nan, np.nan)
+    off = apply(T, p) - apply(T_true, p)
+    displacement = np.sqrt(np.einsum("ij,ij->", off, off) / len(off))
+    return MotionError(degrees_between(T, T_true), float(np.linalg.norm(off.mean(axis=0))), float(displacement))
+
+
 def rmse(T: Float[np.ndarray, "4 4"], p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]) -> float:
     """Return the root mean square distance between pairs after moving the source, in metres.
 

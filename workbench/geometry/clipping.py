@@ -70,6 +70,13 @@ def clip_to_rectangle(
     return start, np.where(np.isnan(uv).any(axis=(1, 2)), -1.0, stop)
 
 
+def segments_inside(
+    ends: Float[np.ndarray, "n 2 d"], low: Float[np.ndarray, "d"], high: Float[np.ndarray, "d"]
+) -> Float[np.ndarray, "m 2 d"]:
+    """Return the segments whose ends are both finite and inside a rectangle or box; nothing is cut."""
+    return ends[(np.isfinite(ends) & (ends >= low) & (ends <= high)).all(axis=(1, 2))]
+
+
 def clip_lines(
     lines: Float[np.ndarray, "n 3"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
 ) -> Float[np.ndarray, "m 2 2"]:

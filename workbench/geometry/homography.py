@@ -6,6 +6,7 @@ Convention: `H_b_a` takes pixels of image a to pixels of image b, `uv_b_h ~ H_b_
 import numpy as np
 from jaxtyping import Bool, Float
 
+from workbench.geometry.polylines import segments
 from workbench.geometry.refinement import levenberg_marquardt
 
 _FLAT = 1e-9
@@ -50,6 +51,28 @@ def transform_pixels(H_b_a: Float[np.ndarray, "*k 3 3"], uv_a: Float[np.ndarray,
     w = uv_b_h[..., 2, :]
     w = np.where(w == 0.0, np.asarray(np.nan, w.dtype), w)
     return np.stack([uv_b_h[..., 0, :] / w, uv_b_h[..., 1, :] / w], axis=-1)
+
+
+def warped_grid(
+    H_b_a: Float[np.ndarray, "3 3"], size: Float[np.ndarray, "2"], cells: int = 4, pieces: int = 8
+) -> Float[np.ndarray, "n 2 2"]:
+    """Return a grid over image a, cells to a side and pieces to a cell, as segments in pixels of image b.
+
+    Args:
+        H_b_a: The homography.
+        size: Width and height of image a, pixels.
+        cells: How many squares the grid has along each side.
+        pieces: Into how many segments each side of a square is cut, so that it may be clipped and drawn piece by piece.
+
+    Returns:
+        The segments; NaN where the homography takes an end to infinity.
+    """
+    t, ticks = np.linspace(0.0, 1.0, cells * pieces + 1), np.linspace(0.0, 1.0, cells + 1)
+    lines = [np.column_stack([np.full_like(t, x), t]) for x in ticks]
+    lines += [line[:, ::-1] for line in lines]
+    ends = np.concatenate([segments(line * size) for line in lines])
+    with np.errstate(all="ignore"):
+        return transform_pixels(H_b_a, ends.reshape(-1, 2)).reshape(-1, 2, 2)
 
 
 def transfer_distances(

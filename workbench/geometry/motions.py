@@ -49,6 +49,21 @@ def apply(T: Float[np.ndarray, "4 4"], p: Float[np.ndarray, "*n 3"]) -> Float[np
     return p @ T[:3, :3].T + T[:3, 3]
 
 
+def turn_about(p: Float[np.ndarray, "3"], R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4 4"]:
+    """Return the motion that turns by a rotation and leaves the point where it is."""
+    return motion(R, p - R @ p)
+
+
+def angle_between(v: Float[np.ndarray, "3"], w: Float[np.ndarray, "3"]) -> float:
+    """Return the angle between two vectors in [0, pi] radians, exact at both ends; 0 where one of them is zero.
+
+    Examples:
+        >>> round(angle_between(np.array([2.0, 0.0, 0.0]), np.array([1.0, 1.0, 0.0])) / np.pi, 6)
+        0.25
+    """
+    return float(np.arctan2(np.linalg.norm(np.cross(v, w)), v @ w))
+
+
 def rotation_angle(R: Float[np.ndarray, "3 3"]) -> float:
     """Return the angle of a rotation in [0, pi] radians, exact at both ends.
 

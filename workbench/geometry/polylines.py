@@ -1,4 +1,4 @@
-"""Polylines as the segments they are drawn with."""
+"""Outlines as the segments they are drawn with: polylines, pairs of points, rectangles, circles."""
 
 import numpy as np
 from jaxtyping import Float
@@ -9,6 +9,36 @@ def segments(p: Float[np.ndarray, "n d"], *, closed: bool = False) -> Float[np.n
     if closed:
         return np.stack([p, np.roll(p, -1, axis=0)], axis=1)
     return np.stack([p[:-1], p[1:]], axis=1)
+
+
+def between(p: Float[np.ndarray, "*n d"], q: Float[np.ndarray, "*n d"]) -> Float[np.ndarray, "m 2 d"]:
+    """Return the segments from each point to its partner; two single points (d,) have one segment.
+
+    Examples:
+        >>> between(np.array([0.0, 0.0]), np.array([1.0, 2.0])).tolist()
+        [[[0.0, 0.0], [1.0, 2.0]]]
+    """
+    return np.stack([np.atleast_2d(p), np.atleast_2d(q)], axis=1)
+
+
+def rectangle(low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]) -> Float[np.ndarray, "4 2"]:
+    """Return the corners of an upright rectangle in order, the lowest first and then the one farther along x."""
+    (x0, y0), (x1, y1) = low, high
+    return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]], float)
+
+
+def circle(pieces: int = 64) -> Float[np.ndarray, "n 2"]:
+    """Return the points of the unit circle from +x counterclockwise, the first once more at the end."""
+    turn = np.linspace(0.0, 2.0 * np.pi, pieces + 1)
+    return np.column_stack([np.cos(turn), np.sin(turn)])
+
+
+def sphere_rings(centre: Float[np.ndarray, "3"], radius: float, pieces: int = 64) -> Float[np.ndarray, "n 2 3"]:
+    """Return three great circles of a sphere and two circles of latitude, as segments."""
+    (c, s), zero = circle(pieces).T, np.zeros(pieces + 1)
+    rings = [np.column_stack([c, s, zero]), np.column_stack([c, zero, s]), np.column_stack([zero, c, s])]
+    rings += [np.column_stack([0.8 * c, 0.8 * s, zero + z]) for z in (-0.6, 0.6)]
+    return np.concatenate([segments(centre + radius * ring) for ring in rings])
 
 
 def fan(corners: int) -> np.ndarray:
