@@ -16,6 +16,7 @@ from workbench.exercise import (
     left_alone,
     mistake,
     motion_verdict,
+    number,
     worst,
 )
 from workbench.geometry import alignment
@@ -85,9 +86,10 @@ def arrived(candidate: Function, seed: int, degrees: float, metres: float, aside
     for _ in range(6):
         T = candidate(p_target, apply(T, p_source), n_target) @ T
         if not np.abs(T).max() < 1e9:
-            return fail(f"The steps run away: after six a number is {np.abs(T).max():.2g}. {STEP_HINT}")
+            most = number(np.abs(T).max(), 2)
+            return fail(f"The steps run away: the largest number of T is {most}, right is below 10. {STEP_HINT}")
     away = motion(off[:3, :3], c + off[:3, 3] - off[:3, :3] @ c)
-    return motion_verdict(T @ away, np.eye(4), STEP_HINT, p=p_true)
+    return motion_verdict(T @ away, np.eye(4), STEP_HINT, p=p_true, name="What is left after six steps")
 
 
 @check(1)

@@ -65,7 +65,7 @@ def count_verdict(got: int, right: int, n: int, what: str, hint: str = COUNT_HIN
     """Judge a count: all for the exact one, half where at most one point in a hundred is too many or too few."""
     if got == right:
         return full(f"{what}: {got} of {n} points are inliers.")
-    said = f"{what}: you count {got} of {n} points, {right} are inliers. {hint}"
+    said = f"{what}: yours is {got} of {n} points, right is {right}. {hint}"
     return partial(0.5, said) if abs(got - right) <= 0.01 * n else fail(said)
 
 
