@@ -2,13 +2,18 @@
 
 import builtins
 import functools
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from workbench.exercise.model import Function
+from workbench.exercise.model import Function, number
 from workbench.exercise.sandbox import StudentError
+
+
+MOST_SHOWN = 12
+"""How many numbers a call may have that is shown to the student."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,20 +78,21 @@ class Candidate:
             with np.errstate(all="ignore"):
                 value = self.function(*given)
         except StudentError as error:
-            known = next((name for name in error.errors if hasattr(builtins, name)), error.error)
-            self._keep(args, Answer(None, known or error.kind), right)
+            self._keep(args, Answer(None, _known(error.errors) or error.kind), right)
             raise
         except Exception as error:  # one of our own functions, which may be wrong on purpose
-            self._keep(args, Answer(None, type(error).__name__), right)
-            raise StudentError(
-                f"{self.__name__} raised {type(error).__name__}: {error}", "raised", type(error).__name__
-            ) from None
+            self._keep(args, raised(error), right)
+            name, names = type(error).__name__, tuple(kind.__name__ for kind in type(error).__mro__)
+            raise StudentError(f"{self.__name__} raised {name}: {error}", "raised", name, errors=names) from None
         self._keep(args, Answer(value, ""), right)
         pairs = zip(args, given, strict=True)
         self._changed = any(isinstance(arg, np.ndarray) and arg.tobytes() != now.tobytes() for arg, now in pairs)
         if self.changed_inputs:
             self.changing.append(args)
-        return held_to_contract(value, right.value, self.__name__)
+        try:
+            return held_to_contract(value, right.value, self.__name__)
+        except StudentError as error:
+            raise StudentError(f"{error}{_asked(args)}", error.kind) from None
 
     @property
     def changed_inputs(self) -> bool:
@@ -103,7 +109,17 @@ class Candidate:
             with np.errstate(all="ignore"):
                 return Answer(self._reference(*_copied(args)), "")
         except Exception as error:
-            return Answer(None, type(error).__name__)
+            return raised(error)
+
+
+def raised(error: Exception) -> Answer:
+    """Return what a function said that raised this: the name of Python's own error that it is one of."""
+    return Answer(None, _known(kind.__name__ for kind in type(error).__mro__))
+
+
+def _known(names: Iterable[str]) -> str:
+    names = list(names)
+    return next((name for name in names if hasattr(builtins, name)), names[0])
 
 
 def _copied(args: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -146,9 +162,21 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
     plain = got.astype({"b": np.bool_, "i": np.int64, "u": np.int64}.get(wanted.dtype.kind, np.float64))
     if wanted.dtype.kind == "f" and np.isfinite(wanted).all() and not np.isfinite(plain).all():
         strange = plain[~np.isfinite(plain)]
+        at = tuple(int(i) for i in np.argwhere(~np.isfinite(plain))[0])
         what = f"{plain}" if plain.ndim == 0 else f"{len(strange)} of {plain.size} values not finite"
-        raise StudentError(f"{name} returned {what}; the contract asks for finite numbers", "result")
+        where = f"[{', '.join(map(str, at))}]" if at else "yours"
+        said = f"the contract asks for finite numbers. {where} is {plain[at]}, right is {number(wanted[at])}"
+        raise StudentError(f"{name} returned {what}; {said}", "result")
     return plain if isinstance(expected, np.ndarray) else plain.item()
+
+
+def _asked(args: tuple[Any, ...]) -> str:
+    """Return what was asked, where that is short."""
+    sizes = [np.size(arg) for arg in args]
+    if not 0 < sum(sizes) <= MOST_SHOWN:
+        return ""
+    rows = [number(arg) if isinstance(arg, (np.ndarray, float, int)) else repr(arg) for arg in args]
+    return f" (asked for {', '.join(rows)})"
 
 
 def _kind(value: Any) -> str:

@@ -27,6 +27,8 @@ def rotation_verdict(
     hint = beside(R, R_right, hint, name)
     off, det = float(np.abs(R.T @ R - np.eye(3)).max()), float(np.linalg.det(R))
     if off > SKEWED or det < 0:
+        if off <= SKEWED:
+            return fail(f"{name} mirrors: its determinant is {number(det, 3)}, right is 1. {hint}")
         return fail(
             f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}, its determinant is "
             f"{number(det, 3)}. {hint}"
@@ -61,7 +63,7 @@ def motion_verdict(
     turned = rotation_verdict(T[:3, :3], T_right[:3, :3], hint, good=degrees[0], fair=degrees[1], name=name)
     p = np.zeros((1, 3)) if p is None else p
     away = np.linalg.norm(p @ (T - T_right)[:3, :3].T + (T - T_right)[:3, 3], axis=1).max()
-    told = beside(T[:3, 3], T_right[:3, 3], hint, f"The last column of {name}")
+    told = beside(T[:3, 3], T_right[:3, 3], hint, "The rotation is right; the last column" if turned.share == 1 else "t")
     moved = band("Position error", float(away), "m", good=metres[0], fair=metres[1], hint=told)
     if turned.share == moved.share == 1.0:
         return full(f"{turned.message} {moved.message}")

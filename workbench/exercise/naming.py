@@ -12,11 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from workbench.exercise.candidate import Answer, Call
+from workbench.exercise.candidate import Answer, Call, raised
 from workbench.exercise.model import Exercise, Function, Mistake
 
 ENOUGH = 3
-"""How much must tell a mistake from the right answer where a function makes it in some checks only; see `_weight`."""
+"""How much must tell a mistake from the right answer where a function makes it in some checks only: of an array each wrong
+entry counts, of single numbers each one that is not like another, a fraction twice."""
 KEPT_ANSWERS = 2048
 ROUNDING = 1e-6  # relative
 NEAR, FAR = 0.05, 5.0
@@ -30,7 +31,7 @@ class Evidence:
     """How some calls speak for a mistake.
 
     Attributes:
-        weight: How much in the answers differs from the right ones as the mistake's do.
+        weight: How much in the answers differs from the right ones as the mistake's do, and is not given by chance.
         refused: Of the calls for which the contract asks for an error and the mistake gives none of that name, whether
             each was answered as the mistake does.
         right: Whether every other such call was answered as the contract asks.
@@ -50,7 +51,7 @@ def recognised(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise:
     """Return the one mistake whose answers are those of the calls and are not the right ones; None if there is none.
 
     It is looked for in all calls first, then in the calls of each failing check, since who makes two mistakes may make
-    one of them alone in some check. A mistake that a refused call alone would tell of, and one whose sentence says that
+    one of them alone in some checks: in most of those that fail, or it is not what to mend first. A mistake that a refused call alone would tell of, and one whose sentence says that
     all else is right, is named only where all else is.
 
     Args:
@@ -81,9 +82,10 @@ def concerned(
 def _in_some_checks(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> dict[Mistake, int]:
     weights = {}
     for mistake in exercise.mistakes:
-        if not mistake.spares_the_rest:
-            told = [_evidence(mistake, calls[name], exercise) for name in failing]
-            weights[mistake] = sum(found.weight for found in told if found is not None)
+        told = [_evidence(mistake, calls[name], exercise) for name in failing]
+        told = [found.weight for found in told if found is not None and found.weight]
+        if not mistake.spares_the_rest and 2 * len(told) > len(failing):
+            weights[mistake] = sum(told)
     return weights
 
 
@@ -96,7 +98,7 @@ def _the_most(weights: dict[Mistake, int], least: int) -> Mistake | None:
 
 def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Evidence | None:
     """Return how calls speak for a mistake; None where one speaks against it."""
-    weight, refused, right = 0, [], True
+    weight, numbers, refused, right = 0, set[float](), [], True
     for call in calls:
         if call.right.error:
             if _alike(_answer(mistake.function, call), call.right, exercise):
@@ -109,10 +111,10 @@ def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Ev
             if _alike(call.answer, mistaken, exercise):
                 wrong = not _alike(mistaken, call.right, exercise)
                 tells = wrong and (not is_open or _is_apart(mistaken, [call.right, *others]))
-                weight += _weight(mistaken.value, call.right.value) if tells else 0
+                weight += _wrong_entries(mistaken.value, call.right.value, numbers) if tells else 0
             elif not is_open:
                 return None
-    return Evidence(weight, tuple(refused), right)
+    return Evidence(weight + sum(1 if number.is_integer() else 2 for number in numbers), tuple(refused), right)
 
 
 def _is_apart(mistaken: Answer, right: Sequence[Answer]) -> bool:
@@ -138,8 +140,8 @@ def _gap(a: Answer, b: Answer) -> float:
     return float(np.nan_to_num(off, nan=np.inf, posinf=np.inf).max(initial=0.0))
 
 
-def _weight(mistaken: Any, right: Any) -> int:
-    """Return how hard an answer is to give by chance: a whole number weighs 1, a fraction 2, an array its wrong entries."""
+def _wrong_entries(mistaken: Any, right: Any, numbers: set[float]) -> int:
+    """Return how many entries of an array are wrong; a single number is added to those that were given."""
     try:
         wrong, known = np.asarray(mistaken, dtype=float), np.asarray(right, dtype=float)
     except (TypeError, ValueError):
@@ -147,7 +149,8 @@ def _weight(mistaken: Any, right: Any) -> int:
     if wrong.shape != known.shape:
         return ENOUGH
     if wrong.ndim == 0:
-        return 2 if np.isfinite(wrong) and wrong != np.round(wrong) else 1
+        numbers.add(float(wrong))
+        return 0
     return int((~np.isclose(wrong, known, equal_nan=True)).sum())
 
 
@@ -193,7 +196,7 @@ def _answered(function: Function, key: tuple[Any, ...]) -> Answer:
         with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):
             return Answer(function(*map(_thawed, key)), "")
     except Exception as error:
-        return Answer(None, type(error).__name__)
+        return raised(error)
 
 
 def _thawed(part: Any) -> Any:

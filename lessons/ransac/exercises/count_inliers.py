@@ -251,10 +251,10 @@ def divided_by_all_four(plane: np.ndarray, p: np.ndarray, inlier_distance: float
 
 
 @mistake(
-    "You subtract the far points from all. A comparison with nan is always false, so what is nan counts as "
-    "near: count the near ones."
+    "All is right but nan, which you count as near. A comparison with nan is always false: count where <= is true, do "
+    "not subtract the far points from all, and do not put a number in the place of nan."
 )
-def far_subtracted(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
+def nan_is_near(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Counts whatever is not far, nan as well."""
     return len(p) - int((np.abs(signed(plane, p)) > inlier_distance).sum())
 

@@ -191,6 +191,8 @@ def small_large_and_far(candidate: Function) -> Verdict:
     thin = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.5, 1e-4, 1.0]])
     verdicts.append(found(candidate, far, "1 km away"))
     verdicts.append(found(candidate, thin, "1 m long and 0.1 mm high"))
+    verdicts.append(found(candidate, thin * [1e-3, 1e-3, 1.0], "1 mm long and 0.1 µm high"))
+    verdicts.append(found(candidate, 1e-6 * thin, "1 µm long and a ten-thousandth of that high"))
     return worst(verdicts)
 
 

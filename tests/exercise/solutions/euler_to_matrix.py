@@ -6,6 +6,7 @@ import numpy as np
 
 NAMED = {
     "wrong_fixed_and_carried_swapped": "product turned round",
+    "wrong_first_letter_decides": "any order taken",
     "wrong_no_refusal": "any order taken",
     "wrong_transposed_turns_and_no_refusal": "clockwise",
 }
@@ -111,7 +112,7 @@ def right_complex_exponential(angles, order):
     from scipy.linalg import expm
 
     refuse(order)
-    generators = {l: np.cross(np.eye(3), -np.eye(3)[i]) for i, l in enumerate("xyz")}
+    generators = {l: np.cross(np.eye(3), np.eye(3)[i]) for i, l in enumerate("xyz")}
     R = np.eye(3)
     for letter, a in zip(order.lower(), angles):
         R = expm(a * generators[letter]) @ R if order.islower() else R @ expm(a * generators[letter])
@@ -266,6 +267,6 @@ def wrong_small_angles(angles, order):
     refuse(order)
     R = np.eye(3)
     for letter, a in zip(order.lower(), angles):
-        K = np.cross(np.eye(3), -np.eye(3)["xyz".index(letter)])
+        K = np.cross(np.eye(3), np.eye(3)["xyz".index(letter)])
         R = (np.eye(3) + a * K) @ R if order.islower() else R @ (np.eye(3) + a * K)
     return R

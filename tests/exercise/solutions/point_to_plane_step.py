@@ -3,8 +3,10 @@
 import numpy as np
 
 NAMED = {
+    "wrong_cross_with_the_target": "sign of the gap",
     "wrong_gap_turned_round": "sign of the gap",
     "wrong_n_cross_p": "cross product turned round",
+    "wrong_rotation_transposed": "cross product turned round",
     "wrong_small_angle_matrix": "no proper rotation",
     "wrong_inverse_of_the_normal_matrix": "singular",
 }

@@ -50,7 +50,7 @@ def right_outer(axis, angle):
 
 def right_cross_of_identity(axis, angle):
     a = unit(axis)
-    K = np.cross(np.eye(3), -a)
+    K = np.cross(np.eye(3), a)
     return np.eye(3) + np.sin(angle) * K + 2 * np.sin(angle / 2) ** 2 * (K @ K)
 
 
