@@ -5,7 +5,15 @@ exercises up, `sandbox` runs a student's file in a child process, `grading` judg
 is never imported into this process.
 """
 
-from workbench.exercise.judging import degrees_between, left_alone, motion_verdict, refused, rotation_verdict, worst
+from workbench.exercise.judging import (
+    beside,
+    degrees_between,
+    left_alone,
+    motion_verdict,
+    refused,
+    rotation_verdict,
+    worst,
+)
 from workbench.exercise.model import (
     Check,
     Contract,
@@ -20,6 +28,7 @@ from workbench.exercise.model import (
     fail,
     full,
     mistake,
+    number,
     partial,
 )
 
@@ -32,6 +41,7 @@ __all__ = [
     "Verdict",
     "alternative",
     "band",
+    "beside",
     "check",
     "contract",
     "degrees_between",
@@ -40,6 +50,7 @@ __all__ = [
     "left_alone",
     "mistake",
     "motion_verdict",
+    "number",
     "partial",
     "refused",
     "rotation_verdict",

@@ -1,22 +1,49 @@
 """A function under test: calls the student's function, holds its results to the contract, and remembers every call."""
 
 import builtins
+import functools
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from workbench.exercise.model import Function
+from workbench.exercise.model import Function, number
 from workbench.exercise.sandbox import StudentError
+
+
+MOST_SHOWN = 12
+"""How many numbers a call may have that is shown to the student."""
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What a function said to a call: its value, or None and the name of the error."""
+
+    value: Any
+    error: str
 
 
 @dataclass(frozen=True, eq=False)
 class Call:
-    """One call of a candidate: what it was given, and what it gave or raised."""
+    """One call of a candidate: what it was given, what it said, and what our function says.
+
+    Attributes:
+        args: The arguments.
+        answer: The candidate's answer.
+        right: Ours.
+    """
 
     args: tuple[Any, ...]
-    value: Any
-    error: str
+    answer: Answer
+    right: Answer
+
+    @functools.cached_property
+    def key(self) -> tuple[Any, ...]:
+        """The arguments as what can be looked up: arrays as (shape, type, bytes)."""
+        return tuple(
+            (arg.shape, arg.dtype.str, arg.tobytes()) if isinstance(arg, np.ndarray) else arg for arg in self.args
+        )
 
 
 class Candidate:
@@ -31,6 +58,10 @@ class Candidate:
     def __init__(self, function: Function, reference: Function, *, remember: bool = True):
         self.function, self._reference, self._remember = function, reference, remember
         self.calls: list[Call] = []
+        self.changing: list[tuple[Any, ...]] = []
+        """The arguments of the calls that changed them."""
+        self.looks_at_inputs = False
+        """Whether a check asked that inputs stay as they are."""
         self._changed = False
         self.__name__ = getattr(reference, "__name__", "candidate")
 
@@ -40,38 +71,59 @@ class Candidate:
         Raises:
             StudentError: If it gave no answer, or one of another shape or kind than the contract says.
         """
-        given = tuple(np.array(arg, copy=True) if isinstance(arg, np.ndarray) else arg for arg in args)
+        right = self._right(args)
+        given = _copied(args)
+        self._changed = False
         try:
             with np.errstate(all="ignore"):
                 value = self.function(*given)
         except StudentError as error:
-            known = next((name for name in error.errors if hasattr(builtins, name)), error.error)
-            self._keep(args, None, known or error.kind)
+            self._keep(args, Answer(None, _known(error.errors) or error.kind), right)
             raise
         except Exception as error:  # one of our own functions, which may be wrong on purpose
-            self._keep(args, None, type(error).__name__)
-            raise StudentError(
-                f"{self.__name__} raised {type(error).__name__}: {error}", "raised", type(error).__name__
-            ) from None
-        self._keep(args, value, "")
+            self._keep(args, raised(error), right)
+            name, names = type(error).__name__, tuple(kind.__name__ for kind in type(error).__mro__)
+            raise StudentError(f"{self.__name__} raised {name}: {error}", "raised", name, errors=names) from None
+        self._keep(args, Answer(value, ""), right)
         pairs = zip(args, given, strict=True)
         self._changed = any(isinstance(arg, np.ndarray) and arg.tobytes() != now.tobytes() for arg, now in pairs)
-        return held_to_contract(value, self._expected(args), self.__name__)
+        if self.changed_inputs:
+            self.changing.append(args)
+        try:
+            return held_to_contract(value, right.value, self.__name__)
+        except StudentError as error:
+            raise StudentError(f"{error}{_asked(args)}", error.kind) from None
 
     @property
     def changed_inputs(self) -> bool:
         """Whether the last call changed what it was given, in a student's process or, for one of ours, in this one."""
         return self._changed or bool(getattr(self.function, "changed_inputs", False))
 
-    def _keep(self, args: tuple[Any, ...], value: Any, error: str) -> None:
+    def _keep(self, args: tuple[Any, ...], answer: Answer, right: Answer) -> None:
         if self._remember:
-            self.calls.append(Call(args, value, error))
+            self.calls.append(Call(args, answer, right))
 
-    def _expected(self, args: tuple[Any, ...]) -> Any:
+    def _right(self, args: tuple[Any, ...]) -> Answer:
+        """Ours; None and an error on input for which the contract asks for one: nothing to hold the answer to."""
         try:
-            return self._reference(*(np.array(arg, copy=True) if isinstance(arg, np.ndarray) else arg for arg in args))
-        except Exception:
-            return None  # degenerate input on which the contract asks for an error: nothing to hold the answer to
+            with np.errstate(all="ignore"):
+                return Answer(self._reference(*_copied(args)), "")
+        except Exception as error:
+            return raised(error)
+
+
+def raised(error: Exception) -> Answer:
+    """Return what a function said that raised this: the name of Python's own error that it is one of."""
+    return Answer(None, _known(kind.__name__ for kind in type(error).__mro__))
+
+
+def _known(names: Iterable[str]) -> str:
+    names = list(names)
+    return next((name for name in names if hasattr(builtins, name)), names[0])
+
+
+def _copied(args: tuple[Any, ...]) -> tuple[Any, ...]:
+    return tuple(np.array(arg, copy=True) if isinstance(arg, np.ndarray) else arg for arg in args)
 
 
 def held_to_contract(value: Any, expected: Any, name: str) -> Any:
@@ -110,9 +162,21 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
     plain = got.astype({"b": np.bool_, "i": np.int64, "u": np.int64}.get(wanted.dtype.kind, np.float64))
     if wanted.dtype.kind == "f" and np.isfinite(wanted).all() and not np.isfinite(plain).all():
         strange = plain[~np.isfinite(plain)]
+        at = tuple(int(i) for i in np.argwhere(~np.isfinite(plain))[0])
         what = f"{plain}" if plain.ndim == 0 else f"{len(strange)} of {plain.size} values not finite"
-        raise StudentError(f"{name} returned {what}; the contract asks for finite numbers", "result")
+        where = f"[{', '.join(map(str, at))}]" if at else "yours"
+        said = f"the contract asks for finite numbers. {where} is {plain[at]}, right is {number(wanted[at])}"
+        raise StudentError(f"{name} returned {what}; {said}", "result")
     return plain if isinstance(expected, np.ndarray) else plain.item()
+
+
+def _asked(args: tuple[Any, ...]) -> str:
+    """Return what was asked, where that is short."""
+    sizes = [np.size(arg) for arg in args]
+    if not 0 < sum(sizes) <= MOST_SHOWN:
+        return ""
+    rows = [number(arg) if isinstance(arg, (np.ndarray, float, int)) else repr(arg) for arg in args]
+    return f" (asked for {', '.join(rows)})"
 
 
 def _kind(value: Any) -> str:

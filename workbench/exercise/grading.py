@@ -1,22 +1,15 @@
 """Judges a function by an exercise's checks, each on its own, and names the mistake it makes."""
 
-import functools
-import warnings
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from workbench.errors import one_line
-from workbench.exercise.candidate import Call, Candidate
+from workbench.exercise.candidate import Candidate
+from workbench.exercise.judging import changed
 from workbench.exercise.model import Check, Exercise, Function, Mistake, Verdict, fail
+from workbench.exercise.naming import concerned, recognised
 from workbench.exercise.sandbox import Patience, Student, StudentError, Wall
 from workbench.exercise.submission import Submission
-
-Answer = Callable[[Function, Call], tuple[Any, str]]
-"""answer(function, call) -> its value, or None and the name of the error."""
 
 
 @dataclass(frozen=True)
@@ -109,24 +102,15 @@ def grade_function(function: Function, exercise: Exercise, *, hidden: bool = Tru
         file: How the report names it.
     """
     outcomes: list[Outcome] = []
-    failing: dict[str, list[Call]] = {}
-    calls: list[Call] = []
+    asked: dict[str, Candidate] = {}
     for check in exercise.checks:
         if check.public or hidden:
-            candidate = Candidate(function, exercise.reference)
-            outcomes.append(_judged(check, candidate))
-            calls += candidate.calls
-            if outcomes[-1].verdict.share < 1.0:
-                failing[check.name] = candidate.calls
-    mistake = None
-    answer = functools.cache(lambda function, call: _answer(function, call.args))
-    for asked in (
-        (calls, *failing.values()) if failing else ()
-    ):  # who makes two mistakes makes only one of them somewhere
-        mistake = mistake or recognised(asked, exercise, answer)
-    concerned = frozenset(
-        name for name, asked in failing.items() if mistake and _makes(mistake, asked, exercise, answer)
-    )
+            asked[check.name] = Candidate(function, exercise.reference)
+            outcomes.append(_judged(check, asked[check.name]))
+    outcomes = _inputs_looked_at(outcomes, asked)
+    failing = {outcome.check.name for outcome in outcomes if outcome.verdict.share < 1.0}
+    calls = {name: candidate.calls for name, candidate in asked.items()}
+    mistake = recognised(calls, failing, exercise)
     ours = not isinstance(function, Student)
     return Report(
         exercise,
@@ -134,7 +118,7 @@ def grade_function(function: Function, exercise: Exercise, *, hidden: bool = Tru
         tuple(outcomes),
         tuple(check for check in exercise.checks if not (check.public or hidden)),
         mistake,
-        concerned,
+        frozenset() if mistake is None else concerned(mistake, calls, failing, exercise),
         "" if ours else function.printed(),
         None if ours else function.wall,
     )
@@ -151,67 +135,12 @@ def _judged(check: Check, candidate: Candidate) -> Outcome:
         return Outcome(check, fail(one_line(f"The answer could not be judged ({type(error).__name__}: {error}).")))
 
 
-def _makes(mistake: Mistake, calls: Sequence[Call], exercise: Exercise, answer: Answer) -> bool:
-    return max(_telling(calls, exercise, form, answer) for form in exercise.forms(mistake)) > 0
-
-
-def recognised(calls: Sequence[Call], exercise: Exercise, answer: Answer) -> Mistake | None:
-    """Return the mistake whose answers equal those of the calls and differ from the right ones; None if there is none.
-
-    Where the contract asks for an error, or leaves the answer open so that right solutions differ, another answer than
-    the mistake's does not speak against it.
-
-    Args:
-        calls: What the student's function was asked, and what it said.
-        exercise: Whose mistakes are compared.
-        answer: Gives what one of our functions says to a call.
-    """
-    best, most = None, 0
-    for mistake in exercise.mistakes:
-        telling = max(_telling(calls, exercise, form, answer) for form in exercise.forms(mistake))
-        if telling > most:
-            best, most = mistake, telling
-    return best
-
-
-def _telling(calls: Sequence[Call], exercise: Exercise, wrong: Function, answer: Answer) -> int:
-    """Return how many calls were answered as a wrong function does where it is wrong; 0 where one speaks against it."""
-    telling = 0
-    for call in calls:
-        right, mistaken = answer(exercise.reference, call), answer(wrong, call)
-        if _alike((call.value, call.error), mistaken):
-            telling += not _alike(mistaken, right)
-        elif not right[1] and all(_alike(answer(other, call), right) for other in exercise.alternatives):
-            return 0
-    return telling
-
-
-def _answer(function: Function, args: tuple[Any, ...]) -> tuple[Any, str]:
-    try:
-        with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):
-            return function(*(np.array(arg, copy=True) if isinstance(arg, np.ndarray) else arg for arg in args)), ""
-    except Exception as error:
-        return None, type(error).__name__
-
-
-def _alike(a: tuple[Any, str], b: tuple[Any, str]) -> bool:
-    (value_a, error_a), (value_b, error_b) = a, b
-    if error_a or error_b:
-        return error_a == error_b
-    return values_alike(value_a, value_b)
-
-
-def values_alike(a: Any, b: Any) -> bool:
-    """Tell whether two answers are the same within rounding: nested tuples, arrays, numbers."""
-    if isinstance(a, (tuple, list)) or isinstance(b, (tuple, list)):
-        listed = isinstance(a, (tuple, list)) and isinstance(b, (tuple, list)) and len(a) == len(b)
-        if listed:
-            return all(values_alike(x, y) for x, y in zip(a, b, strict=True))
-    try:
-        first, second = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
-    except (TypeError, ValueError):
-        return a is None and b is None
-    scale = max(1e-12, float(np.abs(second[np.isfinite(second)]).max(initial=0.0)))
-    return first.shape == second.shape and bool(
-        np.allclose(first, second, rtol=1e-6, atol=1e-7 * scale, equal_nan=True)
-    )
+def _inputs_looked_at(outcomes: list[Outcome], asked: dict[str, Candidate]) -> list[Outcome]:
+    """Let the check that inputs stay as they are fail where any call of any check changed them."""
+    changing = [args for candidate in asked.values() for args in candidate.changing]
+    return [
+        replace(outcome, verdict=changed(changing[0]))
+        if changing and asked[outcome.check.name].looks_at_inputs and outcome.verdict.share == 1.0
+        else outcome
+        for outcome in outcomes
+    ]

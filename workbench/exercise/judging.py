@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from workbench.exercise.candidate import Candidate
-from workbench.exercise.model import Function, Verdict, band, fail, full, partial
+from workbench.exercise.model import Function, Verdict, band, fail, full, number, partial
 from workbench.exercise.sandbox import StudentError
 
 SKEWED = 1e-5  # how far R^T R may be from the identity: rounding, also of single precision
@@ -20,12 +20,18 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
     return min(verdicts, key=lambda verdict: verdict.share)
 
 
-def rotation_verdict(R: np.ndarray, R_right: np.ndarray, hint: str, *, good: float = 0.1, fair: float = 2.0) -> Verdict:
+def rotation_verdict(
+    R: np.ndarray, R_right: np.ndarray, hint: str, *, good: float = 0.1, fair: float = 2.0, name: str = "R"
+) -> Verdict:
     """Judge a rotation by the angle to the right one, in degrees; what is no rotation earns nothing."""
+    hint = beside(R, R_right, hint, name)
     off, det = float(np.abs(R.T @ R - np.eye(3)).max()), float(np.linalg.det(R))
     if off > SKEWED or det < 0:
+        if off <= SKEWED:
+            return fail(f"{name} mirrors: its determinant is {number(det, 3)}, right is 1. {hint}")
         return fail(
-            f"This is no rotation: R^T R differs from the identity by {off:.2g}, its determinant is {det:.3g}. {hint}"
+            f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}, its determinant is "
+            f"{number(det, 3)}. {hint}"
         )
     return band("Rotation error", degrees_between(R, R_right), "degrees", good=good, fair=fair, hint=hint)
 
@@ -38,6 +44,7 @@ def motion_verdict(
     p: np.ndarray | None = None,
     degrees: tuple[float, float] = (0.1, 2.0),
     metres: tuple[float, float] = (1e-3, 2e-2),
+    name: str = "T",
 ) -> Verdict:
     """Judge a motion by its rotation error in degrees and by how far it takes points from where they belong.
 
@@ -48,14 +55,16 @@ def motion_verdict(
         p: The points, in metres; the origin where they are not given.
         degrees: Up to where all, and up to where half the points are earned.
         metres: The same for the largest distance.
+        name: What the answer is called.
     """
     off = float(np.abs(T[3] - [0.0, 0.0, 0.0, 1.0]).max())
     if off > SKEWED:
-        return fail(f"The last row of a motion is (0, 0, 0, 1), yours is off by {off:.3g}. {hint}")
-    turned = rotation_verdict(T[:3, :3], T_right[:3, :3], hint, good=degrees[0], fair=degrees[1])
+        return fail(f"The last row of {name} is {number(T[3])}, right is (0, 0, 0, 1). {hint}")
+    turned = rotation_verdict(T[:3, :3], T_right[:3, :3], hint, good=degrees[0], fair=degrees[1], name=name)
     p = np.zeros((1, 3)) if p is None else p
     away = np.linalg.norm(p @ (T - T_right)[:3, :3].T + (T - T_right)[:3, 3], axis=1).max()
-    moved = band("Position error", float(away), "m", good=metres[0], fair=metres[1], hint=hint)
+    told = beside(T[:3, 3], T_right[:3, 3], hint, "The rotation is right; the last column" if turned.share == 1 else "t")
+    moved = band("Position error", float(away), "m", good=metres[0], fair=metres[1], hint=told)
     if turned.share == moved.share == 1.0:
         return full(f"{turned.message} {moved.message}")
     return worst((turned, moved))
@@ -83,14 +92,64 @@ def refused(candidate: Function, *args: Any, what: str) -> Verdict:
 
 
 def left_alone(candidate: Function, verdict: Verdict) -> Verdict:
-    """Return the verdict on the last call's answer, or the failure to leave the arguments as they were."""
-    if isinstance(candidate, Candidate) and candidate.changed_inputs:
-        return fail(
-            "Your function changed an array that it was given. Work on a copy: a /= b writes into a, a = a / b not."
-        )
+    """Return the verdict on the last call's answer, or the failure to leave the arguments as they were.
+
+    The check that returns this one fails too where any call of another check changed its arguments.
+    """
+    if isinstance(candidate, Candidate):
+        candidate.looks_at_inputs = True
+        if candidate.changing:
+            return changed(candidate.changing[0])
     if verdict.share < 1.0:
         return fail(f"The inputs are as they were, but the answer is not right. {verdict.message}")
     return full("The inputs are as they were.")
+
+
+def changed(args: tuple[Any, ...]) -> Verdict:
+    """Return the failure to leave these arguments as they were."""
+    arrays = [arg.ravel() for arg in args if isinstance(arg, np.ndarray) and arg.dtype.kind in "biuf"]
+    values = np.concatenate(arrays) if arrays else np.zeros(0)
+    with np.errstate(invalid="ignore"):
+        what = (
+            " with nan in it"
+            if np.isnan(values).any()
+            else " with inf in it"
+            if np.isinf(values).any()
+            else " without entries"
+            if any(array.size == 0 for array in arrays)
+            else ""
+        )
+    return fail(
+        f"Your function changed an array{what} that it was given. Work on a copy: a /= b writes into a, a = a / b not."
+    )
+
+
+def beside(got: Any, right: Any, hint: str, name: str = "") -> str:
+    """Return the hint behind the two numbers, yours and the right one, where an answer is farthest off.
+
+    Args:
+        got: The answer: a number, a vector, a matrix, or points in rows, of which the whole row is told.
+        right: The right one, of the same shape.
+        hint: What to look at.
+        name: What the answer is called, such as R.
+    """
+    got, right = np.asarray(got, dtype=float), np.asarray(right, dtype=float)
+    if got.shape != right.shape or got.size == 0:
+        return hint
+    with np.errstate(invalid="ignore"):
+        off = np.abs(got - right)
+    off = np.where(np.isnan(off), np.where(np.isnan(got) == np.isnan(right), 0.0, np.inf), off)
+    is_rows = right.ndim == 2 and right.shape[1] <= 3 and right.shape[0] != right.shape[1]
+    if is_rows:
+        at = (int(np.argmax(off.max(axis=1))),)
+    elif right.ndim == 1 and right.size <= 4:
+        at = ()
+    else:
+        at = tuple(int(i) for i in np.unravel_index(int(np.argmax(off)), off.shape))
+    where = f"{name or ''}[{', '.join(map(str, at))}]" if at else name
+    where = f"Row {at[0]}" if is_rows and not name else where
+    yours, wanted = number(got[at]), number(right[at])
+    return f"{where or 'Yours'} is {yours}, right is {wanted}. {hint}"
 
 
 def _short(value: Any) -> str:

@@ -7,12 +7,14 @@ A check gets the candidate, a callable that runs the student's function in anoth
 and returns a `Verdict`. It judges geometry in degrees and metres, properties and contracts, never bits.
 """
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sized
 from dataclasses import dataclass
 from types import ModuleType
 from typing import Any
 
 from workbench.errors import InputError
+from workbench.numerals import brief, fixed_or_power
 
 Function = Callable[..., Any]
 
@@ -51,12 +53,23 @@ def fail(message: str) -> Verdict:
 
 def band(what: str, value: float, unit: str, *, good: float, fair: float, hint: str) -> Verdict:
     """Judge a number that should be small: all points up to `good`, half up to `fair`, none beyond or where it is NaN."""
-    shown = f"{what} {value:.3g} {unit}".rstrip()
+    shown = f"{what} {number(value, 3)} {unit}".rstrip()
+    limit = f"{brief(good)} {unit}".rstrip()
     if value <= good:
-        return full(f"{shown}, within {good:g} {unit}".rstrip() + ".")
+        return full(f"{shown}, within {limit}.")
     if value <= fair:
-        return partial(0.5, f"{shown}: close, full marks need {good:g} {unit}".rstrip() + f". {hint}")
-    return fail(f"{shown}, at most {good:g} {unit} was asked for".rstrip() + f". {hint}")
+        return partial(0.5, f"{shown}: close, full marks need {limit}. {hint}")
+    return fail(f"{shown}, at most {limit} was asked for. {hint}")
+
+
+def number(value: Any, digits: int = 4) -> str:
+    """Write a number of an answer as messages do, several in brackets; nan and inf as Python writes them."""
+    if isinstance(value, Sized) and getattr(value, "ndim", 1):
+        return f"({', '.join(number(one, digits) for one in value)})"
+    value = float(value)
+    if not math.isfinite(value):
+        return f"{value:g}".replace("-", "−")
+    return brief(value, digits) if abs(value) < 1e7 else fixed_or_power(value, 0)
 
 
 @dataclass(frozen=True)
@@ -142,6 +155,11 @@ class Mistake:
         """The function's name, in words."""
         return self.function.__name__.replace("_", " ")
 
+    @property
+    def spares_the_rest(self) -> bool:
+        """Whether the sentence says that all else is right: it is told only where that is so."""
+        return self.sentence.startswith("All is right")
+
     def __call__(self, *args: Any) -> Any:
         """Return the wrong answer."""
         return self.function(*args)
@@ -204,11 +222,6 @@ class Exercise:
     def points(self) -> float:
         """What all checks are worth together."""
         return sum(item.points for item in self.checks)
-
-    def forms(self, item: Mistake) -> tuple[Function, ...]:
-        """Return a mistake's function, and the one with the other answers where the contract leaves open which is given."""
-        either = self.contract.either
-        return (item.function,) if either is None else (item.function, lambda *args: either(item.function(*args)))
 
 
 def exercise_in(module: ModuleType, lesson: str) -> Exercise:

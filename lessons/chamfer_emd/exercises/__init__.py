@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from workbench.exercise import Function, Verdict, fail, full, partial, refused, worst
+from workbench.exercise import Function, Verdict, fail, full, number, partial, refused, worst
 from workbench.geometry.motions import apply, exp_so3, motion
 
 STUDENTS, GRADERS = 53, 7718  # seeds of what a student sees run, and of what only a grader does
@@ -19,12 +19,12 @@ def value_verdict(got: float, right: float, unit: str, hint: str, what: str = ""
     yours = f"{what}yours" if what else "Yours"
     if right == 0.0:
         if abs(got) <= ZERO:
-            return full(f"{what}{got:.2g} {unit}, as good as 0.")
-        return fail(f"{yours} is {got:.4g} {unit}, right is 0. {hint}")
+            return full(f"{what}{number(got, 2)} {unit}, as good as 0.")
+        return fail(f"{yours} is {number(got)} {unit}, right is 0. {hint}")
     off = 100 * abs(got - right) / right
     if off <= 0.01:
-        return full(f"{what}{got:.4g} {unit}, right within 0.01 %.")
-    said = f"{yours} is {got:.5g} {unit}, right is {right:.5g} {unit}: {off:.3g} % off"
+        return full(f"{what}{number(got)} {unit}, right within 0.01 %.")
+    said = f"{yours} is {number(got, 5)} {unit}, right is {number(right, 5)} {unit}: {number(off, 3)} % off"
     if off <= 1:
         return partial(0.5, f"{said}, close; full marks need 0.01 %. {hint}")
     return fail(f"{said}. {hint}")

@@ -4,7 +4,7 @@ import numpy as np
 
 from workbench.data import surfaces
 from workbench.data.surfaces import Surface
-from workbench.exercise import Verdict, band, fail, partial
+from workbench.exercise import Verdict, band, fail, number, partial
 from workbench.geometry.meshes import face_areas, on_boundary
 from workbench.geometry.motions import exp_so3
 
@@ -47,10 +47,14 @@ def curvature_verdict(
     """
     got, right = got.reshape(len(got), -1), right.reshape(len(right), -1)
     inside = ~np.isnan(right).any(axis=1)
-    lost = int((~np.isfinite(got[inside])).any(axis=1).sum())
-    if lost:
-        return fail(f"{what}{lost} of {inside.sum()} vertices inside the border have no finite value. {hint}")
-    off = np.linalg.norm(got[inside] - right[inside], axis=1).max()
+    lost = np.flatnonzero(inside & ~np.isfinite(got).all(axis=1))
+    if lost.size:
+        i = lost[0]
+        said = f"{what}{lost.size} of {inside.sum()} vertices inside the border have no finite value. At vertex {i} yours is"
+        return fail(f"{said} {number(got[i].squeeze())}, right is {number(right[i].squeeze())}. {hint}")
+    away = np.where(inside, np.linalg.norm(got - np.where(inside[:, None], right, got), axis=1), 0.0)
+    i, off = int(np.argmax(away)), away.max()
+    told = f"At vertex {i} yours is {number(got[i].squeeze())}, right is {number(right[i].squeeze())}. {hint}"
     size = size or float(np.linalg.norm(right[inside], axis=1).max())
     verdict = band(
         f"{what}largest error" if what else "Largest error",
@@ -58,7 +62,7 @@ def curvature_verdict(
         "%",
         good=good,
         fair=fair,
-        hint=hint,
+        hint=told,
     )
     stray = int((~np.isnan(got[~inside])).any(axis=1).sum())
     if stray and verdict.share > 0:

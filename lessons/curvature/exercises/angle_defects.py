@@ -17,7 +17,19 @@ from lessons.curvature.exercises import (
     with_a_flat_face,
 )
 from workbench.data import surfaces
-from workbench.exercise import Function, Verdict, alternative, band, check, contract, full, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    band,
+    check,
+    contract,
+    full,
+    left_alone,
+    mistake,
+    number,
+    worst,
+)
 from workbench.geometry import curvature
 from workbench.geometry.laplacian import mixed_areas
 from workbench.geometry.meshes import euler_characteristic, face_angles, on_boundary
@@ -43,9 +55,11 @@ def renumbered(p: np.ndarray, faces: np.ndarray, rng: np.random.Generator) -> Me
 def defects_verdict(candidate: Function, mesh: Mesh, hint: str) -> Verdict:
     """Judge angle defects by the largest error in degrees, and say where it is."""
     p, faces = mesh
-    off = np.degrees(np.abs(candidate(p, faces) - curvature.angle_defects(p, faces)))
+    got, right = candidate(p, faces), curvature.angle_defects(p, faces)
+    off = np.degrees(np.abs(got - right))
     i, border = int(np.argmax(off)), on_boundary(faces, len(p))
-    where = f"It is worst at vertex {i}, {'on the border' if border[i] else 'inside the mesh'}. {hint}"
+    place = "on the border" if border[i] else "inside the mesh"
+    where = f"At vertex {i}, {place}, yours is {number(got[i])}, right is {number(right[i])}. {hint}"
     return band("Largest error", float(off[i]), "degrees", good=0.01, fair=1.0, hint=where)
 
 
@@ -108,7 +122,7 @@ def gauss_bonnet(candidate: Function) -> Verdict:
         p = surfaces.with_noise(mesh, 0.02, np.random.default_rng(GRADERS + k)).p
         chi = euler_characteristic(mesh.faces)
         total = float(np.degrees(candidate(p, mesh.faces).sum()))
-        what = f"On a {name} with noise the sum is {total:.6g} degrees, not {360 * chi}: error"
+        what = f"On a {name} with noise your sum is {number(total, 6)} degrees, right is {360 * chi}: error"
         said = band(what, abs(total - 360 * chi), "degrees", good=0.01, fair=1.0, hint=DEFECT_HINT)
         verdicts.append(full("The four sums are 720, 0, 0 and 360 degrees.") if said.share == 1.0 else said)
     return worst(verdicts)

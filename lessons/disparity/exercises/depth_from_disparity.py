@@ -17,6 +17,7 @@ from workbench.exercise import (
     full,
     left_alone,
     mistake,
+    number,
     partial,
     worst,
 )
@@ -59,7 +60,7 @@ def depth_verdict(got: np.ndarray, right: np.ndarray, what: str = "") -> Verdict
     """Judge depths by the largest relative error, per cent, and say where it is."""
     off = np.abs(got - right) / right
     i = np.unravel_index(np.argmax(np.where(np.isfinite(off), off, np.inf)), off.shape)
-    hint = f"{float(right[i]):.4g} m came out as {float(got[i]):.4g} m. {DEPTH_HINT}"
+    hint = f"Yours is {number(got[i])} m, right is {number(right[i])} m. {DEPTH_HINT}"
     return band(
         f"{what}largest error" if what else "Largest error", 100 * float(off[i]), "%", good=0.01, fair=5, hint=hint
     )
@@ -113,10 +114,10 @@ def infinite_and_unknown(candidate: Function) -> Verdict:
     for d, right in wanted:
         got = float(candidate(np.array([d, 10.0]), 500.0, 0.1)[0])
         if not (got == right or (np.isnan(got) and np.isnan(right))):
-            wrong.append(f"d = {d:g} gave {got:.3g} m, {right:g} was asked for")
+            wrong.append(f"for d = {number(d)} yours is {number(got)} m, right is {number(right)}")
     if not wrong:
         return full("0 gives inf, nan gives nan, -3.5 gives nan.")
-    said = "; ".join(wrong) + "."
+    said = "; ".join(wrong).capitalize() + "."
     return partial((3 - len(wrong)) / 3, said) if len(wrong) < 3 else fail(said)
 
 

@@ -19,6 +19,7 @@ from workbench.exercise import (
     full,
     left_alone,
     mistake,
+    number,
     partial,
     refused,
     worst,
@@ -83,7 +84,7 @@ def cells_verdict(
     if not wrong.any():
         return full(f"{what}{judged.sum()} of {judged.sum()} costs are right.")
     d, y, x = (int(i) for i in np.argwhere(wrong)[0])
-    first = f"cost[{d}, {y}, {x}] is {got[d, y, x]:.4g}, not {right[d, y, x]:.4g}"
+    first = f"cost[{d}, {y}, {x}] is {number(got[d, y, x])}, right is {number(right[d, y, x])}"
     said = f"{what}{wrong.sum()} of {judged.sum()} costs are wrong; {first}. {hint}"
     return partial(0.5, said) if wrong.sum() <= 0.05 * judged.sum() else fail(said)
 
@@ -128,8 +129,8 @@ def _infinite(cost: np.ndarray) -> Verdict:
         return full(f"All {(x < d).sum()} such costs are inf.")
     k, y, u = (int(i) for i in np.argwhere(finite)[0])
     return fail(
-        f"{finite.sum()} of {(x < d).sum()} such costs are not inf: cost[{k}, {y}, {u}] is {cost[k, y, u]:.4g}, "
-        f"but the right picture has no column {u - k}."
+        f"{finite.sum()} of {(x < d).sum()} of them are not: cost[{k}, {y}, {u}] is {number(cost[k, y, u])}, right is "
+        f"inf: the right picture has no column {u - k}."
     )
 
 

@@ -83,7 +83,9 @@ def two_boards(candidate: Function) -> Verdict:
     left, right = (np.concatenate(halves) for halves in zip(*boards, strict=True))
     got = candidate(cost_volume.sad_cost_volume(left, right, 12, 3))[:, 9:]
     off = np.abs(got - np.repeat([[3], [9]], 8, axis=0)) > 1
-    hint = f"The near one is at 9 px, the far one at 3 px. {WINNER_HINT}"
+    y, x = np.unravel_index(int(np.argmax(off)), off.shape)
+    told = f"At (y, x) = ({y}, {x + 9}) yours is {got[y, x]}, right is {3 if y < 8 else 9}."
+    hint = f"The far board is at 3 px, the near one at 9 px. {told} {WINNER_HINT}"
     return band("Pixels off by over 1 px", 100 * float(off.mean()), "%", good=5, fair=20, hint=hint)
 
 

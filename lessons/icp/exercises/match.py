@@ -17,6 +17,7 @@ from workbench.exercise import (
     full,
     left_alone,
     mistake,
+    number,
     partial,
     refused,
     worst,
@@ -53,16 +54,20 @@ MATCH_HINT = "For each source point on its own: the smallest Euclidean distance 
 
 def nearest_found(candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = MATCH_HINT) -> Verdict:
     """Judge partners by their distance: all for the nearest everywhere, half where 19 of 20 have it."""
-    indices = candidate(p_target, p_source)
+    indices, wanted = candidate(p_target, p_source), nearest(p_target, p_source)
     outside = int(((indices < 0) | (indices >= len(p_target))).sum())
     if outside:
-        return fail(f"{outside} indices are outside 0 to {len(p_target) - 1}. {hint}")
-    best = np.linalg.norm(p_target[nearest(p_target, p_source)] - p_source, axis=1)
+        said = f"{outside} indices are outside 0 to {len(p_target) - 1}"
+        k = int(np.argmax((indices < 0) | (indices >= len(p_target))))
+        return fail(f"{said}: [{k}] is {indices[k]}, right is {wanted[k]}. {hint}")
+    best = np.linalg.norm(p_target[wanted] - p_source, axis=1)
     more = np.linalg.norm(p_target[indices] - p_source, axis=1) - best
     wrong = int((more > 1e-9).sum())
-    said = f"{wrong} of {len(indices)} partners are not the nearest, by up to {more.max(initial=0.0):.2g} m."
     if wrong == 0:
         return full(f"All {len(indices)} partners are the nearest.")
+    k = int(np.argmax(more))
+    said = f"{wrong} of {len(indices)} partners are not the nearest. [{k}] is {indices[k]}, right is {wanted[k]}: "
+    said += f"{number(more[k], 2)} m nearer."
     return partial(0.5, f"{said} {hint}") if wrong <= 0.05 * len(indices) else fail(f"{said} {hint}")
 
 

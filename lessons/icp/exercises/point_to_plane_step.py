@@ -16,6 +16,7 @@ from workbench.exercise import (
     left_alone,
     mistake,
     motion_verdict,
+    number,
     worst,
 )
 from workbench.geometry import alignment
@@ -85,9 +86,11 @@ def arrived(candidate: Function, seed: int, degrees: float, metres: float, aside
     for _ in range(6):
         T = candidate(p_target, apply(T, p_source), n_target) @ T
         if not np.abs(T).max() < 1e9:
-            return fail(f"The steps run away: after six a number is {np.abs(T).max():.2g}. {STEP_HINT}")
+            most = number(np.abs(T).max(), 2)
+            return fail(f"The steps run away: the largest number of T is {most}, right is below 10. {STEP_HINT}")
     away = motion(off[:3, :3], c + off[:3, 3] - off[:3, :3] @ c)
-    return motion_verdict(T @ away, np.eye(4), STEP_HINT, p=p_true)
+    said = f"T_left is the motion that is left after six steps. {STEP_HINT}"
+    return motion_verdict(T @ away, np.eye(4), said, p=p_true, name="T_left")
 
 
 @check(1)
@@ -173,7 +176,10 @@ def sign_of_the_gap(p_target: np.ndarray, p_source: np.ndarray, n_target: np.nda
     return motion(exp_so3(w), v)
 
 
-@mistake("Your translation is right and your rotation turns backwards. (w x p) · n = w · (p x n): p x n, not n x p.")
+@mistake(
+    "Your translation is right and your rotation turns backwards. (w x p) · n = w · (p x n), so the rows hold p x n and "
+    "not n x p; and R turns by w, its transpose by -w."
+)
 def cross_product_turned_round(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
     """Uses n x p for p x n."""
     w, v = linear(p_source, n_target, gaps(p_target, p_source, n_target))

@@ -13,6 +13,7 @@ from workbench.exercise import (
     Verdict,
     alternative,
     band,
+    beside,
     check,
     contract,
     fail,
@@ -58,10 +59,10 @@ def some_cameras(seed: int, n: int = 5) -> Iterator[tuple[np.ndarray, np.ndarray
         yield eye, cameras.look_at(eye, rng.uniform(-1, 1, 3), rng.normal(size=3))
 
 
-def placed(got: np.ndarray, right: np.ndarray) -> Verdict:
+def placed(got: np.ndarray, right: np.ndarray, name: str = "C") -> Verdict:
     """Judge a camera's place by the distance to the right one."""
     error = float(np.linalg.norm(got - right))
-    return band("Camera is off by", error, "m", good=1e-3, fair=2e-2, hint=CENTER_HINT)
+    return band("Camera is off by", error, "m", good=1e-3, fair=2e-2, hint=beside(got, right, CENTER_HINT, name))
 
 
 @check(2)
@@ -76,7 +77,7 @@ def goes_to_the_origin(candidate: Function) -> Verdict:
     verdicts = []
     for _, T_camera_world in some_cameras(STUDENTS + 1):
         p_camera = T_camera_world[:3, :3] @ candidate(T_camera_world) + T_camera_world[:3, 3]
-        verdicts.append(placed(p_camera, np.zeros(3)))
+        verdicts.append(placed(p_camera, np.zeros(3), "R C + t"))
     return worst(verdicts)
 
 

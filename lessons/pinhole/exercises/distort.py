@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.pinhole.exercises import GRADERS, STUDENTS
-from workbench.exercise import Function, Verdict, alternative, band, check, contract, left_alone, mistake, worst
+from workbench.exercise import Function, Verdict, alternative, band, beside, check, contract, left_alone, mistake, worst
 from workbench.geometry import distortion
 
 
@@ -55,7 +55,7 @@ def some_rays(seed: int, n: int = 60) -> np.ndarray:
 def bent(got: np.ndarray, right: np.ndarray, hint: str = DISTORT_HINT) -> Verdict:
     """Judge normalised coordinates by the pixels by which a camera with f = 600 px would be off."""
     error = F * float(np.linalg.norm(got - right, axis=1).max(initial=0.0))
-    return band("Largest error at f = 600 px", error, "px", good=0.01, fair=1.0, hint=hint)
+    return band("Largest error at f = 600 px", error, "px", good=0.01, fair=1.0, hint=beside(got, right, hint))
 
 
 def _bent(candidate: Function, xy: np.ndarray, *lens: float) -> Verdict:

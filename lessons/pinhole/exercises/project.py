@@ -8,7 +8,20 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.pinhole.exercises import GRADERS, STUDENTS
-from workbench.exercise import Function, Verdict, alternative, band, check, contract, fail, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    band,
+    beside,
+    check,
+    contract,
+    fail,
+    left_alone,
+    mistake,
+    number,
+    worst,
+)
 from workbench.geometry import cameras
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
@@ -60,13 +73,16 @@ def some_scenes(seed: int, n: int = 4, size: int = 40) -> Iterator[tuple[np.ndar
 
 def in_pixels(uv: np.ndarray, right: np.ndarray, hint: str) -> Verdict:
     """Judge pixels by the largest distance to the right ones; a row that should be NaN and is not, or the reverse, fails."""
-    seen, given = np.isfinite(right).all(axis=1), np.isfinite(uv).all(axis=1)
-    if (lost := int((seen & ~given).sum())) > 0:
-        return fail(f"{lost} of {seen.sum()} points in front of the camera got no pixel. {hint}")
-    if (false := int((given & ~seen).sum())) > 0:
-        return fail(f"{false} of {(~seen).sum()} points at or behind the camera got a pixel; their rows must be NaN.")
+    seen, given, unknown = np.isfinite(right).all(axis=1), np.isfinite(uv).all(axis=1), np.isnan(uv).all(axis=1)
+    if (lost := np.flatnonzero(seen & ~given)).size:
+        k = lost[0]
+        told = f"Row {k} is {number(uv[k])}, right is {number(right[k])}. {hint}"
+        return fail(f"{lost.size} of {seen.sum()} points in front of the camera got no pixel. {told}")
+    if (false := np.flatnonzero(~seen & ~unknown)).size:
+        said = f"{false.size} of {(~seen).sum()} points at or behind the camera got a row that is not NaN."
+        return fail(f"{said} Row {false[0]} is {number(uv[false[0]])}, right is (nan, nan). {hint}")
     error = float(np.linalg.norm(uv[seen] - right[seen], axis=1).max(initial=0.0))
-    return band("Largest pixel error", error, "px", good=0.01, fair=1.0, hint=hint)
+    return band("Largest pixel error", error, "px", good=0.01, fair=1.0, hint=beside(uv, right, hint))
 
 
 @check(1)
@@ -132,7 +148,9 @@ def camera_amid_points(candidate: Function) -> Verdict:
     (p_world, T_camera_world, K), *_ = some_scenes(GRADERS + 2, size=200)
     amid = motion(T_camera_world[:3, :3], np.array([0.1, -0.2, 0.3]))
     behind = motion(np.eye(3), np.array([0.0, 0.0, -50.0]))
-    cases = ((p_world, amid, K), (p_world[:0], amid, K), (p_world, behind, K))
+    beside_it = np.array([[1.0, 1.0, 0.0], [-2.0, 0.5, 0.0], [0.3, -0.1, 1e-3]])
+    skewed = cameras.intrinsics(500.0, 310.0, 245.0, skew=20.0)
+    cases = ((p_world, amid, K), (p_world[:0], amid, K), (p_world, behind, K), (beside_it, np.eye(4), skewed))
     return worst(in_pixels(candidate(*case), cameras.project(*case), PROJECT_HINT) for case in cases)
 
 

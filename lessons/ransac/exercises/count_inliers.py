@@ -65,7 +65,7 @@ def count_verdict(got: int, right: int, n: int, what: str, hint: str = COUNT_HIN
     """Judge a count: all for the exact one, half where at most one point in a hundred is too many or too few."""
     if got == right:
         return full(f"{what}: {got} of {n} points are inliers.")
-    said = f"{what}: you count {got} of {n} points, {right} are inliers. {hint}"
+    said = f"{what}: yours is {got} of {n} points, right is {right}. {hint}"
     return partial(0.5, said) if abs(got - right) <= 0.01 * n else fail(said)
 
 
@@ -251,10 +251,10 @@ def divided_by_all_four(plane: np.ndarray, p: np.ndarray, inlier_distance: float
 
 
 @mistake(
-    "You subtract the far points from all. A comparison with nan is always false, so what is nan counts as "
-    "near: count the near ones."
+    "All is right but nan, which you count as near. A comparison with nan is always false: count where <= is true, do "
+    "not subtract the far points from all, and do not put a number in the place of nan."
 )
-def far_subtracted(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
+def nan_is_near(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Counts whatever is not far, nan as well."""
     return len(p) - int((np.abs(signed(plane, p)) > inlier_distance).sum())
 

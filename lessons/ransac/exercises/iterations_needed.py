@@ -19,6 +19,7 @@ from workbench.exercise import (
     fail,
     full,
     mistake,
+    number,
     partial,
     worst,
 )
@@ -60,7 +61,7 @@ def needed_verdict(candidate: Function, w: float, s: int, confidence: float, hin
     case = f"{100 * w:g} % inliers, {s} in a sample, {100 * confidence:g} % confidence"
     if got == right:
         return full(f"{case}: {right:.12g} {'sample' if right == 1.0 else 'samples'}.")
-    said = f"{case}: you say {got:.12g}, right is {right:.12g}."
+    said = f"{case}: yours is {number(got, 12)}, right is {number(right, 12)}."
     if got < 1.0:
         return fail(f"{said} Nobody can do with less than one sample. {hint}")
     if got < right < np.inf:
@@ -104,7 +105,10 @@ def no_outliers(candidate: Function) -> Verdict:
 def the_smallest_that_is_enough(candidate: Function) -> Verdict:
     """N samples are all spoilt in at most the share of runs that the confidence leaves, N - 1 in more."""
     rng = np.random.default_rng(GRADERS + 70)
-    return worst(needed_verdict(candidate, *a_case(rng)) for _ in range(8))
+    exact = ((0.5, 1, 1 - 0.5**n) for n in (1, 2, 4, 8))  # n samples are just enough, and logarithms say so exactly
+    hint = f"Just enough is enough. {NEEDED_HINT}"
+    boundary = [needed_verdict(candidate, *case, hint) for case in exact]
+    return worst([*(needed_verdict(candidate, *a_case(rng)) for _ in range(8)), *boundary])
 
 
 @check(2, public=False)
@@ -130,8 +134,8 @@ def rarely_clean(candidate: Function) -> Verdict:
     except StudentError as error:
         if error.kind != "result":
             raise
-        return fail(f"{error}; right is {right:.7g}. {hint}")
-    what = f"1 % inliers, 9 in a sample: you say {got:.7g}, right is {right:.7g}; off by"
+        return fail(f"{error}; right is {number(right)}. {hint}")
+    what = f"1 % inliers, 9 in a sample: yours is {number(got)}, right is {number(right)}; off by"
     return band(what, 100 * abs(got - right) / right, "%", good=1e-4, fair=1.0, hint=hint)
 
 

@@ -20,6 +20,7 @@ from workbench.exercise import (
     full,
     left_alone,
     mistake,
+    number,
     partial,
     worst,
 )
@@ -78,17 +79,23 @@ def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) 
         what: How the message begins.
     """
     if not np.isfinite(got).all():
-        return fail(f"{what}: you returned {np.array2string(got, precision=3)}, but there is one plane. {NAN_HINT}")
+        return fail(f"{what}: yours is {number(got)}, right is {number(right)}. {NAN_HINT}")
     length, size = float(np.linalg.norm(got[:3])), float(np.ptp(p, axis=0).max())
     if abs(length - 1.0) > NO_UNIT:
-        said = f"Your normal is {length:.3g} long and not 1, so distances come out {length:.3g} times as large."
+        said = f"The length of your normal is {number(length)}, right is 1: distances come out as many times as large."
         return fail(f"{what}: {said}")
     degrees = float(np.degrees(np.arctan2(np.linalg.norm(np.cross(got[:3], right[:3])), abs(got[:3] @ right[:3]))))
     away = float(np.abs(p @ got[:3] + got[3]).max())
-    turned = band(f"{what}: normal off by", round(degrees, 9), "degrees", good=0.01, fair=1.0, hint=NORMAL_HINT)
+    side = np.where(got[:3] @ right[:3] < 0, -right, right)
+    told = f"Yours is {number(got)}, right is {number(side)} or its negative."
+    turned = band(
+        f"{what}: normal off by", round(degrees, 9), "degrees", good=0.01, fair=1.0, hint=f"{told} {NORMAL_HINT}"
+    )
     unit = 10.0 ** round(np.log10(size))
     away = away if away > 1e-9 * unit else 0.0  # rounding is not worth reading
-    moved = band(f"{what}: plane off the points by", away, "m", good=1e-6 * unit, fair=1e-2 * unit, hint=OFFSET_HINT)
+    moved = band(
+        f"{what}: plane off the points by", away, "m", good=1e-6 * unit, fair=1e-2 * unit, hint=f"{told} {OFFSET_HINT}"
+    )
     return worst((turned, moved))
 
 
@@ -102,7 +109,7 @@ def no_plane(got: np.ndarray, what: str) -> Verdict:
     unknown = int(np.isnan(got).sum())
     if unknown == len(got):
         return full(f"{what}: four nan.")
-    said = f"{what}: you returned {np.array2string(got, precision=3)}, four nan were asked for. Many planes fit."
+    said = f"{what}: yours is {number(got)}, right is four nan: many planes fit."
     return partial(0.5, said) if unknown else fail(said)
 
 
@@ -184,6 +191,8 @@ def small_large_and_far(candidate: Function) -> Verdict:
     thin = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.5, 1e-4, 1.0]])
     verdicts.append(found(candidate, far, "1 km away"))
     verdicts.append(found(candidate, thin, "1 m long and 0.1 mm high"))
+    verdicts.append(found(candidate, thin * [1e-3, 1e-3, 1.0], "1 mm long and 0.1 µm high"))
+    verdicts.append(found(candidate, 1e-6 * thin, "1 µm long and a ten-thousandth of that high"))
     return worst(verdicts)
 
 

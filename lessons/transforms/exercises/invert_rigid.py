@@ -60,7 +60,7 @@ INVERT_HINT = "Solve p_a = R p_b + t for p_b."
 def there_and_back(candidate: Function) -> Verdict:
     """A point that goes from b to a and back is where it was."""
     return worst(
-        motion_verdict(candidate(T) @ T, np.eye(4), INVERT_HINT, p=some_points(STUDENTS))
+        motion_verdict(candidate(T) @ T, np.eye(4), INVERT_HINT, p=some_points(STUDENTS), name="(T_b_a @ T_a_b)")
         for T in some_motions(STUDENTS)
     )
 
@@ -97,7 +97,7 @@ def special_motions(candidate: Function) -> Verdict:
 
 
 def _right(T: np.ndarray, T_back: np.ndarray) -> Verdict:
-    return motion_verdict(T_back @ T, np.eye(4), INVERT_HINT, p=some_points(GRADERS))
+    return motion_verdict(T_back @ T, np.eye(4), INVERT_HINT, p=some_points(GRADERS), name="(T_b_a @ T_a_b)")
 
 
 @mistake("You returned (R^T, -t). The translation is undone in frame a, but R^T turns it first: it must be -R^T t.")

@@ -18,6 +18,7 @@ from workbench.exercise import (
     degrees_between,
     left_alone,
     mistake,
+    number,
     refused,
     rotation_verdict,
     worst,
@@ -114,7 +115,8 @@ def special_angles(candidate: Function) -> Verdict:
         for v in (0.0, np.pi, -np.pi, 7.5)
     ]
     tiny = degrees_between(candidate(axis, 1e-6), np.eye(3)) / np.degrees(1e-6)
-    kept = band("Relative error of an angle of 1e-6", abs(tiny - 1.0), "", good=1e-3, fair=1e-1, hint=TURN_HINT)
+    said = f"By 0.000001 radians yours turns by {number(1e-6 * tiny)}, right is 0.000001. {TURN_HINT}"
+    kept = band("Relative error of a tiny angle", abs(tiny - 1.0), "", good=1e-3, fair=1e-1, hint=said)
     return worst([*verdicts, kept])
 
 

@@ -1,0 +1,37 @@
+"""What students hand in gets what it deserves: right solutions in any style full marks, wrong ones less and a true word."""
+
+import re
+
+import pytest
+
+from tests.exercise.table import FOLDER, Graded, complaints, graded
+from workbench.exercise.finding import exercises
+
+EXERCISES = list(exercises().values())
+LEAST_RIGHT, LEAST_WRONG = 9, 10
+MOST_VAGUE = 0.03
+
+
+@pytest.fixture(scope="module")
+def every() -> dict[str, list[Graded]]:
+    return {}
+
+
+@pytest.mark.parametrize("exercise", EXERCISES, ids=lambda exercise: exercise.name)
+def test_what_students_hand_in_gets_what_it_deserves(exercise, every):
+    found = every.setdefault(exercise.name, list(graded(exercise)))
+    assert sum(one.is_right for one in found) >= LEAST_RIGHT
+    assert sum(not one.is_right for one in found) >= LEAST_WRONG
+    assert not complaints(found), "\n\n".join(complaints(found))
+    vague = [one.name for one in found if one.fate == "vague"]
+    assert len(vague) <= MOST_VAGUE * len(found), vague
+
+
+def test_every_exercise_has_its_file():
+    assert {path.stem for path in FOLDER.glob("*.py")} == {exercise.name for exercise in EXERCISES}
+
+
+def test_no_solution_is_handed_in_twice():
+    for path in FOLDER.glob("*.py"):
+        bodies = re.split(r"^def \w+\(.*\):\n", path.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
+        assert len(bodies) == len(set(bodies)), path.name

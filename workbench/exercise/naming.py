@@ -1,0 +1,206 @@
+"""Names the mistake that a function makes, from what it answered to the checks' calls.
+
+A call speaks for or against a mistake where the right answer is known: where the contract asks for an error, or leaves
+open which of several answers is given (the alternatives differ), right functions differ too, and it tells little.
+"""
+
+import functools
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from workbench.exercise.candidate import Answer, Call, raised
+from workbench.exercise.model import Exercise, Function, Mistake
+
+ENOUGH = 3
+"""How much must tell a mistake from the right answer where a function makes it in some checks only: of an array each wrong
+entry counts, of single numbers each one that is not like another, a fraction twice."""
+KEPT_ANSWERS = 2048
+ROUNDING = 1e-6  # relative
+NEAR, FAR = 0.05, 5.0
+"""Where right answers differ, by this share of their size at most, a mistake's is told from them if it is from each of
+them at least a fifth as far as they are from each other."""
+SINGLE_ROUNDING = 1e-4  # the same for single precision, after some sums
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """How some calls speak for a mistake.
+
+    Attributes:
+        weight: How much in the answers differs from the right ones as the mistake's do, and is not given by chance.
+        refused: Of the calls for which the contract asks for an error and the mistake gives none of that name, whether
+            each was answered as the mistake does.
+        right: Whether every other such call was answered as the contract asks.
+    """
+
+    weight: int
+    refused: tuple[bool, ...]
+    right: bool
+
+    @property
+    def is_all(self) -> bool:
+        """Whether the function is as the mistake is wherever the contract says what is right."""
+        return self.right and all(self.refused)
+
+
+def recognised(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> Mistake | None:
+    """Return the one mistake whose answers are those of the calls and are not the right ones; None if there is none.
+
+    It is looked for in all calls first, then in the calls of each failing check, since who makes two mistakes may make
+    one of them alone in some checks: in most of those that fail, or it is not what to mend first. A mistake that a refused call alone would tell of, and one whose sentence says that
+    all else is right, is named only where all else is.
+
+    Args:
+        calls: By check, what the student's function was asked, and what it said.
+        failing: The names of the checks that failed.
+        exercise: Whose mistakes are compared.
+    """
+    if not failing:
+        return None
+    every = [call for asked in calls.values() for call in asked]
+    found = {}
+    for mistake in exercise.mistakes:
+        evidence = _evidence(mistake, every, exercise)
+        needs_all = evidence is not None and (mistake.spares_the_rest or not evidence.weight)
+        if evidence is not None and (evidence.is_all or not needs_all):
+            found[mistake] = evidence.weight + sum(evidence.refused)
+    return _the_most(found, 1) or _the_most(_in_some_checks(calls, failing, exercise), ENOUGH)
+
+
+def concerned(
+    mistake: Mistake, calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise
+) -> frozenset[str]:
+    """Return the names of the failing checks in which a function makes a mistake."""
+    told = {name: _evidence(mistake, calls[name], exercise) for name in failing}
+    return frozenset(name for name, found in told.items() if found and (found.weight or any(found.refused)))
+
+
+def _in_some_checks(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> dict[Mistake, int]:
+    weights = {}
+    for mistake in exercise.mistakes:
+        told = [_evidence(mistake, calls[name], exercise) for name in failing]
+        told = [found.weight for found in told if found is not None and found.weight]
+        if not mistake.spares_the_rest and 2 * len(told) > len(failing):
+            weights[mistake] = sum(told)
+    return weights
+
+
+def _the_most(weights: dict[Mistake, int], least: int) -> Mistake | None:
+    """Return the mistake with the most weight, if it has at least this much; none where two have as much."""
+    most = max(weights.values(), default=0)
+    first = [mistake for mistake, weight in weights.items() if weight == most]
+    return first[0] if most >= least and len(first) == 1 else None
+
+
+def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Evidence | None:
+    """Return how calls speak for a mistake; None where one speaks against it."""
+    weight, numbers, refused, right = 0, set[float](), [], True
+    for call in calls:
+        if call.right.error:
+            if _alike(_answer(mistake.function, call), call.right, exercise):
+                right &= _alike(call.answer, call.right, exercise)
+            else:
+                refused.append(_alike(call.answer, _answer(mistake.function, call), exercise))
+        else:
+            mistaken, others = _answer(mistake.function, call), [_answer(f, call) for f in exercise.alternatives]
+            is_open = any(not _alike(other, call.right, exercise) for other in others)
+            if _alike(call.answer, mistaken, exercise):
+                wrong = not _alike(mistaken, call.right, exercise)
+                tells = wrong and (not is_open or _is_apart(mistaken, [call.right, *others]))
+                weight += _wrong_entries(mistaken.value, call.right.value, numbers) if tells else 0
+            elif not is_open:
+                return None
+    return Evidence(weight + sum(1 if number.is_integer() else 2 for number in numbers), tuple(refused), right)
+
+
+def _is_apart(mistaken: Answer, right: Sequence[Answer]) -> bool:
+    """Tell whether right answers that differ are near to each other, and the mistake's is none of them."""
+    spread = max(_gap(one, right[0]) for one in right)
+    return _size(right[0]) * NEAR > spread < FAR * min(_gap(one, mistaken) for one in right)
+
+
+def _size(answer: Answer) -> float:
+    return _gap(answer, Answer(np.zeros_like(answer.value), ""))
+
+
+def _gap(a: Answer, b: Answer) -> float:
+    """Return the largest difference of two answers; infinite where they are not alike in kind."""
+    if a.error or b.error:
+        return 0.0 if a.error == b.error else np.inf
+    try:
+        first, second = np.asarray(a.value, dtype=float), np.asarray(b.value, dtype=float)
+        with np.errstate(invalid="ignore"):
+            off = np.where((first == second) | (np.isnan(first) & np.isnan(second)), 0.0, np.abs(first - second))
+    except (TypeError, ValueError):
+        return np.inf
+    return float(np.nan_to_num(off, nan=np.inf, posinf=np.inf).max(initial=0.0))
+
+
+def _wrong_entries(mistaken: Any, right: Any, numbers: set[float]) -> int:
+    """Return how many entries of an array are wrong; a single number is added to those that were given."""
+    try:
+        wrong, known = np.asarray(mistaken, dtype=float), np.asarray(right, dtype=float)
+    except (TypeError, ValueError):
+        return ENOUGH
+    if wrong.shape != known.shape:
+        return ENOUGH
+    if wrong.ndim == 0:
+        numbers.add(float(wrong))
+        return 0
+    return int((~np.isclose(wrong, known, equal_nan=True)).sum())
+
+
+def _alike(a: Answer, b: Answer, exercise: Exercise) -> bool:
+    if a.error or b.error:
+        return a.error == b.error
+    either = exercise.contract.either
+    if values_alike(a.value, b.value):
+        return True
+    try:
+        return either is not None and values_alike(a.value, either(b.value))
+    except (TypeError, ValueError):
+        return False
+
+
+def values_alike(a: Any, b: Any) -> bool:
+    """Tell whether two answers are the same within rounding: nested tuples, arrays, numbers."""
+    if isinstance(a, (tuple, list)) or isinstance(b, (tuple, list)):
+        listed = isinstance(a, (tuple, list)) and isinstance(b, (tuple, list)) and len(a) == len(b)
+        if listed:
+            return all(values_alike(x, y) for x, y in zip(a, b, strict=True))
+    try:
+        first, second = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    except (TypeError, ValueError):
+        return a is None and b is None
+    rounding = SINGLE_ROUNDING if np.float32 in (getattr(a, "dtype", None), getattr(b, "dtype", None)) else ROUNDING
+    scale = max(1e-12, float(np.abs(second[np.isfinite(second)]).max(initial=0.0)))
+    return first.shape == second.shape and bool(
+        np.allclose(first, second, rtol=rounding, atol=0.1 * rounding * scale, equal_nan=True)
+    )
+
+
+# what one of our functions says to a call, kept for the next student -----------------------------------------------------
+
+
+def _answer(function: Function, call: Call) -> Answer:
+    return _answered(function, call.key)
+
+
+@functools.lru_cache(maxsize=KEPT_ANSWERS)
+def _answered(function: Function, key: tuple[Any, ...]) -> Answer:
+    try:
+        with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):
+            return Answer(function(*map(_thawed, key)), "")
+    except Exception as error:
+        return raised(error)
+
+
+def _thawed(part: Any) -> Any:
+    if not isinstance(part, tuple):
+        return part
+    shape, dtype, content = part
+    return np.frombuffer(content, dtype).reshape(shape).copy()
