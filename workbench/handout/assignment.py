@@ -40,7 +40,9 @@ class Assignment:
     @property
     def name(self) -> str:
         """A name for files."""
-        return "_".join(dict.fromkeys(e.lesson for e in self.exercises)) if self.exercises[1:] else self.exercises[0].name
+        return (
+            "_".join(dict.fromkeys(e.lesson for e in self.exercises)) if self.exercises[1:] else self.exercises[0].name
+        )
 
     @property
     def title(self) -> str:
@@ -69,7 +71,9 @@ class Assignment:
         """Return it as JSON, for `read`."""
         dates = {name: day and day.isoformat() for name, day in (("release", self.release), ("due", self.due))}
         weights = {exercise.name: weight for exercise, weight in zip(self.exercises, self.weights, strict=True)}
-        return json.dumps({"service": self.service, "weights": weights, **dates, "sandbox": self.sandbox}, indent=1) + "\n"
+        return (
+            json.dumps({"service": self.service, "weights": weights, **dates, "sandbox": self.sandbox}, indent=1) + "\n"
+        )
 
 
 def read(text: str) -> Assignment:
