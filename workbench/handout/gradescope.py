@@ -53,10 +53,10 @@ def zipped(held: Mapping[str, bytes]) -> bytes:
 def steps(assignment: Assignment) -> list[str]:
     """Return what a teacher does with it, in lines of Markdown."""
     return [
-        "1. On Gradescope: a new *Programming Assignment* with "
-        f"{assignment.points:g} autograder points; upload `autograder.zip` under *Configure Autograder* (base image Ubuntu).",
+        f"1. On Gradescope: a new *Programming Assignment* with {assignment.points:g} autograder points; upload "
+        "`autograder.zip` under *Configure Autograder* (base image Ubuntu).",
         "2. The smallest container will do (0.5 CPU, 0.75 GB); leave the time-out at 10 minutes.",
-        f"3. *Test Autograder* with the files of `teacher/full`: {assignment.points:g} of {assignment.points:g} points; with "
-        "those of `teacher/none`: 0. The end of the build's log says what shuts submissions in.",
+        f"3. *Test Autograder* with the files of `teacher/full`: {assignment.points:g} of {assignment.points:g} points; "
+        "with those of `teacher/none`: 0. The end of the build's log says what shuts submissions in.",
         "4. Give students what is in `student`. They upload a file of any name that ends in `.py`, a notebook, or several.",
     ]

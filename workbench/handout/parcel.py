@@ -33,7 +33,7 @@ def packages(assignment: Assignment) -> dict[str, bytes]:
         files |= {f"lessons/{name}/{file}": data for file, data in _files(folder)}
     for package in CARRIED:
         files |= {f"{package}/{name}": data for name, data in _files(_folder(package))}
-        files |= {f"licenses/{package}/{path.name}": path.read_bytes() for path in _licenses(package)}
+        files |= dict(_told_of(package))
     return files
 
 
@@ -60,8 +60,8 @@ def _folder(package: str) -> Path:
     return Path(next(iter(spec.submodule_search_locations)))
 
 
-def _licenses(package: str) -> Iterator[Path]:
+def _told_of(package: str) -> Iterator[tuple[str, bytes]]:
+    """Yield what an installation says of a package: its version, which it asks for itself, and its licence."""
     for file in importlib.metadata.files(package) or ():
-        path = Path(str(file.locate()))
-        if "LICENSE" in file.name.upper() and path.is_file():
-            yield path
+        if ".dist-info/" in str(file) and (file.name == "METADATA" or "LICENSE" in file.name.upper()):
+            yield file.as_posix(), Path(str(file.locate())).read_bytes()

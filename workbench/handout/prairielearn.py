@@ -104,8 +104,8 @@ def steps(assignment: Assignment) -> list[str]:
         "1. Copy `questions` and `serverFilesCourse` into the folder of your course, and the folder in `assessments` into "
         "`courseInstances/YOURS/assessments`: it has the points and the dates. Synchronise.",
         f"2. The questions run in the image `{IMAGE}`, without a network, for at most {SECONDS} s.",
-        "3. Submit a file of `teacher/full` to its question: 100 %; one of `teacher/none`: 0 %. A file that is not Python is "
-        "*invalid, not gradable* and costs no attempt.",
+        "3. Submit a file of `teacher/full` to its question: 100 %; one of `teacher/none`: 0 %. A file that is not Python "
+        "is *invalid, not gradable* and costs no attempt.",
     ]
 
 

@@ -105,22 +105,29 @@ class _Written:
         """Write what is taken from a module of ours, `alignment.align_rigid`, under its bare name."""
         if isinstance(value, list):
             for k, one in enumerate(value):
-                if isinstance(one, ast.Attribute) and isinstance(one.value, _Module):
-                    value[k] = self._bare(one)
-        elif isinstance(value, ast.Attribute) and isinstance(value.value, _Module):
-            setattr(parent, field_name, self._bare(value))
+                if taken := _of_ours(one):
+                    value[k] = self._bare(*taken)
+        elif taken := _of_ours(value):
+            setattr(parent, field_name, self._bare(*taken))
 
-    def _bare(self, taken: ast.Attribute) -> ast.Name:
-        assert isinstance(taken.value, _Module)
-        self.name_in(taken.value.id, taken.attr)
-        return ast.Name(taken.attr, ast.Load())
+    def _bare(self, module: str, name: str) -> ast.Name:
+        self.name_in(module, name)
+        return ast.Name(name, ast.Load())
 
 
-class _Module(ast.expr):
-    """Stands for a module of ours in an expression."""
+class _Ours(str):
+    """Stands in an expression, as a constant, for a module of ours."""
 
-    _fields = ("id",)
-    id: str
+
+def _of_ours(value: object) -> tuple[str, str] | None:
+    """Return the module of ours and the name in it that an expression takes, if it is that."""
+    if (
+        isinstance(value, ast.Attribute)
+        and isinstance(value.value, ast.Constant)
+        and isinstance(value.value.value, _Ours)
+    ):
+        return str(value.value.value), value.attr
+    return None
 
 
 class _Bare(ast.NodeTransformer):
@@ -129,7 +136,7 @@ class _Bare(ast.NodeTransformer):
     def __init__(self, module: str):
         self._module = module
 
-    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:  # noqa: N802
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         node.returns, node.decorator_list = None, [one for one in node.decorator_list if not self._is_ours(one)]
         for argument in ast.walk(node.args):
             if isinstance(argument, ast.arg):
@@ -138,16 +145,16 @@ class _Bare(ast.NodeTransformer):
             node.body = node.body[1:] or [ast.Pass()]
         return self.generic_visit(node)
 
-    def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST:  # noqa: N802
+    def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST:
         if node.value is None:
             raise LookupError(f"{self._module} declares fields")
         return self.generic_visit(ast.Assign([node.target], node.value))
 
-    def visit_Attribute(self, node: ast.Attribute) -> ast.AST:  # noqa: N802
+    def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
         whole = _module_named(self._module, node.value.id) if isinstance(node.value, ast.Name) else None
         if whole is None:
             return self.generic_visit(node)
-        return ast.Attribute(_Module(whole), node.attr, node.ctx)
+        return ast.Attribute(ast.Constant(_Ours(whole)), node.attr, node.ctx)
 
     def _is_ours(self, decorator: ast.expr) -> bool:
         name = decorator.func if isinstance(decorator, ast.Call) else decorator

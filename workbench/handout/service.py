@@ -23,7 +23,7 @@ from workbench.handout.assignment import Assignment, read
 from workbench.handout.picture import picture
 from workbench.handout.results import prairielearn
 
-NOT_YET = "was not graded: the grader ended before its turn, or ran out of time. This is not about your code; tell your teacher."
+NOT_YET = "was not graded: the grader ended before, or ran out of time. This is not about your code; tell your teacher."
 Written = Callable[[Sequence[Report], Sequence[dict[str, Any]], Sequence[dict[str, str]]], dict[str, Any]]
 
 
@@ -76,7 +76,7 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
 
 
 def _wall(assignment: Assignment) -> Wall:
-    wall = best() if assignment.sandbox == "auto" else named(assignment.sandbox)
+    wall = best(alone=True) if assignment.sandbox == "auto" else named(assignment.sandbox)
     if not wall.holds and assignment.sandbox != "none":
         raise InputError(f"nothing shuts submissions in here, so marks would not be safe ({wall.why})")
     return wall
@@ -107,7 +107,7 @@ def _results(
 def main(words: Sequence[str]) -> int:
     """Grade what lies in the folder of a service; `--wall` says what would shut it in, for the log of an installation."""
     if list(words) == ["--wall"]:
-        wall = best()
+        wall = best(alone=True)
         sys.stdout.write(f"Submissions are shut in by: {wall.name}" + (f" ({wall.why})" if wall.why else "") + "\n")
         return 0
     root, file = map(Path, words)

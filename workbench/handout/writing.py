@@ -111,9 +111,9 @@ def lay_out_prairielearn(root: Path, out: Path, exercise: str, file: Path) -> Pa
     return root
 
 
-def run(script: Path, root: Path) -> dict:
-    """Run the script of a service in its folder with this Python, and return the results that it wrote there."""
-    environment = os.environ | {"GRADER_PYTHON": sys.executable}
+def run(script: Path, root: Path, python: str = sys.executable) -> dict:
+    """Run the script of a service in its folder with a Python, and return the results that it wrote there."""
+    environment = os.environ | {"GRADER_PYTHON": python}
     subprocess.run([script, root], env=environment, capture_output=True, timeout=SECONDS, check=False)
     return json.loads((root / "results" / "results.json").read_text(encoding="utf-8"))
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Runs once, when the image is built: the image's own Python is too old, so another one is installed, and numpy and scipy.
 set -eu
-source=/autograder/source
-place=/opt/geometry-workbench
+source="${1:-/autograder/source}"
+place="${2:-/opt/geometry-workbench}"
 export DEBIAN_FRONTEND=noninteractive UV_PYTHON_INSTALL_DIR=/opt/python UV_LINK_MODE=copy
 apt-get update
 apt-get install -y --no-install-recommends python3-pip ca-certificates bubblewrap
