@@ -50,6 +50,8 @@ ALLOWED = {
                                      "workbench.images", "workbench.progress", "workbench.atomic"},
     "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic",
                            "workbench.workers"},
+    "workbench.handout": LESSON | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail",
+                                   "workbench.atomic"},
     "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {

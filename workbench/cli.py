@@ -227,6 +227,36 @@ def grade(
 
 
 @command
+def handout(
+    words: Annotated[
+        tuple[str, ...],
+        Option("Exercises, or a lesson for all of its exercises; then the folder to write into.", "EXERCISE ... OUT"),
+    ],
+    /,
+    for_: Annotated[str, Option("Where it is graded: gradescope, prairielearn, or folder.", "SERVICE")],
+    weight: Annotated[
+        tuple[str, ...], Option("Points of an exercise; those of its checks by default.", "EXERCISE=POINTS ...")
+    ] = (),
+    release: Annotated[str | None, Option("When it opens, such as 2027-03-01 or 2027-03-01T09:00.", "DATE")] = None,
+    due: Annotated[str | None, Option("When it is due; a day ends at its last second.", "DATE")] = None,
+    sandbox: Sandbox = "auto",
+    force: Annotated[bool, Option("Replace files that are there.")] = False,
+) -> None:
+    """Write an assignment that a course system takes as it is, with starters, samples and a README."""
+    from workbench.handout.assignment import assigned
+    from workbench.handout.writing import tried, write
+
+    *names, out = words
+    if not names:
+        raise InputError(
+            f"which exercises? `workbench exercise` lists them; {out} is taken for the folder to write into"
+        )
+    assignment = assigned(names, service=for_, weights=weight, release=release, due=due, sandbox=sandbox)
+    write(assignment, Path(out), force=force)
+    sys.stdout.write(f"{Path(out) / 'README.md'}\n{tried(assignment, Path(out))}\n")
+
+
+@command
 def new(
     name: Annotated[str, Option("What the lesson is called: small letters, digits and _.", "NAME")],
     /,

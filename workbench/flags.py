@@ -110,6 +110,9 @@ class _Parser(argparse.ArgumentParser):
             else:
                 joined.append(word)
         values, unknown = self.parse_known_args(joined)
+        several = next((one.dest for one in self._actions if not one.option_strings and one.nargs == "*"), None)
+        while several and unknown and not unknown[0].startswith("-"):  # what stands behind a flag in between
+            setattr(values, several, [*(getattr(values, several) or ()), unknown.pop(0)])
         if unknown:
             raise InputError(self._unknown(unknown[0]))
         return values
@@ -203,7 +206,7 @@ def _option(group: Any, name: str, annotation: Any, default: Any, *, positional:
     if default not in (None, inspect.Parameter.empty, ()):
         about += f" (default: {default})"
     if positional:
-        group.add_argument(name, nargs="?", metavar=option.placeholder, help=about)
+        group.add_argument(name, nargs="*" if many else "?", metavar=option.placeholder, help=about)
     else:
         names = [*([option.short] if option.short else []), flag]
         several = {"nargs": "+", "action": "extend"} if many else {}
@@ -213,7 +216,7 @@ def _option(group: Any, name: str, annotation: Any, default: Any, *, positional:
 
     def read(values: argparse.Namespace) -> Any:
         given = getattr(values, name)
-        if given is None and required:
+        if not given and required:
             raise InputError(f"{called} is missing: {option.help}")
         if given is None:
             return default

@@ -164,6 +164,8 @@ def grade_folder(
     if asked.only is not None:
         asked.one()
     wall = best() if asked.sandbox == "auto" else named(asked.sandbox)
+    if wall.name == "user":
+        raise InputError("--sandbox user: is for one submission in a container; here it could read the others")
     if not wall.holds and asked.sandbox != "none":
         raise InputError(
             f"nothing here shuts submissions in, so marks would not be safe: {wall.why}. Mend that, or say --sandbox none "

@@ -73,7 +73,12 @@ class Report:
 
 
 def grade_file(
-    given: Path | Submission, exercise: Exercise, *, hidden: bool = True, wall: Wall | None = None
+    given: Path | Submission,
+    exercise: Exercise,
+    *,
+    hidden: bool = True,
+    wall: Wall | None = None,
+    megabytes: int | None = None,
 ) -> Report:
     """Grade a student's file in a process of its own.
 
@@ -82,12 +87,14 @@ def grade_file(
         exercise: What is asked.
         hidden: Whether hidden checks are run too.
         wall: What shuts the process in; the best of this machine by default.
+        megabytes: Address space of the process; MEGABYTES by default.
 
     Raises:
         InputError: If the file cannot be read or does not load; the message names the line.
     """
     seconds = exercise.contract.seconds
-    with Student(given, exercise.name, seconds=seconds, wall=wall, patience=Patience(seconds)) as student:
+    room = {} if megabytes is None else {"megabytes": megabytes}
+    with Student(given, exercise.name, seconds=seconds, wall=wall, patience=Patience(seconds), **room) as student:
         student.start()
         return grade_function(student, exercise, hidden=hidden, file=student.submission.file)
 

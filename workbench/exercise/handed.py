@@ -53,7 +53,7 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, Handed]:
         elif path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
             handed = Handed(path.name, {}, ((path.name, "a link that leads out of the folder"),))
         elif path.is_dir():
-            handed = _read(path.name, path, list(_below(path)))
+            handed = handed_by(path.name, path)
         else:
             continue
         if handed.student in found:
@@ -66,6 +66,11 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, Handed]:
         name: handed if handed.files or handed.troubles else replace(handed, troubles=nothing)
         for name, handed in found.items()
     }
+
+
+def handed_by(student: str, folder: Path) -> Handed:
+    """Return what one student handed in: the files of a folder, at any depth."""
+    return _read(student, folder, list(_below(folder)))
 
 
 def with_roster(found: dict[str, Handed], roster: Path) -> dict[str, Handed]:

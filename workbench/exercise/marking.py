@@ -4,6 +4,7 @@ import functools
 import hashlib
 import inspect
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -14,11 +15,11 @@ import scipy
 import workbench
 from workbench.errors import InputError, one_line
 from workbench.exercise import finding
-from workbench.exercise.grading import grade_file
+from workbench.exercise.grading import Report, grade_file
 from workbench.exercise.handed import Handed
 from workbench.exercise.model import Exercise
 from workbench.exercise.reports import SCHEMA_VERSION, as_dict, ungraded
-from workbench.exercise.sandbox import named
+from workbench.exercise.sandbox import Wall, named
 from workbench.exercise.submission import Submission, submission
 from workbench.lesson import Lesson
 from workbench.loading import load
@@ -98,17 +99,34 @@ def grade_student(handed: Handed, asked: Asked) -> Result:
     try:
         wall = named(asked.sandbox)
         result["sandbox"] = wall.name
-        chosen, result["ungraded"] = _chosen(handed, asked)
-        for name, (given, exercise) in chosen.items():
-            try:
-                report = grade_file(given, exercise, wall=wall)
-                result["reports"].append(as_dict(replace(report, file=name.partition("\0")[0])))
-            except InputError as error:
-                result["ungraded"].append(ungraded(name.partition("\0")[0], exercise, str(error)))
+        for found in marked(handed, asked, wall):
+            if isinstance(found, Report):
+                result["reports"].append(as_dict(found))
+            else:
+                result["ungraded"].append(found)
     except Exception as error:  # a fault of ours with one student must not stop a class
         said = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {one_line(str(error))}"
         result["ungraded"].append(ungraded("", None, f"could not be graded: {said}"))
     return summed(result)
+
+
+def marked(handed: Handed, asked: Asked, wall: Wall, megabytes: int | None = None) -> Iterator[Report | dict[str, Any]]:
+    """Yield the reports on what one student handed in, and what cannot be graded, as `ungraded` says it.
+
+    Args:
+        handed: What the student handed in.
+        asked: What for.
+        wall: What shuts the student's process in.
+        megabytes: Address space of that process, where it is not what it has everywhere.
+    """
+    chosen, troubles = _chosen(handed, asked)
+    yield from troubles
+    for name, (given, exercise) in chosen.items():
+        file = name.partition("\0")[0]
+        try:
+            yield replace(grade_file(given, exercise, wall=wall, megabytes=megabytes), file=file)
+        except InputError as error:
+            yield ungraded(file, exercise, str(error))
 
 
 def empty(handed: Handed, asked: Asked) -> Result:
@@ -134,13 +152,9 @@ def _chosen(handed: Handed, asked: Asked) -> tuple[dict[str, tuple[Submission, E
     """Return what is graded, by its file and exercise, and what cannot be; what only helps other files is neither."""
     troubles = [ungraded(file, None, said) for file, said in handed.troubles]
     read: dict[str, Submission] = {}
-    for file, data in handed.files.items():
-
-        def beside(name: str, file: str = file) -> bytes | None:
-            return handed.files.get(str(PurePosixPath(file).with_name(name)))
-
+    for file in handed.files:
         try:
-            read[file] = submission(PurePosixPath(file).name, data, beside)
+            read[file] = read_one(handed, file)
         except InputError as error:
             troubles.append(ungraded(file, None, str(error)))
     helping = {str(PurePosixPath(file).with_name(f"{name}.py")) for file, one in read.items() for name in one.modules}
@@ -157,16 +171,40 @@ def _chosen(handed: Handed, asked: Asked) -> tuple[dict[str, tuple[Submission, E
             (troubles if wanted[0] else nothing).extend(ungraded(file, exercise, str(error)) for exercise in wanted)
     chosen: dict[str, tuple[Submission, Exercise]] = {}
     for name, several in found.items():
-        marked = [one for one in several if name in one[1].marked()] or several
+        meant = [one for one in several if name in one[1].marked()]
+        if not meant and several[1:] and not any(_defines(one, name) for _, one, _ in several):
+            troubles.append(ungraded("", several[0][2], f"none of the {len(several)} files defines {name}"))
+            continue
+        meant = meant or several
         if asked.only:
-            marked = [one for one in marked if name in one[1].defined()] or marked[:1]
-        if len({one.source for _, one, _ in marked}) > 1:
-            files = ", ".join(file for file, _, _ in marked)
-            troubles.append(ungraded(files, marked[0][2], f"{name} is in several files ({files}): leave one of them"))
+            meant = [one for one in meant if _defines(one[1], name)] or meant[:1]
+        if len({one.source for _, one, _ in meant}) > 1:
+            files = ", ".join(file for file, _, _ in meant)
+            troubles.append(ungraded(files, meant[0][2], f"{name} is in several files ({files}): leave one of them"))
         else:
-            file, one, exercise = marked[0]
+            file, one, exercise = meant[0]
             chosen[f"{file}\0{name}"] = (one, exercise)
     return chosen, troubles if chosen or troubles else nothing[:3]
+
+
+def read_one(handed: Handed, file: str) -> Submission:
+    """Return one file of what a student handed in, with the modules beside it that it imports.
+
+    Raises:
+        InputError: If it is no text; one line.
+    """
+
+    def beside(name: str) -> bytes | None:
+        return handed.files.get(str(PurePosixPath(file).with_name(name)))
+
+    return submission(PurePosixPath(file).name, handed.files[file], beside)
+
+
+def _defines(given: Submission, name: str) -> bool:
+    try:
+        return name in given.defined()
+    except InputError:  # who runs it says why not
+        return False
 
 
 def digest(handed: Handed, asked: Asked) -> str:

@@ -1,7 +1,7 @@
 """What grading found, as text and as files: terminal, our JSON, Gradescope, JUnit, a Markdown summary."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -110,23 +110,32 @@ def _check(outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def gradescope(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> dict[str, Any]:
+def gradescope(
+    reports: Sequence[Report],
+    failed: Sequence[dict[str, Any]] = (),
+    *,
+    factors: Mapping[str, float] | None = None,
+    hidden: str = "after_published",
+) -> dict[str, Any]:
     """Return the `results.json` that Gradescope reads.
 
     Args:
         reports: What was graded.
         failed: What could not be, as `ungraded` says it.
+        factors: What a point of an exercise is worth, by the exercise's name; 1 where nothing is said.
+        hidden: When hidden checks are shown: `after_published` or `after_due_date`.
 
     Source: Gradescope autograder specification, "Output format".
     """
+    worth = dict(factors or {})
     tests = [
         {
             "name": f"{report.exercise.name}: {outcome.check.promise}",
-            "score": outcome.points,
-            "max_score": outcome.check.points,
+            "score": outcome.points * worth.get(report.exercise.name, 1.0),
+            "max_score": outcome.check.points * worth.get(report.exercise.name, 1.0),
             "status": "passed" if outcome.verdict.share == 1.0 else "failed",
             "output": "\n".join([outcome.verdict.message, *_named(report, outcome)]),
-            "visibility": "visible" if outcome.check.public else "after_published",
+            "visibility": "visible" if outcome.check.public else hidden,
         }
         for report in reports
         for outcome in report.outcomes
@@ -135,7 +144,7 @@ def gradescope(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ())
         {
             "name": item["exercise"] or item["file"] or "The file",
             "score": 0,
-            "max_score": item["possible"],
+            "max_score": item["possible"] * worth.get(item["exercise"], 1.0),
             "status": "failed",
             "output": item["error"],
             "visibility": "visible",
@@ -147,7 +156,7 @@ def gradescope(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ())
         f"{report.exercise.name} printed:\n" + "\n".join(shown(report.printed)) for report in reports if report.printed
     ]
     said += [UNSAFE] if any(map(_is_unsafe, reports)) else []
-    return {"score": sum(report.points for report in reports), "output": "\n".join(said), "tests": tests}
+    return {"score": sum(test["score"] for test in tests), "output": "\n".join(said), "tests": tests}
 
 
 def _named(report: Report, outcome: Outcome) -> list[str]:

@@ -18,8 +18,13 @@ from workbench.lesson import catalog
 from workbench.loading import word_for
 
 
-def starter(exercise: Exercise) -> str:
-    """Return the text of a starter file."""
+def starter(exercise: Exercise, megabytes: int = MEGABYTES) -> str:
+    """Return the text of a starter file.
+
+    Args:
+        exercise: What it is for.
+        megabytes: What one call may take where it is graded.
+    """
     function = exercise.reference
     signature = inspect.signature(function)
     arguments = ", ".join(_argument(parameter) for parameter in signature.parameters.values())
@@ -41,7 +46,7 @@ def starter(exercise: Exercise) -> str:
 Watch it live:  {watching}
 Have it judged: {judging}
 
-{textwrap.fill(allowed(exercise), 100)}
+{textwrap.fill(allowed(exercise, megabytes), 100)}
 """
 
 import numpy as np
@@ -54,11 +59,12 @@ def {exercise.name}({arguments}) -> {returned}:
 '''
 
 
-def allowed(exercise: Exercise) -> str:
+def allowed(exercise: Exercise, megabytes: int = MEGABYTES) -> str:
     """Return what a student's function may use, in sentences."""
+    room = f"{megabytes} MB" if megabytes % 1024 else f"{megabytes >> 10} GB"
     return (
         f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside this file. One call may "
-        f"take {exercise.contract.seconds:g} s and {MEGABYTES >> 10} GB. It may print: the first {OUTPUT_BYTES >> 10} KB "
+        f"take {exercise.contract.seconds:g} s and {room}. It may print: the first {OUTPUT_BYTES >> 10} KB "
         "are kept. It reaches no network, no other program and no file that is not its own. The first line above says what "
         "this file is handed in for: leave it there."
     )

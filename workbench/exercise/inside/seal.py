@@ -1,7 +1,8 @@
 """What a student's process takes from itself before the student's code runs; the kernel gives none of it back.
 
 Limits bound memory, processor time, files and processes. Where the grader asks for them, a filter of system calls
-(`syscalls`) and, in place of a sandbox around the process, Landlock: files outside a list cannot be opened.
+(`syscalls`) and, in place of a sandbox around the process, Landlock: files outside a list cannot be opened; or another
+user, to whom the grader's files are closed.
 It imports nothing of ours but its neighbours.
 """
 
@@ -25,10 +26,13 @@ ALL_RIGHTS = {3: (1 << 15) - 1, 5: (1 << 16) - 1}  # by version: what is denied 
 
 
 def shut(settings: dict[str, Any]) -> None:
-    """Bound this process for good, as its settings say: `megabytes`, `cpu`, `filter`, and `landlock`, paths to read.
+    """Bound this process for good, as its settings say.
+
+    They are `megabytes`, `cpu`, `filter`, and one of `landlock`, paths to read, and `user`, to whom the folders in `closed`
+    are closed.
 
     Raises:
-        OSError: If the kernel does not take it.
+        OSError: If the kernel does not take it, or the folders are open.
     """
     for what, most in (
         (resource.RLIMIT_AS, settings["megabytes"] << 20),
@@ -43,7 +47,9 @@ def shut(settings: dict[str, Any]) -> None:
         resource.setrlimit(what, (most, most))
     if not settings["filter"]:
         return
-    if settings["landlock"] is not None:
+    if settings["user"] is not None:
+        _become(settings["user"], settings["closed"])
+    if settings["landlock"] is not None or settings["user"] is not None:
         _prctl(PR_SET_PDEATHSIG, SIGKILL)
         if os.getppid() != settings["grader"]:
             os._exit(0)  # it is gone already
@@ -55,7 +61,7 @@ def shut(settings: dict[str, Any]) -> None:
         code = ctypes.create_string_buffer(syscalls.program(platform.machine()))
         length = (len(code) - 1) // 8  # of the string; the buffer ends with a zero
         _prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, struct.pack("@HP", length, ctypes.addressof(code)))
-    elif settings["landlock"] is not None:
+    elif settings["landlock"] is not None or settings["user"] is not None:
         raise OSError(f"no filter of system calls is known for {platform.machine()}")
 
 
@@ -72,6 +78,15 @@ def _landlock(readable: Iterable[str]) -> None:
         os.close(held)
     _call(RESTRICT_SELF, rules, 0)
     os.close(rules)
+
+
+def _become(user: int, closed: Iterable[str]) -> None:
+    os.setgroups([])
+    os.setresgid(user, user, user)
+    os.setresuid(user, user, user)  # of an administrator's powers, none
+    for folder in closed:
+        if os.access(folder, os.X_OK) or os.access(folder, os.R_OK):
+            raise OSError(f"{folder} is open to every user")
 
 
 def _prctl(what: int, *arguments: Any) -> None:

@@ -62,8 +62,7 @@ def here() -> Python:
         wanted += [os.path.join(prefix, name) for name in ("lib", "lib64")]
     trees = sorted({path for path in wanted if os.path.isdir(path)})
     trees = [path for path in trees if not any(_inside(path, other) for other in trees if other != path)]
-    ours = [str(INSIDE.parents[1]), *(_folder("lessons"))]
-    masked = [path for path in ours if any(_inside(path, tree) for tree in trees)]
+    masked = [path for path in ours() if any(_inside(path, tree) for tree in trees)]
     for tree in trees:
         masked += [str(path) for name in OTHERS for depth in ("*", ".") for path in Path(tree).glob(f"{depth}/{name}")]
     packages = [path for name in ALLOWED for folder in _folder(name) for path in _with_libraries(folder)]
@@ -74,6 +73,11 @@ def here() -> Python:
         masked=tuple(sorted(set(masked))),
         packages=tuple(packages),
     )
+
+
+def ours() -> list[str]:
+    """Return the folders that hold our solutions and checks."""
+    return [str(INSIDE.parents[1]), *_folder("lessons")]
 
 
 def _libraries(folder: str) -> str:

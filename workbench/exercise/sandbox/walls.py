@@ -21,7 +21,9 @@ START_SECONDS = 30.0
 """How long Python and numpy may take to start."""
 OUTPUT_BYTES = 64 << 10
 """How much of what a student prints is kept: the first."""
-NAMES = ("bubblewrap", "landlock", "none")
+NAMES = ("bubblewrap", "landlock", "user", "none")
+NOBODY = 65534
+"""The user that a submission runs as where another user is what shuts it in."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,8 @@ class Wall:
     """What stands between a student's process and this machine.
 
     Attributes:
-        name: `bubblewrap`, `landlock`, or `none`: limits only, so that marks are not safe.
+        name: `bubblewrap`, `landlock`, `user` (another one, to whom what matters is closed), or `none`: limits only, so that
+            marks are not safe.
         why: Where it is `none`, why there is nothing better; one line.
     """
 
@@ -59,6 +62,7 @@ class Wall:
             "in": pipe_in, "out": pipe_out, "packages": files.places, "megabytes": megabytes, "cpu": cpu_seconds,
             "output": OUTPUT_BYTES, "filter": self.holds, "grader": os.getpid(),
             "landlock": list(files.listed()) if self.name == "landlock" else None,
+            "user": NOBODY if self.name == "user" else None, "closed": python.ours(),
         }  # fmt: skip
         boxed = self.name == "bubblewrap"
         child = f"{bubblewrap.CHILD}/child.py" if boxed else str(python.INSIDE / "child.py")
@@ -85,11 +89,16 @@ class Wall:
 
 
 @functools.cache
-def best() -> Wall:
-    """Return the best wall of this machine."""
+def best(*, alone: bool = False) -> Wall:
+    """Return the best wall of this machine.
+
+    Args:
+        alone: Whether the machine is a container for this one submission, closed to others but root: then another user is
+            a wall too. Elsewhere it could read what other students handed in.
+    """
     troubles = []
-    for name, trouble in (("bubblewrap", _without_bubblewrap), ("landlock", _without_landlock)):
-        wrong = trouble() or _tried(Wall(name))
+    for name in NAMES[:3] if alone else NAMES[:2]:
+        wrong = _without(name) or _tried(Wall(name))
         if not wrong:
             return Wall(name)
         troubles.append(wrong)
@@ -106,24 +115,19 @@ def named(name: str) -> Wall:
         return best()
     if name not in NAMES:
         raise InputError(f"--sandbox {name}: there are auto, {', '.join(NAMES)}")
-    wrong = ""
-    if name == "bubblewrap":
-        wrong = _without_bubblewrap() or _tried(Wall(name))
-    elif name == "landlock":
-        wrong = _without_landlock() or _tried(Wall(name))
+    wrong = "" if name == "none" else _without(name) or _tried(Wall(name))
     if wrong:
         raise InputError(f"--sandbox {name}: {wrong}")
     return Wall(name, "it was asked for" if name == "none" else "")
 
 
-def _without_bubblewrap() -> str:
+def _without(name: str) -> str:
+    """Return why a wall is not even tried here."""
     if sys.platform != "linux":
-        return "bubblewrap needs Linux"
-    return "" if bubblewrap.program() else "bubblewrap is not installed (apt install bubblewrap)"
-
-
-def _without_landlock() -> str:
-    return "" if sys.platform == "linux" else "Landlock needs Linux"
+        return f"{name} needs Linux"
+    if name == "bubblewrap" and not bubblewrap.program():
+        return "bubblewrap is not installed (apt install bubblewrap)"
+    return "another user needs to be started by root" if name == "user" and os.geteuid() != 0 else ""
 
 
 @functools.cache

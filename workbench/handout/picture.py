@@ -1,0 +1,43 @@
+"""A picture of the first step at which a student's run leaves ours, drawn without a browser."""
+
+import base64
+import io
+
+from workbench.exercise.failing import failing_run
+from workbench.exercise.handed import Handed
+from workbench.exercise.marking import read_one
+from workbench.exercise.model import Exercise
+from workbench.exercise.sandbox import Student, Wall
+from workbench.scene import caption_of
+
+SIZE = 640, 400
+
+
+def picture(exercise: Exercise, handed: Handed, file: str, wall: Wall) -> list[dict[str, str]]:
+    """Return a picture of the failing case as a label and a data URL; none where the lesson's run shows none.
+
+    Args:
+        exercise: What the file is for.
+        handed: What the student handed in.
+        file: The file in it that was graded.
+        wall: What shuts the student's process in.
+    """
+    try:
+        from PIL import Image
+
+        from workbench.page.thumbnail import picture_of
+    except ImportError:  # drawing is more than grading needs
+        return []
+    with Student(read_one(handed, file), exercise.name, seconds=exercise.contract.seconds, wall=wall) as student:
+        found = failing_run(exercise, student)
+        if found is None:
+            return []
+        timeline, at = found
+        scene = timeline[at].scene
+    drawn = Image.open(io.BytesIO(picture_of(scene, timeline.lesson.view, SIZE)))
+    sheet = Image.new("RGB", drawn.size, "white")
+    sheet.paste(drawn, mask=drawn.getchannel("A"))
+    out = io.BytesIO()
+    sheet.save(out, "PNG", optimize=True)
+    label = f"Step {at} of lesson {exercise.lesson}: {caption_of(scene).text}"
+    return [{"label": label, "url": "data:image/png;base64," + base64.b64encode(out.getvalue()).decode()}]

@@ -1,0 +1,121 @@
+"""What runs at a course system when a student hands in: `python -m workbench.handout.service ROOT ASSIGNMENT`.
+
+Results are written before anything runs and again after every exercise, so
+that they are there however this ends.
+"""
+
+import json
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from workbench.atomic import write_atomic
+from workbench.errors import InputError, one_line
+from workbench.exercise.grading import Report
+from workbench.exercise.handed import handed_by
+from workbench.exercise.marking import Asked, marked
+from workbench.exercise.model import Exercise
+from workbench.exercise.reports import gradescope, ungraded
+from workbench.exercise.sandbox import Wall, best, named
+from workbench.handout.assignment import Assignment, read
+from workbench.handout.picture import picture
+from workbench.handout.results import prairielearn
+
+NOT_YET = "was not graded: the grader ended before, or ran out of time. This is not about your code; tell your teacher."
+Written = Callable[[Sequence[Report], Sequence[dict[str, Any]], Sequence[dict[str, str]]], dict[str, Any]]
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where a service puts what is handed in, and looks for the results; below its root."""
+
+    submission: str
+    results: str = "results/results.json"
+
+
+PLACES = {"gradescope": Places("submission"), "prairielearn": Places("student")}
+
+
+def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
+    """Grade what lies in a service's folder, write its results there, and return them; whatever breaks is part of them."""
+    places = PLACES[assignment.service]
+    reports: list[Report] = []
+    failed: list[dict[str, Any]] = []
+    images: list[dict[str, str]] = []
+    waiting = list(assignment.exercises)
+
+    def write(why: str = NOT_YET) -> dict[str, Any]:
+        left = [ungraded("", exercise, f"{exercise.name} {why}") for exercise in waiting]
+        results = _results(assignment, reports, [*failed, *left], images)
+        path = root / places.results
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_atomic(path, json.dumps(results, ensure_ascii=False, indent=1).encode("utf-8", "backslashreplace"))
+        return results
+
+    write()
+    try:
+        wall = _wall(assignment)
+        handed = handed_by("submission", root / places.submission)
+        while waiting:
+            exercise = waiting[0]
+            for found in marked(handed, Asked(only=exercise.name), wall, assignment.megabytes):
+                reports.append(found) if isinstance(found, Report) else failed.append(_of(exercise, found))
+            if assignment.service == "prairielearn" and reports and not reports[-1].is_full:
+                write()
+                images += picture(exercise, handed, reports[-1].file, wall)
+            if not any(item["exercise"] == exercise.name for item in [*failed, *map(_named, reports)]):
+                failed.append(ungraded("", exercise, f"{exercise.name}: no .py file and no notebook was handed in"))
+            waiting.pop(0)
+            write()
+    except Exception as error:  # a fault of ours must not leave a student without a word
+        said = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
+        return write(f"was not graded. This is not about your code; tell your teacher: {one_line(said)}")
+    return write()
+
+
+def _wall(assignment: Assignment) -> Wall:
+    wall = best(alone=True) if assignment.sandbox == "auto" else named(assignment.sandbox)
+    if not wall.holds and assignment.sandbox != "none":
+        raise InputError(f"nothing shuts submissions in here, so marks would not be safe ({wall.why})")
+    return wall
+
+
+def _of(exercise: Exercise, found: dict[str, Any]) -> dict[str, Any]:
+    """Return what could not be graded as being of an exercise."""
+    return found if found["exercise"] else found | {"exercise": exercise.name, "possible": exercise.points}
+
+
+def _named(report: Report) -> dict[str, Any]:
+    return {"exercise": report.exercise.name}
+
+
+def _results(
+    assignment: Assignment,
+    reports: Sequence[Report],
+    failed: Sequence[dict[str, Any]],
+    images: Sequence[dict[str, str]],
+) -> dict[str, Any]:
+    if assignment.service == "prairielearn":
+        return prairielearn(reports, failed, images)
+    factors = {exercise.name: assignment.factor(exercise) for exercise in assignment.exercises}
+    hidden = "after_published" if assignment.due is None else "after_due_date"
+    return gradescope(reports, failed, factors=factors, hidden=hidden)
+
+
+def main(words: Sequence[str]) -> int:
+    """Grade what lies in the folder of a service; `--wall` says what would shut it in, for the log of an installation."""
+    if list(words) == ["--wall"]:
+        wall = best(alone=True)
+        sys.stdout.write(f"Submissions are shut in by: {wall.name}" + (f" ({wall.why})" if wall.why else "") + "\n")
+        return 0
+    root, file = map(Path, words)
+    assignment = read(file.read_text(encoding="utf-8"))
+    results = grade(assignment, root)
+    sys.stdout.write(f"{assignment.title}: score {results.get('score', 'none')}\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
