@@ -1,5 +1,6 @@
 """Who is computed for next, and what is held: laws, without a clock."""
 
+import asyncio
 import functools
 import gc
 import threading
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 
 from tests import fake
+from tests.loops import run_apart
 from workbench.knobs import Knob
 from workbench.lesson import Lesson
 from workbench.scene import Caption, Scene
@@ -20,7 +22,7 @@ from workbench.session import Session
 from workbench.timeline import Timeline
 from workbench.viewer import runs as runs_module
 from workbench.viewer import scheduling
-from workbench.viewer.runs import Runs, caches
+from workbench.viewer.runs import Crew, Runs, caches
 from workbench.viewer.scheduling import Scheduler
 
 
@@ -131,6 +133,49 @@ def test_at_rest_a_run_is_computed_to_its_end_and_all_who_look_are_told(one, ste
     assert steered.made == [1] * 40, "each step is made once for all"
     assert not one.want("late", run, 3, nobody)
     until(lambda: len(one) == 0)
+
+
+def test_while_people_wait_for_something_else_only_what_is_waited_for_is_computed(steered):
+    busy = threading.Event()
+    busy.set()
+    scheduler = Scheduler(1, busy=busy.is_set)
+    try:
+        steered.may.release(10_000)
+        run, told = steered.run_of(1, 40), threading.Event()
+        scheduler.want("me", run, 3, told.set)
+        assert told.wait(60)
+        for _ in range(20):
+            with scheduler._changed:
+                scheduler._changed.notify_all()
+            time.sleep(0.002)
+        assert len(run) == 4
+        busy.clear()
+        until(lambda: run.finished)
+    finally:
+        scheduler.close()
+
+
+def test_what_is_quick_goes_before_what_is_expensive_but_not_for_ever():
+    done: list[str] = []
+    crew, held = Crew("test", 1), threading.Event()
+
+    async def asked() -> None:
+        tasks = [asyncio.create_task(crew.do(held.wait))]
+        await asyncio.sleep(0)
+        tasks += [asyncio.create_task(crew.do(done.append, "expensive", late=1000.0)),
+                  asyncio.create_task(crew.do(done.append, "quick")),
+                  asyncio.create_task(crew.do(done.append, "expensive and long ago", late=-1000.0))]  # fmt: skip
+        await asyncio.sleep(0)
+        assert crew.is_behind()
+        held.set()
+        await asyncio.gather(*tasks)
+
+    try:
+        run_apart(asked())
+        assert done == ["expensive and long ago", "quick", "expensive"]
+        assert not crew.is_behind()
+    finally:
+        crew.close()
 
 
 def test_a_lesson_that_ends_the_program_ends_its_own_run(one, steered):

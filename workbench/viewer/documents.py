@@ -34,6 +34,26 @@ def course_page(lessons: Mapping[str, Lesson], trouble: str | None = None) -> st
     return course_document(cards, root=ROOT, trouble=trouble)
 
 
+class LessonPages:
+    """The documents of lessons, each made once for all who open it, and anew when its page.md is another."""
+
+    def __init__(self) -> None:
+        self._made: dict[str, tuple[Lesson, str, tuple[str, ...], str]] = {}
+
+    def page(self, lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None) -> str:
+        """Return the document of a lesson, as `lesson_page` does."""
+        try:
+            text = lesson.text()
+        except InputError:  # told in its place
+            text = "!["
+        if watched is not None or "![" in text:  # what else may have changed: a student's file, a picture's
+            return lesson_page(lesson, lessons, watched)
+        made = self._made.get(lesson.name)
+        if made is None or made[0] is not lesson or made[1:3] != (text, tuple(lessons)):
+            made = self._made[lesson.name] = lesson, text, tuple(lessons), lesson_page(lesson, lessons)
+        return made[3]
+
+
 def lesson_page(lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None) -> str:
     """Return the document of a lesson, with what drives it where a student's file does."""
     article = _told(lesson, "page", lambda: article_html(lesson, lambda run, step: address(lesson, run, step)))

@@ -4,9 +4,11 @@ import asyncio
 import contextlib
 import ctypes
 import gc
+import itertools
 import queue
 import sys
 import threading
+import time
 import weakref
 from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
@@ -21,31 +23,41 @@ Result = TypeVar("Result")
 
 MOST_BYTES = 3 * 2**29
 """What runs, their steps' data and lessons' caches may hold together."""
+LATE = 0.5
+"""Seconds that what is expensive lets pass that comes after it: who only steps does not wait for who moves knobs."""
 
 
 class Crew:
     """A few threads that do one kind of work, and end with the program whatever holds them up."""
 
     def __init__(self, name: str, threads: int):
-        self._work: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._work: queue.PriorityQueue[tuple[float, int, Any]] = queue.PriorityQueue()
+        self._number = itertools.count()
         self._threads = threads
         for _ in range(threads):
             threading.Thread(target=self._run, name=name, daemon=True).start()
 
-    async def do(self, function: Callable[..., Result], *args: Any) -> Result:
-        """Return what a function returns, called in one of the threads."""
+    async def do(self, function: Callable[..., Result], *args: Any, late: float = 0.0) -> Result:
+        """Return what a function returns, called in one of the threads; what comes up to `late` seconds later goes first."""
         loop = asyncio.get_running_loop()
         answer: asyncio.Future[Result] = loop.create_future()
-        self._work.put((loop, answer, function, args))
+        self._put((loop, answer, function, args), late)
         return await answer
+
+    def is_behind(self) -> bool:
+        """Tell whether something waits for a thread."""
+        return not self._work.empty()
 
     def close(self) -> None:
         """Do nothing more than what was begun."""
         for _ in range(self._threads):
-            self._work.put(None)
+            self._put(None, 0.0)
+
+    def _put(self, task: Any, late: float) -> None:
+        self._work.put((time.monotonic() + late, next(self._number), task))
 
     def _run(self) -> None:
-        while (task := self._work.get()) is not None:
+        while (task := self._work.get()[2]) is not None:
             loop, answer, function, args = task
             del task
             if answer.cancelled():
@@ -84,8 +96,8 @@ class Runs:
 
     def __init__(self, most_bytes: int = MOST_BYTES, threads: int = 2):
         self.timelines = Timelines(most_bytes=most_bytes)
-        self.scheduler = Scheduler(threads)
         self.showing, self.asking, self.keeping = Crew("showing", 2), Crew("asking", 1), Crew("keeping", 1)
+        self.scheduler = Scheduler(threads, busy=self.showing.is_behind)
         self._most_bytes = most_bytes
         self._steps: weakref.WeakKeyDictionary[Timeline, Steps] = weakref.WeakKeyDictionary()
         self._lock = threading.Lock()

@@ -19,6 +19,8 @@ AHEAD = 8
 """How many steps behind the one that is shown are computed at once, so that playing does not wait."""
 REST = 0.5
 """Seconds without a wish after which the rest of a run is computed."""
+BUSY = 0.02
+"""Seconds between two looks at whether people wait for something else."""
 NEWS = 0.2
 """Seconds between two reports of a run that grows at rest."""
 STUCK = 10.0
@@ -48,9 +50,11 @@ class Scheduler:
 
     Args:
         threads: How many compute; all but one may compute what nobody waits for.
+        busy: Tells whether people wait for something else that this process does; then nothing is computed at rest.
     """
 
-    def __init__(self, threads: int = 2):
+    def __init__(self, threads: int = 2, busy: Callable[[], bool] = lambda: False):
+        self._busy = busy
         self._jobs: dict[Timeline, _Job] = {}
         self._of: dict[Hashable, tuple[_Job, Callable[[], None]]] = {}
         self._turns: dict[Hashable, float] = {}  # when somebody was served last
@@ -150,7 +154,7 @@ class Scheduler:
                    if (asking := job.waiting())]  # fmt: skip
         if waiting:
             return free[min(waiting)[1]], False
-        if self._resting >= max(1, self._threads - 1):
+        if self._resting >= max(1, self._threads - 1) or self._busy():
             return None
         now = time.monotonic()
         ahead = [job for job in free if job.waiting(AHEAD)]
@@ -161,7 +165,9 @@ class Scheduler:
         """Return the seconds until something may be due that nobody reports."""
         now = time.monotonic()
         due = [job.moved + REST - now for job in self._jobs.values() if not job.running]
-        return max(0.001, min(due)) if due and self._resting < max(1, self._threads - 1) else None
+        if not due or self._resting >= max(1, self._threads - 1):
+            return None
+        return BUSY if self._busy() else max(0.001, min(due))
 
     def _slice(self, job: _Job) -> None:
         timeline, end = job.timeline, time.perf_counter() + SLICE

@@ -33,7 +33,7 @@ from workbench.page.code import source_html
 from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES
 from workbench.page.thumbnail import thumbnail
 from workbench.typeset import math_font_css
-from workbench.viewer.documents import course_page, lesson_page, start_address
+from workbench.viewer.documents import LessonPages, course_page, lesson_page, start_address
 from workbench.viewer.following import Following
 from workbench.viewer.patience import Patience, more_files
 from workbench.viewer.rules import KEY, Gate, Rules, addresses, page_response
@@ -93,6 +93,7 @@ class Server:
         more_files()
         self.port = own.getsockname()[1]
         self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
+        self._lesson_pages = LessonPages()
         self.students: dict[str, Student] = {}
         self._scenes: dict[str, viser.ClientHandle] = {}
         self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
@@ -210,7 +211,7 @@ class Server:
         if lesson is None:
             return page_response(request, await self.runs.showing.do(course_page, self.lessons, trouble))
         watched = self.following.watched if self.following else None
-        page = await self.runs.showing.do(lesson_page, lesson, self.lessons, watched)
+        page = await self.runs.showing.do(self._lesson_pages.page, lesson, self.lessons, watched)
         return page_response(request, page.replace("<body ", f'<body data-token="{secrets.token_hex(12)}" ', 1))
 
     def _pages(self) -> list[Student]:

@@ -16,7 +16,6 @@ import trimesh
 import viser
 from trimesh.visual import TextureVisuals
 from trimesh.visual.material import PBRMaterial
-from viser.transforms import SO3
 
 from workbench.scene import (
     PALETTE,
@@ -34,9 +33,10 @@ from workbench.scene import (
     is_rigid,
     same,
 )
+from workbench.viewer.lean import make_lean, wxyz_of
 
+make_lean()
 ROOT = "/scene/"
-_IDENTITY = np.eye(4)
 
 
 @dataclass
@@ -144,7 +144,10 @@ class ViserSink:
 
     def _add(self, name: str, primitive: Spatial) -> Any:
         handle = self._makers()[type(primitive)](name, primitive)
-        _set_pose(handle, primitive)
+        if (
+            isinstance(primitive, Label) or primitive.T_world_object is not None
+        ):  # else it has the pose that a node starts with
+            _set_pose(handle, primitive)
         return handle
 
     def _makers(self) -> dict[type, Callable[[str, Any], Any]]:
@@ -314,11 +317,9 @@ def _placed(primitive: Spatial, p: np.ndarray) -> np.ndarray:
 
 def _set_pose(handle: Any, primitive: Spatial) -> None:
     T = primitive.T_world_object
-    T_world_node = _IDENTITY if T is None or not is_rigid(T) else T
-    p_world = T_world_node[:3, 3]
     if isinstance(primitive, Label):
-        p = primitive.p if T is None else T[:3, :3] @ primitive.p + T[:3, 3]
-        handle.position = p
-        return
-    handle.wxyz = SO3.from_matrix(T_world_node[:3, :3]).wxyz
-    handle.position = p_world
+        handle.position = primitive.p if T is None else T[:3, :3] @ primitive.p + T[:3, 3]
+    elif T is None or not is_rigid(T):
+        handle.wxyz, handle.position = (1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    else:
+        handle.wxyz, handle.position = wxyz_of(T[:3, :3]), T[:3, 3]

@@ -34,7 +34,7 @@ from workbench.timeline import Timeline
 from workbench.viewer.following import Following
 from workbench.viewer.live_scene import LiveScene
 from workbench.viewer.own_files import OwnFiles
-from workbench.viewer.runs import Runs
+from workbench.viewer.runs import LATE, Runs
 from workbench.viewer.terminal import tell_terminal
 from workbench.viewer.wishes import Wishes, read_wish
 
@@ -150,13 +150,16 @@ class Student:
             return
         self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
         redraw, tell = bool(wishes), any(wish["verb"] not in SCENE_ALONE for wish in wishes)
-        for text in await self.runs.showing.do(self._show, session, redraw, tell):
+        late = 0.0 if session.timeline is self._timeline else LATE
+        for text in await self.runs.showing.do(self._show, session, redraw, tell, late=late):
             await self._send(text)
         await self._glide()
 
     async def _glide(self) -> None:
         """Show what moves on its way; who wishes for something meanwhile sees where it ends."""
-        while await self.runs.showing.do(functools.partial(self._scene.go_on, at_once=len(self._wishes) > 0)):
+        while await self.runs.showing.do(
+            functools.partial(self._scene.go_on, at_once=len(self._wishes) > 0), late=SECONDS / FRAMES
+        ):
             await asyncio.sleep(SECONDS / FRAMES)
 
     def _came(self) -> None:
