@@ -92,12 +92,6 @@ def nearer_side(side: Side) -> float:
     return float(np.mean(side.flow.p_moving[:, 0] < 0))
 
 
-def flips(state: State) -> bool:
-    """Tell whether Chamfer and earth mover's rank the cloud and the target 5 % larger differently."""
-    now, larger = state.left.numbers, state.yardsticks["5 % larger"]
-    return (now.chamfer < larger.chamfer) != (now.earth_movers < larger.earth_movers)
-
-
 def _spread_answer(states: Sequence[State]) -> float:
     left = nearer_side(states[-1].left)
     return 0.0 if left < 0.6 else 1.0 if left < 0.99 else 2.0

@@ -9,7 +9,6 @@ import scipy
 from lessons.disparity.pairs import setup_of
 from lessons.disparity.state import Params, State
 from lessons.disparity.truth import flat_parts
-from workbench.algorithms.disparity import Stage
 from workbench.lesson import Preset, Question
 from workbench.numerals import length, percent
 
@@ -140,11 +139,6 @@ PRESETS: tuple[Preset[Params], ...] = (
         WRONG_F, DEPTH,
     ),
 )  # fmt: skip
-
-
-def of_stage(states: Sequence[State], stage: Stage) -> State:
-    """Return the last state of a stage."""
-    return [state for state in states if state.stage is stage][-1]
 
 
 def last_choice(states: Sequence[State]) -> State:

@@ -64,7 +64,7 @@ def draw(state: State) -> Scene:
         "error": Scalar(state.error, "median pixel error", "Error to the true picture", "px", "truth"),
         "caption": caption(state),
         **_tables(state),
-        **_lens_curves(shot.lens, float(np.linalg.norm(shot.xy[k])), state.now.stage),
+        **_lens_curves(shot.lens, float(np.linalg.norm(shot.xy[k]))),
     }
     if state.params.dolly != 1:
         dolly, gaps = np.log10(FACTORS), np.log10(shot.gaps)
@@ -199,7 +199,7 @@ def _near(photograph: Picture, uv: np.ndarray) -> np.ndarray:
     return np.all((uv > -BEYOND * size) & (uv < (1 + BEYOND) * size), axis=1)
 
 
-def _lens_curves(lens: Distortion, r_chosen: float, stage: pinhole.Stage) -> dict[str, Primitive]:
+def _lens_curves(lens: Distortion, r_chosen: float) -> dict[str, Primitive]:
     """Draw distorted over ideal radius along +x; where it turns down the lens folds."""
     r = np.linspace(0.0, 1.4, 57)
     bent = distort(np.column_stack([r, np.zeros_like(r)]), *lens)[:, 0]

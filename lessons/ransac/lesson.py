@@ -67,7 +67,6 @@ def run(
                 subject=subject,
                 now=now,
                 inlier_distance=distance,
-                trial_error=subject.error(now.estimate),
                 best_error=subject.error(now.best.estimate if now.best else None),
                 chosen=bool(chosen) and now.iteration == 1,
                 rivals=rivals,

@@ -137,8 +137,7 @@ class State:
         subject: The rows, the same for the whole run.
         now: What RANSAC yielded.
         inlier_distance: In the unit of the model.
-        trial_error: Of the model under test to the truth; NaN where there is none or the truth is not known.
-        best_error: Of the best so far, likewise.
+        best_error: Of the best so far to the truth; NaN where there is none or the truth is not known.
         chosen: Whether the sample was picked by the person.
         rivals: Least squares and Huber, over all rows.
         before: The best one step earlier, if any: what a new best or a refit replaced.
@@ -149,7 +148,6 @@ class State:
     subject: Subject
     now: ransac.State
     inlier_distance: float
-    trial_error: float
     best_error: float
     chosen: bool
     rivals: tuple[Rival, ...]

@@ -1,5 +1,6 @@
 """Runs of the disparity lesson that its tests share."""
 
+from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from lessons.disparity.lesson import lesson, run
 from lessons.disparity.state import Params, State
 from tests.runs import finished
+from workbench.algorithms.disparity import Stage
 from workbench.timeline import Timeline
 
 
@@ -21,6 +23,11 @@ def states(params: Params) -> tuple[State, ...]:
 
 def preset(name: str) -> tuple[State, ...]:
     return states(lesson.preset(name).params)
+
+
+def of_stage(states: Sequence[State], stage: Stage) -> State:
+    """The last state of a stage."""
+    return [state for state in states if state.stage is stage][-1]
 
 
 def truth_of(state: State) -> np.ndarray:

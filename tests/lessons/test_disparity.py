@@ -25,13 +25,22 @@ from lessons.disparity.experiments import (
     hidden,
     mean_depths,
     near_edges,
-    of_stage,
 )
 from lessons.disparity.lesson import lesson
 from lessons.disparity.pairs import ROWS_OFF, setup_of
 from lessons.disparity.state import Params
 from lessons.disparity.truth import depth_errors
-from tests.lessons.disparity_runs import BARE_PART, STRIPED_PART, off_in, preset, states, timeline, truth_of, visible_in
+from tests.lessons.disparity_runs import (
+    BARE_PART,
+    STRIPED_PART,
+    of_stage,
+    off_in,
+    preset,
+    states,
+    timeline,
+    truth_of,
+    visible_in,
+)
 from workbench.algorithms.disparity import Stage
 from workbench.geometry.stereo import depth_from_disparity
 from workbench.picking import picked

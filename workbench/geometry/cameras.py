@@ -52,6 +52,10 @@ def focal_from_field_of_view(angle: float, size: int) -> float:
 
     Raises:
         ValueError: If the angle is not between 0 and pi.
+
+    Examples:
+        >>> round(focal_from_field_of_view(math.pi / 2, 640), 6)
+        320.0
     """
     if not 0 < angle < math.pi:
         raise ValueError(f"a pinhole's field of view lies between 0 and pi radians, got {angle}")
@@ -152,6 +156,10 @@ def in_front(
         p_world: Points, metres.
         T_camera_world: World-to-camera motion, metres.
         near: Depth that must be exceeded, metres.
+
+    Examples:
+        >>> in_front(np.array([[0.0, 0.0, 2.0], [0.0, 0.0, -2.0]]), np.eye(4)).tolist()
+        [True, False]
     """
     return depths(p_world, T_camera_world) > near
 
@@ -278,6 +286,11 @@ def pixel_rays(
 
     Returns:
         The centre in the world, metres; and one direction per pixel, NaN where the lens has no inverse.
+
+    Examples:
+        >>> centre, n_world = pixel_rays(np.array([[320.0, 240.0]]), np.eye(4), intrinsics(500.0, 320.0, 240.0))
+        >>> centre.tolist(), n_world.tolist()
+        ([0.0, 0.0, 0.0], [[0.0, 0.0, 1.0]])
     """
     xy = normalize(uv, K, distortion)
     v_camera = np.column_stack([xy, np.ones(len(xy))])
@@ -324,6 +337,10 @@ def ray_lengths(
         depth: Depth Z of each, metres.
         K: Intrinsics, pixels.
         distortion: The lens.
+
+    Examples:
+        >>> ray_lengths(np.array([[620.0, 640.0]]), np.array([2.0]), intrinsics(500.0, 320.0, 240.0)).round(6).tolist()
+        [2.828427]
     """
     xy = normalize(uv, K, distortion)
     return depth * np.sqrt(1.0 + np.einsum("ni,ni->n", xy, xy))

@@ -169,7 +169,14 @@ def along(angles: PerVertex, right: Points, up: Points) -> tuple[Points, Points]
 
 
 def gauss_bonnet(p: Points, faces: Faces) -> tuple[float, float]:
-    """Return the sum of all angle defects, and 2 pi chi, which it must equal up to rounding: both in radians."""
+    """Return the sum of all angle defects, and 2 pi chi, which it must equal up to rounding: both in radians.
+
+    Examples:
+        >>> p = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])  # a closed tetrahedron
+        >>> total, expected = gauss_bonnet(p, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+        >>> round(total / np.pi, 6), round(expected / np.pi, 6)
+        (4.0, 4.0)
+    """
     return float(angle_defects(p, faces).sum()), 2 * np.pi * euler_characteristic(faces)
 
 

@@ -102,6 +102,11 @@ def four_in_general_position(
 
     Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the Oriented Epipolar
         Constraint, ICPR 2004 (the same idea for a homography).
+
+    Examples:
+        >>> uv = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        >>> bool(four_in_general_position(uv, 2.0 * uv)), bool(four_in_general_position(uv, uv[[0, 2, 1, 3]]))
+        (True, False)
     """
     return _in_general_position(uv_a, uv_b, _triangle_areas(uv_a), _triangle_areas(uv_b))
 

@@ -64,6 +64,12 @@ def eigenpairs(
 
     Raises:
         ValueError: If `count` is not below the number of vertices.
+
+    Examples:
+        >>> p = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])  # a closed tetrahedron
+        >>> values, _ = eigenpairs(p, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]), 2)
+        >>> bool(abs(values[0]) < 1e-9), bool(values[1] > 1)
+        (True, True)
     """
     if not 0 < count < len(p):
         raise ValueError(f"asked for {count} eigenpairs of a mesh with {len(p)} vertices")

@@ -79,7 +79,13 @@ def hyperplane_distances(
 
 
 def angle_between_planes(plane_a: Float[np.ndarray, " d"], plane_b: Float[np.ndarray, " d"]) -> float:
-    """Return the angle between two planes (or two lines), from 0 to a right angle, radians; signs do not matter."""
+    """Return the angle between two planes (or two lines), from 0 to a right angle, radians; signs do not matter.
+
+    Examples:
+        >>> floor, wall = np.array([0.0, 0.0, 1.0, 0.0]), np.array([-1.0, 0.0, 0.0, 2.0])
+        >>> round(angle_between_planes(floor, wall) / np.pi, 6)
+        0.5
+    """
     n_a, n_b = plane_a[:-1], plane_b[:-1]
     along = n_b * np.copysign(1.0, n_a @ n_b)
     return float(2.0 * np.arctan2(np.linalg.norm(n_a - along), np.linalg.norm(n_a + along)))

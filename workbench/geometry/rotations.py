@@ -214,7 +214,14 @@ def matrix_from_quaternion(q: Float[np.ndarray, "4"]) -> Float[np.ndarray, "3 3"
 
 
 def quaternion_product(p: Float[np.ndarray, "4"], q: Float[np.ndarray, "4"]) -> Float[np.ndarray, "4"]:
-    """Return the quaternion of the rotation that turns by q first and then by p: R(p) R(q)."""
+    """Return the quaternion of the rotation that turns by q first and then by p: R(p) R(q).
+
+    Examples:
+        >>> p, q = (quaternion_from_matrix(rotation_about(axis, 0.3)) for axis in ("x", "z"))
+        >>> R = matrix_from_quaternion(quaternion_product(p, q))
+        >>> bool(np.allclose(R, rotation_about("x", 0.3) @ rotation_about("z", 0.3)))
+        True
+    """
     return np.concatenate([[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
 
 

@@ -84,6 +84,10 @@ def disparity_from_depth(depth: Float[np.ndarray, "..."], f: float, baseline: fl
         depth: Depths, metres.
         f: Focal length, pixels.
         baseline: Distance between the cameras, metres.
+
+    Examples:
+        >>> disparity_from_depth(np.array([2.0, np.inf]), 400.0, 0.1).tolist()
+        [20.0, 0.0]
     """
     return f * baseline / depth
 

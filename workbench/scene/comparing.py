@@ -15,6 +15,10 @@ Scene: TypeAlias = Mapping[str, Primitive]
 PRIMITIVES: tuple[type, ...] = (Points, Segments, Mesh, Axes, Camera, Label, Picture, Scalar, Curve, Table, Caption)
 
 
+PALE = 0.25
+"""How opaque a ghost is beside what it is of."""
+
+
 def in_space(primitive: Primitive) -> bool:
     """Tell whether a primitive has a place in the 3D view."""
     if isinstance(primitive, Picture):
@@ -30,7 +34,7 @@ def caption_of(scene: Scene) -> Caption:
     return caption
 
 
-def ghost(scene: Scene, beside: Scene, opacity: float = 0.25) -> dict[str, Primitive]:
+def ghost(scene: Scene, beside: Scene) -> dict[str, Primitive]:
     """Return what another scene has elsewhere, faded, under `ghost/`, to stand behind the scene `beside`.
 
     What is at the same place in both is left out: a ghost over it would only pale it. A ghost hides nothing: points and
@@ -38,17 +42,17 @@ def ghost(scene: Scene, beside: Scene, opacity: float = 0.25) -> dict[str, Primi
     that differs from one at its place in space is left out. A picture beside the scene stands there as pinned.
     """
     return {
-        f"ghost/{path}": _faint(primitive, opacity)
+        f"ghost/{path}": _faint(primitive)
         for path, primitive in scene.items()
         if isinstance(primitive, Points | Segments | Mesh | Axes | Camera | Picture)
         and not _same_place(primitive, beside.get(path))
     }
 
 
-def _faint(primitive: Spatial, opacity: float) -> Spatial:
+def _faint(primitive: Spatial) -> Spatial:
     if isinstance(primitive, Picture) and not in_space(primitive):
         return replace(primitive, title=f"{primitive.title}, pinned" if primitive.title else "pinned")
-    faint = replace(primitive, opacity=primitive.opacity * opacity)
+    faint = replace(primitive, opacity=PALE * primitive.opacity)
     if isinstance(faint, Points):
         return replace(faint, radius=0.4 * faint.radius)
     if isinstance(faint, Segments):
