@@ -2,8 +2,8 @@
 
 A command is a function whose parameters are `Annotated[type, Option(...)]`, positional on the command line where they are
 positional-only. A parameter of type `Chosen` becomes LESSON, --preset and one flag per Params field; one of type
-`Serving` becomes --host, --port and --no-browser, and `ServingLive` --open and --behind too. Whatever cannot be used
-raises InputError with one line.
+`Serving` becomes --host, --port and --no-browser, and `ServingLive` --open, --behind and --workers too. Whatever cannot
+be used raises InputError with one line.
 """
 
 import argparse
@@ -25,10 +25,12 @@ from workbench.loading import load, taken_by, word_for
 RESERVED = frozenset(
     {
         *("lesson", "preset", "step", "out", "force", "host", "port", "browser", "with", "native", "help", "params"),
-        *("open", "behind", "key"),
+        *("open", "behind", "workers", "key"),
     }
 )
 """Flags of the commands, words of links, keywords of `record`: no Params field may have one of these names."""
+
+MOST_WORKERS = 64
 
 SWITCHES = frozenset({"--no-browser", "--open", "--force"})
 """Flags without a value, of the commands that take a lesson."""
@@ -67,6 +69,12 @@ class ServingLive(Serving):
     behind: Annotated[
         str | None, Option("Name under which browsers find it, where it stands behind a proxy.", "NAME")
     ] = None
+    workers: Annotated[int, Option("Processes that share the pages out, on a machine with many cores.", "N")] = 1
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not 1 <= self.workers <= MOST_WORKERS:
+            raise InputError(f"--workers {self.workers}: a number of processes is from 1 to {MOST_WORKERS}")
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,12 @@
 """A class at one live server: how long a student waits, and what the server spends.
 
-    python -m tests.benchmarks.bench_class [--students 100] [--seconds 15] [--only mixed] [--threads 2]
+    python -m tests.benchmarks.bench_class [--students 100] [--seconds 15] [--only mixed] [--threads 2] [--workers 1]
 
-The server runs in a process of its own, the students, each a page and its scene, in this one. "words" is from the wish to
-the last byte of the step's words, "scene" to the last byte of its scene. CPU and memory are the server's. The machine is
-the same for both, so the students' own work is in all times; the load average says what else it did.
+The server runs in processes of its own, the students, each a page and its scene, in this one. "words" is from the wish to
+the last byte of the step's words, "scene" to the last byte of its scene. CPU and memory are the server's (memory that its
+processes share is counted once). The machine is the same for both, so the students' own work is in all times; the load
+average says what else it did. "cost" is what one wish costs the server, one after the other: CPU time, which a busy machine
+hardly changes.
 """
 
 import argparse
@@ -22,6 +24,7 @@ import numpy as np
 import psutil
 
 from tests.fake_page import FakePage
+from workbench.viewer.server import EMPTY, ROOM
 
 ROOT = Path(__file__).parents[2]
 LESSONS = ("transforms", "pinhole", "icp", "ransac", "curvature", "disparity")
@@ -31,19 +34,18 @@ GOALS = {
     "mixed, their steps": "",
     "mixed, steps": "p95 below 50 ms",
     "mixed, new page": "below 500 ms",
-    "silent, steps": "as before",
-    "silent, new page": "as before",
+    "alone, steps": "",
+    "alone, new page": "",
+    "silent, steps": "as alone",
+    "silent, new page": "as alone",
 }
 SERVE = """
 import sys
-from workbench.viewer.runs import Runs
 from workbench.viewer import server
+from workbench.viewer.serving import serve
 made = server.Runs
 server.Runs = lambda most_bytes: made(most_bytes, threads=int(sys.argv[1]))
-running = server.Server()
-print(running.address, flush=True)
-sys.stdin.read()
-running.stop()
+serve(port=0, browser=False, workers=int(sys.argv[2]))
 """
 
 
@@ -60,27 +62,33 @@ class Waits:
 
 
 class Served:
-    """The server in a process of its own."""
+    """The server in processes of its own."""
 
-    def __init__(self, threads: int):
+    def __init__(self, threads: int, workers: int = 1):
         environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-        self._process = subprocess.Popen(
-            [sys.executable, "-c", SERVE, str(threads)], cwd=ROOT, env=environment, text=True,
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        self._process = psutil.Popen(
+            [sys.executable, "-c", SERVE, str(threads), str(workers)],
+            cwd=ROOT, env=environment, text=True, stdout=subprocess.PIPE,
         )  # fmt: skip
-        assert self._process.stdout is not None
         self.address = self._process.stdout.readline().strip()
-        self._seen = psutil.Process(self._process.pid)
+        self.threads, self.memory = self.held()
 
-    def spent(self) -> tuple[float, float, float]:
-        """Return seconds of a clock, seconds of CPU, and MB in memory."""
-        times = self._seen.cpu_times()
-        return time.perf_counter(), times.user + times.system, self._seen.memory_info().rss / 2**20
+    def held(self) -> tuple[int, float]:
+        """Return threads, and MB in memory."""
+        all_of_it = self._all()
+        return sum(one.num_threads() for one in all_of_it), sum(one.memory_full_info().pss for one in all_of_it) / 2**20
+
+    def spent(self) -> tuple[float, float]:
+        """Return seconds of a clock, and seconds of CPU."""
+        times = [one.cpu_times() for one in self._all()]
+        return time.perf_counter(), sum(one.user + one.system for one in times)
 
     def stop(self) -> None:
-        assert self._process.stdin is not None
-        self._process.stdin.close()
+        self._process.terminate()
         self._process.wait(30)
+
+    def _all(self) -> list[psutil.Process]:
+        return [self._process, *self._process.children()]
 
 
 async def arrived(server: Served, query: str) -> tuple[FakePage, float]:
@@ -112,23 +120,29 @@ async def stepping(page: FakePage, until: float, waits: Waits, every: float = 1.
 
 async def learning(page: FakePage, until: float, waits: tuple[Waits, Waits], rng: np.random.Generator) -> None:
     """Once a second move one knob near its default, or, two times of three, step on; wait for what comes of it."""
-    knobs = [knob for knob in page.knobs if knob["kind"] in ("float", "int") and not knob["parts"][1:]]
     await asyncio.sleep(rng.uniform())
     while time.perf_counter() < until:
         began = time.perf_counter()
         if rng.uniform() < 2 / 3:
             k = page.step.get("k", 0) + 1
             waits[1].add(*await page.seek(k if k < page.run["known"] else 0))
-        else:
-            knob = knobs[rng.integers(len(knobs))]
-            near = float(knob["default"]) + 0.1 * (knob["high"] - knob["low"]) * rng.uniform(-1, 1)
-            value = float(np.clip(near, knob["low"], knob["high"]))
-            if knob["kind"] == "int":
-                value = int(knob["low"] + knob["step"] * round((value - knob["low"]) / knob["step"]))
-            if value != page.run["params"][knob["name"]]:
-                await page.change(knob["name"], value)
-                waits[0].add(page.came - began, max(0.0, page.scene_came - began))
+        elif await one_knob(page, rng):
+            waits[0].add(page.came - began, max(0.0, page.scene_came - began))
         await asyncio.sleep(max(0.0, 1.0 - (time.perf_counter() - began)))
+
+
+async def one_knob(page: FakePage, rng: np.random.Generator) -> bool:
+    """Move one knob near its default and wait for what comes of it; tell whether it moved."""
+    knobs = [knob for knob in page.knobs if knob["kind"] in ("float", "int") and not knob["parts"][1:]]
+    knob = knobs[rng.integers(len(knobs))]
+    near = float(knob["default"]) + 0.1 * (knob["high"] - knob["low"]) * rng.uniform(-1, 1)
+    value = float(np.clip(near, knob["low"], knob["high"]))
+    if knob["kind"] == "int":
+        value = int(knob["low"] + knob["step"] * round((value - knob["low"]) / knob["step"]))
+    if value == page.run["params"][knob["name"]]:
+        return False
+    await page.change(knob["name"], value)
+    return True
 
 
 async def one_lesson(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
@@ -161,10 +175,16 @@ async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
 
 
 async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
-    """30 browsers that say nothing, 30 that reload all the time, and one who steps."""
-    found = {name: Waits() for name in ("silent, steps", "silent, new page")}
+    """One who steps, alone; then beside 30 browsers that say nothing and 30 that reload all the time."""
+    found = {name: Waits() for name in ("alone, steps", "alone, new page", "silent, steps", "silent, new page")}
     walker = (await arrived(server, "?lesson=transforms"))[0]
     await walker.until(lambda page: page.run["finished"])
+
+    def walking(which: str) -> list[Callable[[float], Awaitable[None]]]:
+        return [lambda end: stepping(walker, end, found[f"{which}, steps"], 0.25),
+                lambda end: coming(server, "?lesson=transforms", end, found[f"{which}, new page"])]  # fmt: skip
+
+    await measured(server, given, walking("alone"))
     quiet = [await walker.socket(f"live?token={i:024x}") for i in range(30)]
 
     async def reloading(end: float) -> None:
@@ -174,10 +194,7 @@ async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
             page.live.transport.abort()
             page.scene.transport.abort()
 
-    tasks: list[Callable[[float], Awaitable[None]]] = [reloading for _ in range(30)]
-    tasks += [lambda end: stepping(walker, end, found["silent, steps"], 0.25)]
-    tasks += [lambda end: coming(server, "?lesson=transforms", end, found["silent, new page"])]
-    await measured(server, given, tasks)
+    await measured(server, given, [*(reloading for _ in range(30)), *walking("silent")])
     await asyncio.gather(*(socket.close() for socket in quiet), walker.close())
     return found
 
@@ -193,15 +210,46 @@ async def coming(server: Served, query: str, end: float, waits: Waits) -> None:
 
 async def measured(server: Served, given: argparse.Namespace, tasks: list[Callable[[float], Awaitable[None]]]) -> None:
     """Let all do their work at once, and note what the server spent."""
-    began, cpu, _ = server.spent()
+    began, cpu = server.spent()
     own = time.process_time()
     await asyncio.gather(*(task(began + given.seconds) for task in tasks))
-    ended, spent, memory = server.spent()
+    ended, spent = server.spent()
     seconds = ended - began
-    given.spent = (spent - cpu) / seconds, (time.process_time() - own) / seconds, memory, seconds
+    given.spent = (spent - cpu) / seconds, (time.process_time() - own) / seconds, server.held()[1], seconds
 
 
-SCENARIOS: dict[str, Any] = {"one": one_lesson, "mixed": mixed, "silent": silent}
+async def costs(server: Served, given: argparse.Namespace) -> None:
+    """Print what one wish of each kind costs the server, one after the other."""
+    steps_of, knobs_of = [], []
+    for name in given.lessons:
+        page, _ = await arrived(server, f"?lesson={name}")
+        await page.until(lambda page: page.run["finished"], 300)
+        rng, known = np.random.default_rng(0), min(page.run["known"], 20)
+        began = server.spent()[1]
+        for k in range(40):
+            await page.seek((k + 1) % known)
+        stepped = server.spent()[1]
+        moved = sum([await one_knob(page, rng) for _ in range(20)])
+        steps_of.append(1000 * (stepped - began) / 40)
+        knobs_of.append(1000 * (server.spent()[1] - stepped) / max(1, moved))
+        print(f"{name:<18} step {steps_of[-1]:6.1f} ms, moved knob {knobs_of[-1]:6.1f} ms of CPU")
+        await page.close()
+    began = server.spent()[1]
+    for _ in range(10):
+        await (await arrived(server, "?lesson=transforms"))[0].close()
+    page_of = 100 * (server.spent()[1] - began)
+    print(
+        f"{'mean':<18} step {np.mean(steps_of):6.1f} ms, moved knob {np.mean(knobs_of):6.1f} ms; a visit {page_of:.1f} ms\n"
+    )
+
+
+SCENARIOS: dict[str, Any] = {"cost": costs, "one": one_lesson, "mixed": mixed, "silent": silent}
+
+
+def afterwards(server: Served) -> tuple[int, float]:
+    """Return threads and MB of the server when all have gone, and it has let go of what it held for them."""
+    time.sleep(EMPTY + 2 * ROOM)
+    return server.held()
 
 
 def main() -> None:
@@ -210,18 +258,21 @@ def main() -> None:
     parser.add_argument("--students", type=int, default=100)
     parser.add_argument("--seconds", type=float, default=15.0)
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--only", nargs="+", choices=sorted(SCENARIOS), default=list(SCENARIOS))
     parser.add_argument(
         "--lessons", nargs="+", default=["transforms", "pinhole", "icp", "ransac", "curvature", "disparity"]
     )
     given = parser.parse_args()
-    print(f"{given.students} students, {given.threads} threads that compute, {os.cpu_count()} cores\n")
+    parts = f"{given.workers} processes with {given.threads} threads that compute each"
+    print(f"{given.students} students, {parts}, {os.cpu_count()} cores\n")
     print(f"{'':<18} {'n':>6}   words ms: median    p95    max   scene p95   goal (words)")
     for name in given.only:
         before = os.getloadavg()[0]
-        server = Served(given.threads)
+        server = Served(given.threads, given.workers)
         try:
-            found = asyncio.run(SCENARIOS[name](server, given))
+            found = asyncio.run(SCENARIOS[name](server, given)) or {}
+            threads, memory_after = afterwards(server)
         finally:
             server.stop()
         for who, waits in found.items():
@@ -230,11 +281,15 @@ def main() -> None:
                 f"{who:<18} {len(waits.words):6d} {np.median(words):18.0f} {np.quantile(words, 0.95):6.0f}"
                 f" {words.max():6.0f} {np.quantile(scene, 0.95):11.0f}   {GOALS[who]}"
             )
+        if not found:
+            continue
         cores, ours, memory, seconds = given.spent
         each = 1000 * cores * seconds / max(1, sum(len(waits.words) for waits in found.values()))
         print(
-            f"  server: {cores:.2f} cores, {each:.1f} ms for each wish, {memory:,.0f} MB; students: {ours:.2f} cores; "
-            f"load before {before:.1f}, after {os.getloadavg()[0]:.1f}\n",
+            f"  server: {cores:.2f} cores, {each:.1f} ms for each wish; students: {ours:.2f} cores; "
+            f"load before {before:.1f}, after {os.getloadavg()[0]:.1f}\n"
+            f"  memory: {server.memory:,.0f} MB at the start, {memory:,.0f} at work, {memory_after:,.0f} when all had gone; "
+            f"threads: {server.threads}, then {threads}\n",
             flush=True,
         )
 

@@ -3,16 +3,20 @@
 import asyncio
 import contextlib
 import json
+import os
 import re
 import shutil
 import socket
 import subprocess
+import sys
 import time
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
 
+import httpx
+import numpy as np
 import pytest
 
 from tests.fake_page import FakePage
@@ -124,6 +128,69 @@ def test_behind_a_prefix_every_address_of_a_page_leads_somewhere(site):
             assert (await asked(site, f"/workbench/{one}"))[0] == 200, one
         token = re.findall(r'data-token="(\w+)"', page)[0]
         assert (await asked(site, f"/workbench/scene/{token}/"))[0] == 200
+
+    run_apart(visit())
+
+
+@pytest.fixture(scope="module")
+def jupyter(tmp_path_factory) -> Iterator[str]:
+    """A Jupyter server with jupyter-server-proxy; the value is its address."""
+    pytest.importorskip("jupyter_server_proxy")
+    folder = tmp_path_factory.mktemp("jupyter")
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    words = ["--no-browser", "--allow-root", "--ServerApp.ip=127.0.0.1", f"--ServerApp.port={port}",
+             "--ServerApp.port_retries=0", f"--ServerApp.root_dir={folder}", "--IdentityProvider.token=",
+             "--ServerApp.jpserver_extensions={'jupyter_server_proxy': True}"]  # fmt: skip
+    homes = {
+        name: str(folder) for name in ("JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_DATA_DIR", "IPYTHONDIR")
+    }
+    with subprocess.Popen(
+        [sys.executable, "-m", "jupyter_server", *words], cwd=folder, env=os.environ | homes, stderr=subprocess.DEVNULL
+    ) as process:
+        try:
+            deadline = time.monotonic() + 120
+            while True:
+                assert process.poll() is None
+                with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port)):
+                    break
+                assert time.monotonic() < deadline
+                time.sleep(0.1)
+            yield f"http://127.0.0.1:{port}"
+        finally:
+            process.kill()
+
+
+def test_behind_jupyter_a_page_runs_takes_a_file_and_gives_its_recording(jupyter, server):
+    folder = f"{jupyter}/proxy/{server.port}/"
+    lesson = catalog()["icp"]
+    run = Timeline(lesson, lesson.params(start_angle=120.0))
+    while len(run) < 6:
+        run.extend()
+    scan = b"\n".join(b"%f %f %f" % tuple(p) for p in np.random.default_rng(0).normal(size=(200, 3)))
+
+    async def visit() -> None:
+        page = await FakePage(folder, "?lesson=icp&start_angle=120&step=3").open()
+        await page.until(lambda page: page.step.get("k") == 3 and page.scene_bytes > 1000)
+        assert page.step["step"]["caption"] == run[3].caption.text
+        await page.seek(5)
+        assert page.step["step"]["caption"] == run[5].caption.text
+        async with httpx.AsyncClient(base_url=folder, timeout=60) as browser:
+            answer = await browser.get(f"recording/{page.token}")
+            assert (answer.status_code, answer.content[:4]) == (200, b"RRF2")
+            assert "icp" in answer.headers["content-disposition"]
+            for field in ("source", "target"):
+                sent = await browser.post(
+                    f"files/{page.token}/{field}?name=scan.xyz", content=scan, headers={"Origin": jupyter}
+                )
+                assert sent.status_code == 204, sent.text
+            await page.until(lambda page: {"source", "target"} <= set(page.run["files"]))
+            document = (await browser.get("?lesson=icp")).text
+            found = [one for one in re.findall(r'(?:src|href)="([^"]+)"', document) if not urlsplit(one).scheme]
+            for one in {one.replace("&amp;", "&") for one in found if not one.startswith("#")}:
+                assert (await browser.get(one)).status_code == 200, one
+            assert (await browser.get(f"scene/{page.token}/")).status_code == 200
+        await page.close()
 
     run_apart(visit())
 

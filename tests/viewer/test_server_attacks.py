@@ -354,6 +354,21 @@ def test_when_all_have_gone_threads_and_runs_are_back():
     assert threading.active_count() <= before
 
 
+def test_when_nobody_is_there_for_a_while_nothing_is_held(monkeypatch):
+    monkeypatch.setattr(server_module, "ROOM", 0.1)
+    monkeypatch.setattr(server_module, "EMPTY", 0.3)
+    server = Server(links.Place(fake.lesson, fake.Params()))
+    try:
+        meanwhile(server, goes_on)
+        deadline = time.monotonic() + 60
+        while server.runs.timelines.alive() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        assert not server.runs.timelines.alive()
+        meanwhile(server, goes_on)
+    finally:
+        server.stop()
+
+
 def test_no_wish_link_or_knob_opens_a_file(server):
     """Thirteen fields by nine paths, through every verb and link, while an audit hook notes what is opened."""
     names = ["scan", "query", "lesson", "run", "step", "question", "given", "k", "on", "dark", "verb", "preset", "file"]

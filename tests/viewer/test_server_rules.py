@@ -10,7 +10,8 @@ import websockets
 from tests.fake_page import FakePage
 from tests.loops import run_apart
 from workbench.errors import InputError
-from workbench.viewer.rules import Rules, addresses, is_loopback
+from workbench.viewer.addresses import addresses, is_loopback
+from workbench.viewer.rules import Rules
 from workbench.viewer.server import Server
 
 TOKEN = "0123456789abcdef01234567"
@@ -136,7 +137,7 @@ def test_an_open_server_lets_everybody_in_but_no_other_origin_and_says_what_that
     server = Server(host="0.0.0.0", open_to_all=True)
     try:
         assert server.rules.token is None
-        assert "Everybody" in server.welcome()
+        assert "Everybody" in server.doors.welcome()
         assert get(server, Host=f"192.168.1.7:{server.port}")[0] == 200
         assert get(server, Host="evil.example")[0] == 403, "a name can be given any address by whoever owns it"
         assert not enters(server, SOCKETS[0], Origin="http://evil.example")
@@ -145,10 +146,10 @@ def test_an_open_server_lets_everybody_in_but_no_other_origin_and_says_what_that
 
 
 def test_a_server_for_others_says_where_it_is_and_a_local_one_only_its_address(local, public):
-    assert local.welcome() == local.address
-    assert public.rules.token in public.welcome()
-    assert all(str(public.port) in link and "0.0.0.0" not in link for link in public.links)
-    assert public.links
+    assert local.doors.welcome() == local.address
+    assert public.rules.token in public.doors.welcome()
+    assert all(str(public.port) in link and "0.0.0.0" not in link for link in public.doors.links)
+    assert public.doors.links
 
 
 def test_behind_a_proxy_its_public_name_is_known():

@@ -18,9 +18,8 @@ from starlette.responses import HTMLResponse, PlainTextResponse, RedirectRespons
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from workbench.errors import InputError
+from workbench.viewer.addresses import KEY, is_loopback
 
-KEY = "key"
-"""The name of the token in a link."""
 _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9._-]+)(?::(\d{1,5}))?")
 _PAGE = (
     "default-src 'none'; script-src 'self' 'nonce-{nonce}'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
@@ -128,10 +127,11 @@ class Gate:
         app: What is behind it.
         rules: Who may.
         cookie: The name of the cookie that holds the token; servers on one machine have cookies in common.
+        once: Whether a connection ends with its answer.
     """
 
-    def __init__(self, app: ASGIApp, rules: Rules, cookie: str):
-        self._app, self._rules, self._cookie = app, rules, cookie
+    def __init__(self, app: ASGIApp, rules: Rules, cookie: str, *, once: bool = False):
+        self._app, self._rules, self._cookie, self._once = app, rules, cookie, once
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer, refuse, or pass on."""
@@ -151,6 +151,8 @@ class Gate:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
                 headers.update(_HEADERS)
+                if self._once:
+                    headers["connection"] = "close"
                 headers["content-security-policy"] = _SCENE if is_scene else _PAGE.format(nonce=nonce)
             await send(message)
 
@@ -193,42 +195,8 @@ def page_response(request: Request, html: str) -> HTMLResponse:
     )
 
 
-def is_loopback(host: str) -> bool:
-    """Tell whether only this machine reaches what listens on a host."""
-    try:
-        return ipaddress.ip_address(host.strip("[]")).is_loopback
-    except ValueError:
-        return host.lower() == "localhost"
-
-
 def _is_address(name: str) -> bool:
     try:
         return bool(ipaddress.ip_address(name.strip("[]")))
     except ValueError:
         return False
-
-
-def addresses(host: str) -> list[str]:
-    """Return the hosts under which other machines may reach what listens on a host, as links write them."""
-    if host not in ("0.0.0.0", "::", ""):
-        return [f"[{host}]" if ":" in host else host]
-    found = dict.fromkeys([_outward(), *(str(info[4][0]) for info in _own_infos())])
-    shown = [f"[{one}]" if ":" in one else one for one in found if one and not is_loopback(one) and "%" not in one]
-    return [one for one in shown if host != "0.0.0.0" or ":" not in one] or [socket.gethostname()]
-
-
-def _own_infos() -> list:
-    try:
-        return socket.getaddrinfo(socket.gethostname(), None, type=socket.SOCK_STREAM)
-    except OSError:
-        return []
-
-
-def _outward() -> str:
-    """Return this machine's address towards others; nothing is sent."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        try:
-            probe.connect(("192.0.2.1", 9))  # an address that is kept for documents
-            return str(probe.getsockname()[0])
-        except OSError:
-            return ""

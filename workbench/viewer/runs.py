@@ -128,6 +128,15 @@ class Runs:
             data = sum(steps.bytes for steps in self._steps.values())
         return sum(owned.values()) + data
 
+    def let_go(self, lessons: Iterable[Lesson]) -> None:
+        """Keep no run and no lesson's cache any more."""
+        while self.timelines.drop():
+            pass
+        for cached in caches(lessons):
+            cached.cache_clear()
+        gc.collect()
+        give_back()
+
     def make_room(self, lessons: Iterable[Lesson], sleepers: Iterable[Callable[[], bool]]) -> int:
         """Let go of what is needed least until all is within the bound; return what is held then.
 

@@ -10,7 +10,6 @@ import functools
 import io
 import re
 import secrets
-import socket as sockets
 import threading
 import warnings
 from collections.abc import AsyncIterator, Mapping
@@ -33,12 +32,14 @@ from workbench.page.code import source_html
 from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES
 from workbench.page.thumbnail import thumbnail
 from workbench.typeset import math_font_css
+from workbench.viewer.addresses import Doors, listening
 from workbench.viewer.documents import LessonPages, course_page, lesson_page, start_address
 from workbench.viewer.following import Following
 from workbench.viewer.patience import Patience, more_files
-from workbench.viewer.rules import KEY, Gate, Rules, addresses, page_response
+from workbench.viewer.rules import Gate, Rules, page_response
 from workbench.viewer.runs import MOST_BYTES, Runs
 from workbench.viewer.scene_proxy import FIRST_WORD, Pace, SceneProxy
+from workbench.viewer.share import Share
 from workbench.viewer.student import Student
 from workbench.viewer.transfers import receive, recording
 
@@ -49,6 +50,8 @@ MOST_A_SECOND = 200
 """Wishes of a page; what is more waits, and of its kind the latest is what counts."""
 ROOM = 3.0
 """Seconds between two looks at what is held in memory."""
+EMPTY = 30.0
+"""Seconds without a page after which nothing is held any more."""
 warnings.filterwarnings("ignore", "Queued a .* on a closed connection")  # a browser that left while it was drawn for
 _TOKEN = re.compile(r"[0-9a-f]{24}")
 
@@ -65,10 +68,10 @@ class Server:
         behind: The name under which browsers find it, where it stands behind a proxy.
         most_bytes: What runs and all that belongs to them may hold.
         most_pages: How many pages may be open.
+        share: Its part, where it is one of several that stand behind one port; it does not listen then.
 
     Attributes:
-        address: Where a browser on this machine finds it.
-        links: Where browsers on other machines find it, with the token that lets them in.
+        doors: Where browsers find it.
 
     Raises:
         InputError: If the port is taken or may not be used.
@@ -86,12 +89,14 @@ class Server:
         behind: str | None = None,
         most_bytes: int = MOST_BYTES,
         most_pages: int = MOST_PAGES,
+        share: Share | None = None,
     ):
         self.lessons: dict[str, Lesson] = dict(catalog()) | ({start.lesson.name: start.lesson} if start else {})
-        self.rules = Rules(host, open_to_all=open_to_all, behind=behind)
-        own = listening(host, port)
+        self.rules = Rules(host, open_to_all=open_to_all, behind=behind, token=share and share.token)
+        own = [listening(host, port)] if share is None else []
         more_files()
-        self.port = own.getsockname()[1]
+        self.port = own[0].getsockname()[1] if share is None else share.port
+        self.doors, self._share = Doors(host, self.port, self.rules.token), share
         self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
         self._lesson_pages = LessonPages()
         self.students: dict[str, Student] = {}
@@ -106,7 +111,7 @@ class Server:
         self._connections = _connections_of(self._viser)
         self.scenes = SceneProxy(f"127.0.0.1:{self._viser.get_port()}")
         config = uvicorn.Config(
-            Gate(self._app(), self.rules, f"workbench-{self.port}"),
+            Gate(self._app(), self.rules, f"workbench-{self.port}", once=share is not None),
             http="h11",
             ws="websockets-sansio",
             log_level="critical",
@@ -117,26 +122,17 @@ class Server:
             timeout_graceful_shutdown=2,
         )
         self._uvicorn = uvicorn.Server(config)
-        self._thread = threading.Thread(target=self._uvicorn.run, args=([own],), daemon=True)
+        self._thread = threading.Thread(target=self._uvicorn.run, args=(own,), daemon=True)
         self._thread.start()
         while not self._uvicorn.started:
             if not self._thread.is_alive():
                 raise InputError(f"cannot listen on {host}:{port}")
             self._thread.join(0.01)
-        key = "" if self.rules.token is None else f"/?{KEY}={self.rules.token}"
-        self.address = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::', '') else addresses(host)[0]}:{self.port}{key}"
-        self.links = [] if self.rules.local else [f"http://{name}:{self.port}{key}" for name in addresses(host)]
 
-    def welcome(self) -> str:
-        """Return what whoever started the server is told: where browsers find it, and who is let in."""
-        if self.rules.local:
-            return self.address
-        who = (
-            "Everybody who reaches this machine is let in, and sees what is served, own files' contents included."
-            if self.rules.token is None
-            else "Whoever has this link is let in; give it to nobody else:"
-        )
-        return "\n".join([who, *self.links, "On this machine:", self.address])
+    @property
+    def address(self) -> str:
+        """Where a browser on this machine finds it."""
+        return self.doors.address
 
     def stop(self) -> None:
         """Stop listening and end all pages."""
@@ -174,6 +170,8 @@ class Server:
             asyncio.create_task(one) for one in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
         ]
         async with self.scenes.running():
+            if self._share is not None:
+                self._share.begin(self._uvicorn)
             yield
         for task in keeping:
             task.cancel()
@@ -186,9 +184,14 @@ class Server:
 
     async def _keep_room(self) -> None:
         """Hold what is kept within its bound, and see to it that what is stuck holds nobody up."""
+        empty_for = 0.0
         while True:
             await asyncio.sleep(ROOM)
             self.runs.scheduler.relieve()
+            before, empty_for = empty_for, 0.0 if self.students else empty_for + ROOM
+            if before < EMPTY <= empty_for:
+                self._pictures.clear()
+                await self.runs.asking.do(self.runs.let_go, list(self.lessons.values()))
             longest_ago = sorted(self.students.values(), key=lambda student: student.acted)
             await self.runs.asking.do(
                 self.runs.make_room, list(self.lessons.values()), [student.sleep for student in longest_ago]
@@ -212,7 +215,10 @@ class Server:
             return page_response(request, await self.runs.showing.do(course_page, self.lessons, trouble))
         watched = self.following.watched if self.following else None
         page = await self.runs.showing.do(self._lesson_pages.page, lesson, self.lessons, watched)
-        return page_response(request, page.replace("<body ", f'<body data-token="{secrets.token_hex(12)}" ', 1))
+        return page_response(request, page.replace("<body ", f'<body data-token="{self._new_token()}" ', 1))
+
+    def _new_token(self) -> str:
+        return f"{0 if self._share is None else self._share.number:02x}{secrets.token_hex(11)}"
 
     def _pages(self) -> list[Student]:
         return list(self.students.values())
@@ -261,6 +267,7 @@ class Server:
             return
         student = self.students[token] = Student(self.lessons, self.runs, functools.partial(_send, socket))
         student.start, student.following = self._start, self.following
+        self._tell_share()
         if token in self._scenes:
             student.join(self._scenes[token])
         working = asyncio.create_task(student.work())
@@ -271,10 +278,15 @@ class Server:
         finally:
             working.cancel()
             self.students.pop(token, None)
+            self._tell_share()
             student.close()
             student.leave()
         with contextlib.suppress(RuntimeError):
             await socket.close()
+
+    def _tell_share(self) -> None:
+        if self._share is not None:
+            self._share.tell(len(self.students))
 
     @staticmethod
     async def _listen(socket: WebSocket, student: Student) -> None:
@@ -327,31 +339,6 @@ def _connections_of(server: viser.ViserServer) -> Mapping[int, Any]:
     if not isinstance(connections, dict):
         raise InputError(f"viser {viser.__version__} does not tell which page a scene belongs to: install viser 1.1.1")
     return connections
-
-
-def listening(host: str, port: int) -> sockets.socket:
-    """Return a socket that listens.
-
-    Raises:
-        InputError: If the port is taken or may not be used.
-    """
-    if not 0 <= port < 65536:
-        raise InputError(f"port {port}: a port is a whole number from 0 to 65535")
-    made = sockets.socket(sockets.AF_INET6 if ":" in host else sockets.AF_INET)
-    try:
-        made.setsockopt(sockets.SOL_SOCKET, sockets.SO_REUSEADDR, 1)
-        made.bind((host.strip("[]"), port))
-    except OSError as error:
-        made.close()
-        if isinstance(error, PermissionError):
-            raise InputError(f"port {port} needs more rights than this user has: choose one above 1023") from None
-        if isinstance(error, sockets.gaierror) or error.errno == 99:
-            raise InputError(f"host {host!r} is no address of this machine") from None
-        if error.errno == 98 or "in use" in str(error):
-            free = "stop the other program, or choose another with --port (0 picks a free one)"
-            raise InputError(f"port {port} is in use: {free}") from None
-        raise InputError(f"cannot listen on {host}:{port}: {error.strerror or error}") from None
-    return made
 
 
 async def _send(socket: WebSocket, text: str) -> None:

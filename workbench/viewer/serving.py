@@ -1,14 +1,25 @@
 """The commands' side of the live page: listens on the one port that is printed, until interrupted."""
 
+import signal
 import threading
 import webbrowser
 from typing import Any
 
 from workbench import links
 from workbench.authoring.reloading import Edited
+from workbench.errors import InputError
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson
+from workbench.viewer.addresses import Doors, listening
+from workbench.viewer.front import Front
+from workbench.viewer.patience import more_files
+from workbench.viewer.rules import Rules
+from workbench.viewer.runs import MOST_BYTES
 from workbench.viewer.server import Server
+from workbench.viewer.share import Share
+
+LEAST_BYTES = 384 * 2**20
+"""What the runs of one process may hold, however many there are."""
 
 
 def serve(
@@ -21,20 +32,24 @@ def serve(
     browser: bool = True,
     open_to_all: bool = False,
     behind: str | None = None,
+    workers: int = 1,
     watched: Watched | None = None,
     edited: Edited | None = None,
 ) -> None:
     """Serve the course, or one lesson at a place, until interrupted; print the address when ready.
 
     Raises:
-        InputError: If the port is taken or may not be used.
+        InputError: If the port is taken or may not be used, or several processes cannot serve this.
     """
     start = None if lesson is None else links.Place(lesson, params if params is not None else lesson.params(), step)
+    _end_as_by_ctrl_c()
+    if workers > 1:
+        if watched is not None or edited is not None:
+            raise InputError("--workers: files that are looked at while they are edited are served by one process")
+        return _serve_by_several(start, workers, host, port, browser, open_to_all, behind)
     server = Server(start, host=host, port=port, open_to_all=open_to_all, behind=behind, watched=watched, edited=edited)
-    print(server.welcome(), flush=True)  # noqa: T201
-    if browser:
-        webbrowser.open(server.address)
     try:
+        _announce(server.doors, browser)
         until_interrupted()
     except KeyboardInterrupt:
         pass
@@ -42,6 +57,41 @@ def serve(
         server.stop()
 
 
+def _serve_by_several(
+    start: links.Place | None, workers: int, host: str, port: int, browser: bool, open_to_all: bool, behind: str | None
+) -> None:
+    token = Rules(host, open_to_all=open_to_all, behind=behind).token
+    listener = listening(host, port)
+    more_files()
+    most_bytes = max(LEAST_BYTES, MOST_BYTES // workers)
+
+    def work(share: Share) -> None:
+        server = Server(start, host=host, open_to_all=open_to_all, behind=behind, most_bytes=most_bytes, share=share)
+        share.ended.wait()
+        server.stop()
+
+    front = Front(listener, workers, token, work)
+    try:
+        _announce(Doors(host, listener.getsockname()[1], token), browser)
+        front.run()
+    except KeyboardInterrupt:
+        pass
+    finally:
+        front.stop()
+
+
+def _announce(doors: Doors, browser: bool) -> None:
+    print(doors.welcome(), flush=True)  # noqa: T201
+    if browser:
+        webbrowser.open(doors.address)
+
+
 def until_interrupted() -> None:
     """Wait for ever; Ctrl+C ends it."""
     threading.Event().wait()
+
+
+def _end_as_by_ctrl_c() -> None:
+    """Let whoever stops a service, or a container, end it as gently as Ctrl+C does."""
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGTERM, signal.default_int_handler)

@@ -7,7 +7,6 @@ Messages are JSON. From the page: {"verb": ..., ...} with the verbs of VERBS. To
 import asyncio
 import contextlib
 import functools
-import json
 import traceback
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from typing import Any
@@ -19,22 +18,18 @@ from workbench import links
 from workbench.authoring.reloading import carried
 from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
-from workbench.exercise.driven import Pair, first_difference
-from workbench.flags import show_command
 from workbench.knobs import fields_of, with_own_files
 from workbench.lesson import Lesson
 from workbench.motion import FRAMES, SECONDS
-from workbench.page.charts import series_of
-from workbench.page.lessons import files_of, values_of
-from workbench.page.steps import Steps
 from workbench.picking import picked_params
 from workbench.questions import answer
-from workbench.session import Look, Session
+from workbench.session import Session
 from workbench.timeline import Timeline
 from workbench.viewer.following import Following
 from workbench.viewer.live_scene import LiveScene
 from workbench.viewer.own_files import OwnFiles
 from workbench.viewer.runs import LATE, Runs
+from workbench.viewer.telling import Telling, packed
 from workbench.viewer.terminal import tell_terminal
 from workbench.viewer.wishes import Wishes, read_wish
 
@@ -64,13 +59,7 @@ class Student:
         self._wake = asyncio.Event()
         self._coming: tuple[bool, viser.ClientHandle | None] = False, None  # a scene that has come or gone
         self._scene = LiveScene(self._moved, self._clicks)
-        self._steps: Steps | None = None
-        self._timeline: Timeline | None = None  # whose steps these are
-        self._sent: set[int] = set()  # numbers of things of this run that the page has
-        self._told: Any = None  # what was last said of the run
-        self._told_steps = 0  # up to where its series were
-        self._run = 0
-        self._seen: Any = None  # what the page was shown last
+        self._told = Telling(runs, self._scene)
         self._wishes = Wishes()
 
     def join(self, client: viser.ClientHandle | None) -> None:
@@ -111,7 +100,7 @@ class Student:
         self.runs.scheduler.leave(self)
         if self.session is not None:
             self.session.let_go()
-        self._timeline = self._steps = self._seen = None
+        self._told.forget()
 
     def close(self) -> None:
         """Remove what is kept for this page alone."""
@@ -132,7 +121,7 @@ class Student:
         wishes, (changed, client), self._coming = self._wishes.take(), self._coming, (False, None)
         if changed:
             self._scene.take(client)
-            self._seen = None
+            self._told.anew()
         if self.asleep and (wishes or client) and self.session is not None:
             self.asleep = False
             self.session.take_up()
@@ -150,10 +139,18 @@ class Student:
             return
         self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
         redraw, tell = bool(wishes), any(wish["verb"] not in SCENE_ALONE for wish in wishes)
-        late = 0.0 if session.timeline is self._timeline else LATE
+        late = 0.0 if session.timeline is self._told.timeline else LATE
         for text in await self.runs.showing.do(self._show, session, redraw, tell, late=late):
             await self._send(text)
         await self._glide()
+
+    def _show(self, session: Session, redraw: bool, tell: bool) -> list[str]:
+        """Show what is to be seen now; return what the page is to be told. Not on the event loop."""
+        look = session.look()
+        if look is None or session is not self.session:
+            return []
+        watched = None if self.following is None else self.following.watched
+        return self._told.show(session, look, redraw=redraw, tell=tell, watched=watched)
 
     async def _glide(self) -> None:
         """Show what moves on its way; who wishes for something meanwhile sees where it ends."""
@@ -333,78 +330,7 @@ class Student:
             self._news.append(news)
             self._wake.set()
 
-    # telling --------------------------------------------------------------------------------------------------------
-
-    def _show(self, session: Session, redraw: bool, tell: bool) -> list[str]:
-        """Show what is to be seen now in the scene; return what the page is to be told. Not on the event loop.
-
-        Args:
-            session: Where the person is.
-            redraw: Whether the scene is looked at again though the step is the one that was seen.
-            tell: Whether the step is told again though it is that one.
-        """
-        look = session.look()
-        if look is None or session is not self.session:
-            return []
-        timeline = look.timeline
-        if timeline.failure is not None:
-            tell_terminal(AuthorError(timeline.stopped or "", timeline.failure))
-        if self._timeline is not timeline or self._steps is None:
-            self._timeline, self._steps = timeline, self.runs.steps(timeline)
-            self._sent, self._told, self._told_steps, self._run = set(), None, 0, self._run + 1
-        pinned = None if session.pinned_run is None else (id(session.pinned_run), len(session.pinned_run))
-        now = self._run, look.k, look.known > 0, look.caption, pinned, self._scene.client
-        new = now != self._seen
-        trouble = self._scene.show(look, current=timeline is session.timeline) if new or redraw else None
-        told = [self._run_told(self._steps, look, pinned)]
-        again = new or tell or trouble is not None
-        if look.known and again:
-            told.append(self._step_told(self._steps, look, trouble))
-        elif not look.known and trouble is None and look.caption.text and again:
-            told.append({"tell": "trouble", "text": look.caption.text})
-        self._seen = now if trouble is None else None
-        return [_packed(message) for message in told if message is not None]
-
-    def _run_told(self, steps: Steps, look: Look, pinned: Any) -> dict[str, Any] | None:
-        """Return what is new of the run since it was last told, None when nothing is."""
-        params, lesson = look.params, look.lesson
-        said = {
-            "name": "default" if params == lesson.params() else getattr(lesson.preset_of(params), "name", ""),
-            "params": values_of(params),
-            "known": look.known,
-            "finished": look.finished,
-            "files": files_of(params),
-            "mark": first_difference(look.timeline.known()) if self._is_watched(lesson) else None,
-            "command": show_command(lesson, params),
-            "query": links.write(links.Place(lesson, params)),
-        }
-        if (said, pinned) == self._told:
-            return None
-        new: dict[str, Any] = {"tell": "run", "run": self._run, **said}
-        if self._told is None or self._told[1] != pinned:
-            new["pinned"] = series_of(look.pinned_series) if pinned else None
-        if self._told is None or look.known > self._told_steps:
-            new |= steps.series(self._told_steps, look.known)
-        self._told, self._told_steps = (said, pinned), look.known
-        return new
-
-    def _is_watched(self, lesson: Lesson) -> bool:
-        watched = None if self.following is None else self.following.watched
-        return watched is not None and watched.lesson is lesson
-
-    def _step_told(self, steps: Steps, look: Look, trouble: str | None) -> dict[str, Any]:
-        step = dict(steps.step(look.k))
-        if look.caption.text != step["caption"] or trouble:
-            step |= {"caption": trouble or look.caption.text, "tone": "wrong" if trouble else look.caption.tone}
-        wanted = [*step["shown"], step["legend"]]
-        code = steps.code(look.k)
-        if code is not None:
-            state = look.timeline[look.k].state
-            step["code"] = code | ({"wrong": state.line} if isinstance(state, Pair) and state.line else {})
-            wanted.append(code["source"])
-        new = {n: steps.things[n] for n in wanted if n not in self._sent}
-        self._sent |= set(new)
-        return {"tell": "step", "run": self._run, "k": look.k, "step": step, "things": new}
+    # what is done in the scene ----------------------------------------------------------------------------------------
 
     def _clicks(self, p_origin: np.ndarray, v_ray: np.ndarray) -> None:
         """Note a click in the scene; called in viser's thread."""
@@ -415,7 +341,7 @@ class Student:
         self._wish_elsewhere("change", values=values)
 
     async def _tell(self, **message: Any) -> None:
-        await self._send(_packed(message))
+        await self._send(packed(message))
 
 
 VERBS: Mapping[str, Callable[[Student, Mapping[str, Any]], Awaitable[None]]] = {
@@ -431,7 +357,3 @@ VERBS: Mapping[str, Callable[[Student, Mapping[str, Any]], Awaitable[None]]] = {
     "light": Student.light,
     "theme": Student.theme,
 }
-
-
-def _packed(message: Mapping[str, Any]) -> str:
-    return json.dumps(message, ensure_ascii=False, separators=(",", ":"))

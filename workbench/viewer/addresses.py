@@ -1,0 +1,98 @@
+"""Where a live server listens, and under which addresses browsers find it."""
+
+import ipaddress
+import socket
+
+from workbench.errors import InputError
+
+KEY = "key"
+"""The name of the token in a link."""
+
+
+class Doors:
+    """Where browsers find a server.
+
+    Args:
+        host, port: Where it listens.
+        token: What others than those on this machine bring; None where nothing must be brought.
+
+    Attributes:
+        address: Where a browser on this machine finds it.
+        links: Where browsers on other machines find it, with the token that lets them in.
+    """
+
+    def __init__(self, host: str, port: int, token: str | None):
+        self._token = token
+        key = "" if token is None else f"/?{KEY}={token}"
+        self.address = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::', '') else addresses(host)[0]}:{port}{key}"
+        self.links = [] if is_loopback(host) else [f"http://{name}:{port}{key}" for name in addresses(host)]
+
+    def welcome(self) -> str:
+        """Return what whoever started the server is told: where browsers find it, and who is let in."""
+        if not self.links:
+            return self.address
+        who = (
+            "Everybody who reaches this machine is let in, and sees what is served, own files' contents included."
+            if self._token is None
+            else "Whoever has this link is let in; give it to nobody else:"
+        )
+        return "\n".join([who, *self.links, "On this machine:", self.address])
+
+
+def listening(host: str, port: int) -> socket.socket:
+    """Return a socket that listens.
+
+    Raises:
+        InputError: If the port is taken or may not be used.
+    """
+    if not 0 <= port < 65536:
+        raise InputError(f"port {port}: a port is a whole number from 0 to 65535")
+    made = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
+    try:
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        made.bind((host.strip("[]"), port))
+    except OSError as error:
+        made.close()
+        if isinstance(error, PermissionError):
+            raise InputError(f"port {port} needs more rights than this user has: choose one above 1023") from None
+        if isinstance(error, socket.gaierror) or error.errno == 99:
+            raise InputError(f"host {host!r} is no address of this machine") from None
+        if error.errno == 98 or "in use" in str(error):
+            free = "stop the other program, or choose another with --port (0 picks a free one)"
+            raise InputError(f"port {port} is in use: {free}") from None
+        raise InputError(f"cannot listen on {host}:{port}: {error.strerror or error}") from None
+    return made
+
+
+def is_loopback(host: str) -> bool:
+    """Tell whether only this machine reaches what listens on a host."""
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return host.lower() == "localhost"
+
+
+def addresses(host: str) -> list[str]:
+    """Return the hosts under which other machines may reach what listens on a host, as links write them."""
+    if host not in ("0.0.0.0", "::", ""):
+        return [f"[{host}]" if ":" in host else host]
+    found = dict.fromkeys([_outward(), *(str(info[4][0]) for info in _own_infos())])
+    shown = [f"[{one}]" if ":" in one else one for one in found if one and not is_loopback(one) and "%" not in one]
+    return [one for one in shown if host != "0.0.0.0" or ":" not in one] or [socket.gethostname()]
+
+
+def _own_infos() -> list:
+    try:
+        return socket.getaddrinfo(socket.gethostname(), None, type=socket.SOCK_STREAM)
+    except OSError:
+        return []
+
+
+def _outward() -> str:
+    """Return this machine's address towards others; nothing is sent."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect(("192.0.2.1", 9))  # an address that is kept for documents
+            return str(probe.getsockname()[0])
+        except OSError:
+            return ""
