@@ -109,5 +109,4 @@ def test_a_page_that_goes_away_is_one_line_too(tmp_path, lesson_file):
 def test_every_lesson_of_the_course_has_its_row_and_its_picture(lesson):
     row = next(line for line in README.splitlines() if line.startswith("|") and f"(`{lesson.name}`)" in line)
     assert f"**{lesson.title}**" in row
-    assert lesson.summary in row
     assert (ROOT / re.findall(r'src="(.*?)"', row)[0]).is_file()
