@@ -10,7 +10,7 @@ import pytest
 from workbench import links, open_recording
 from workbench.cli import main
 from workbench.errors import InputError
-from workbench.lesson import Lesson
+from workbench.lesson import Lesson, course
 from workbench.loading import load
 from workbench.publish import site
 from workbench.session import Session
@@ -103,3 +103,10 @@ def test_a_page_that_goes_away_is_one_line_too(tmp_path, lesson_file):
     page.unlink()
     with pytest.raises(InputError, match=r"lesson turn: its page .*page\.md: No such file"):
         lesson.text()
+
+
+@pytest.mark.parametrize("lesson", course().values(), ids=lambda lesson: lesson.name)
+def test_every_lesson_of_the_course_has_its_row_and_its_picture(lesson):
+    row = next(line for line in README.splitlines() if line.startswith("|") and f"(`{lesson.name}`)" in line)
+    assert f"**{lesson.title}**" in row
+    assert (ROOT / re.findall(r'src="(.*?)"', row)[0]).is_file()

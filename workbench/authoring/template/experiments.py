@@ -11,24 +11,27 @@ from .state import Params, State
 EQUAL = Params(weights="equal")
 STRAY = Params(outliers=2)
 
-PRESETS = (
+PRESETS: tuple[Preset[Params], ...] = (
     Preset(
-        "weighted",
-        "Weights by variance",
-        "The bad sensor hardly counts, and the error stays near a centimetre.",
-        Params(),
+        name="weighted",
+        title="Weights by variance",
+        line="The bad sensor hardly counts, and the error stays near a centimetre.",
+        params=Params(),
     ),
     Preset(
-        "equal",
-        "Equal weights",
-        "The same fixes, but the bad sensor decides: the error is several times as large.",
-        EQUAL,
+        name="equal",
+        title="Equal weights",
+        line="The same fixes, but the bad sensor decides: the error is several times as large.",
+        params=EQUAL,
+        step=0,
     ),
     Preset(
-        "stray",
-        "Two fixes of another beacon",
-        "The last good fixes are of another beacon, and have full weight.",
-        STRAY,
+        name="stray",
+        title="Two fixes of another beacon",
+        line="The last good fixes are of another beacon, and have full weight.",
+        params=STRAY,
+        step=-5,
+        breaks=True,
     ),
 )
 
