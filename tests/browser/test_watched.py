@@ -54,7 +54,8 @@ def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
 
         file.write_text(PRINTING)
         report.get_by_text("public 3/3 · hidden 4 not run here").wait_for()
-        report.get_by_text("pairs: ").wait_for()
+        report.get_by_text("In this run your code printed:").wait_for()
+        report.get_by_text("pairs: ").first.wait_for()
         me.page.locator("#bar .flag").wait_for(state="detached")
         assert me.button("Go to the first difference").is_disabled()
         me.page.wait_for_function(f"page.k === {first}")  # where it was before the file was saved
@@ -68,6 +69,12 @@ def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
         assert "1 / 0" in me.page.locator("#large .here.wrong").inner_text()
         file.write_text("def align_rigid(p_target, p_source:\n")
         report.get_by_text("line 1").first.wait_for()
+
+        file.write_text(RIGHT)
+        report.get_by_text("public 3/3 · hidden 4 not run here").wait_for()
+        me.page.wait_for_function(f"page.k === {first}")  # where it was before the errors
+        file.unlink()
+        report.get_by_text("my_align_rigid.py is gone").wait_for()
 
         me.page.locator("nav.top a").first.click()
         me.page.locator("li[data-card=transforms] a").click()

@@ -53,4 +53,4 @@ def test_what_a_student_wrote_cannot_end_up_as_html():
     page = watched_html(evil, "<img src=x>.py")
     assert "<script>" not in page
     assert "<img" not in page
-    assert report_data("the file is being checked") == {"said": "the file is being checked"}
+    assert report_data("the file is being checked") == {"said": "the file is being checked", "ran": ""}

@@ -12,6 +12,8 @@ from workbench.exercise.sandbox import Student
 from workbench.lesson import Lesson
 
 RUNNING = "The checks are running …"
+GONE_AFTER = 4
+"""After how many looks a file that is not there is gone: an editor may be replacing it."""
 
 
 class Watched:
@@ -33,6 +35,7 @@ class Watched:
         self.original, self.path = lesson, path
         self.exercise: Exercise = exercises_in(path, lesson)[0]
         self._stamp = self._stamp_now()
+        self._missing = 0  # at how many looks in a row it was not there
         self._student = self._new()
         self.lesson = driven(lesson, self.exercise, self._student)
         self.said: Report | str = RUNNING
@@ -42,14 +45,28 @@ class Watched:
         """The file's text as it drives the lesson."""
         return self._student.source
 
+    def printed(self) -> str:
+        """Return the beginning of what the function printed in the runs that it drives."""
+        return self._student.printed()
+
     def changed(self) -> bool:
-        """Load the file again if it was saved since; tell whether it was."""
+        """Load the file again if it was saved since; tell whether it was.
+
+        Where it cannot be loaded, or is gone, `said` says so, and the run before stays.
+        """
         stamp = self._stamp_now()
+        self._missing = self._missing + 1 if stamp is None else 0
+        if stamp is None and self._missing == GONE_AFTER:
+            self._stamp, self.said = None, f"{self.path.name} is gone: what is shown ran before. Save it there again."
         if stamp is None or stamp == self._stamp:
             return False
         self._stamp, self.said = stamp, RUNNING
         old = self._student
-        self._student = self._new()
+        try:
+            self._student = self._new()
+        except InputError as error:
+            self.said = str(error)
+            return False
         self.lesson = driven(self.original, self.exercise, self._student)
         old.close()
         return True

@@ -13,7 +13,7 @@ from workbench.scene import caption_of
 SIZE = 640, 400
 
 
-def picture(exercise: Exercise, handed: Handed, file: str, wall: Wall) -> list[dict[str, str]]:
+def pictured(exercise: Exercise, handed: Handed, file: str, wall: Wall) -> list[dict[str, str]]:
     """Return a picture of the failing case as a label and a data URL; none where the lesson's run shows none.
 
     Args:
@@ -25,7 +25,7 @@ def picture(exercise: Exercise, handed: Handed, file: str, wall: Wall) -> list[d
     try:
         from PIL import Image
 
-        from workbench.page.thumbnail import picture_of
+        from workbench.page.thumbnail import drawn
     except ImportError:  # drawing is more than grading needs
         return []
     with Student(read_one(handed, file), exercise.name, seconds=exercise.contract.seconds, wall=wall) as student:
@@ -34,9 +34,9 @@ def picture(exercise: Exercise, handed: Handed, file: str, wall: Wall) -> list[d
             return []
         timeline, at = found
         scene = timeline[at].scene
-    drawn = Image.open(io.BytesIO(picture_of(scene, timeline.lesson.view, SIZE)))
-    sheet = Image.new("RGB", drawn.size, "white")
-    sheet.paste(drawn, mask=drawn.getchannel("A"))
+    picture = drawn(scene, timeline.lesson.view, SIZE)
+    sheet = Image.new("RGB", SIZE, "white")
+    sheet.paste(picture, mask=picture.getchannel("A"))
     out = io.BytesIO()
     sheet.save(out, "PNG", optimize=True)
     label = f"Step {at} of lesson {exercise.lesson}: {caption_of(scene).text}"

@@ -20,7 +20,7 @@ from workbench.exercise.model import Exercise
 from workbench.exercise.reports import gradescope, ungraded
 from workbench.exercise.sandbox import Wall, best, named
 from workbench.handout.assignment import Assignment, read
-from workbench.handout.picture import picture
+from workbench.handout.picture import pictured
 from workbench.handout.results import prairielearn
 
 NOT_YET = "was not graded: the grader ended before, or ran out of time. This is not about your code; tell your teacher."
@@ -64,7 +64,7 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
                 reports.append(found) if isinstance(found, Report) else failed.append(_of(exercise, found))
             if assignment.service == "prairielearn" and reports and not reports[-1].is_full:
                 write()
-                images += picture(exercise, handed, reports[-1].file, wall)
+                images += pictured(exercise, handed, reports[-1].file, wall)
             if not any(item["exercise"] == exercise.name for item in [*failed, *map(_named, reports)]):
                 failed.append(ungraded("", exercise, f"{exercise.name}: no .py file and no notebook was handed in"))
             waiting.pop(0)

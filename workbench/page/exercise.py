@@ -6,7 +6,7 @@ from typing import Any
 
 from workbench.exercise.grading import Report
 from workbench.exercise.model import Exercise
-from workbench.exercise.reports import MARKS, counted
+from workbench.exercise.reports import MARKS, counted, shown
 from workbench.exercise.starter import commands, starter
 
 
@@ -27,11 +27,18 @@ def watched_html(exercise: Exercise, file: str) -> str:
     )
 
 
-def report_data(said: Report | str) -> dict[str, Any]:
-    """Return what the checks found of a student's file, in the words of the terminal; text where they found nothing."""
+def report_data(said: Report | str, printed: str = "") -> dict[str, Any]:
+    """Return what the checks found of a student's file, in the words of the terminal; text where they found nothing.
+
+    Args:
+        said: The checks' report, or one line.
+        printed: What the function printed in the run that is shown.
+    """
+    ran = {"ran": "\n".join(shown(printed))}
     if isinstance(said, str):
-        return {"said": said}
+        return {"said": said, **ran}
     return {
+        **ran,
         "said": counted(said),
         "mistake": "" if said.mistake is None else said.mistake.sentence,
         "checks": [
@@ -44,7 +51,7 @@ def report_data(said: Report | str) -> dict[str, Any]:
             }
             for outcome in said.outcomes
         ],
-        "printed": said.printed.strip()[:400],
+        "printed": "\n".join(shown(said.printed)),
     }
 
 

@@ -47,6 +47,13 @@ def telling_step(lesson: Lesson, timeline: Timeline) -> int:
 
 def picture_of(scene: Scene, view: View, size: tuple[int, int] = SIZE) -> bytes:
     """Return a scene as a WebP image with a transparent ground."""
+    file = io.BytesIO()
+    drawn(scene, view, size).save(file, "WEBP", quality=82, method=6)
+    return file.getvalue()
+
+
+def drawn(scene: Scene, view: View, size: tuple[int, int]) -> Image.Image:
+    """Return a scene as an image with a transparent ground, as large as asked for."""
     sheet = Image.new("RGBA", (FINER * size[0], FINER * size[1]), (255, 255, 255, 0))
     pen = _Pen(sheet, view)
     things = [thing for primitive in scene.values() for thing in _things(primitive, pen)]
@@ -54,10 +61,7 @@ def picture_of(scene: Scene, view: View, size: tuple[int, int] = SIZE) -> bytes:
         draw()
     if not things:
         _paste_flat(sheet, scene)
-    file = io.BytesIO()
-    seen = sheet.resize(size, Image.Resampling.LANCZOS, box=_around(sheet))
-    seen.save(file, "WEBP", quality=82, method=6)
-    return file.getvalue()
+    return sheet.resize(size, Image.Resampling.LANCZOS, box=_around(sheet))
 
 
 def _around(sheet: Image.Image) -> tuple[float, float, float, float]:

@@ -52,6 +52,7 @@ class Following:
         self.watched, self.edited = watched, edited
         self._lesson, self._replace, self._pages = lesson, replace, pages
         self._trouble: InputError | None = None
+        self._reported: dict[str, Any] = {}  # what the pages were told last
         self._ended, self._to_check = threading.Event(), threading.Event()
         if watched is not None or edited is not None:
             threading.Thread(target=self._look, name="files", daemon=True).start()
@@ -78,10 +79,11 @@ class Following:
             try:
                 if self.edited is not None and self.edited.changed():
                     self._reload(self.edited)
-                if self.watched is not None and self._saved(self.watched):
+                if self.watched is not None and self.watched.changed():
                     self._go_on(self.watched.lesson)
-                    self._report(self.watched)
                     self._to_check.set()
+                if self.watched is not None and self._reported != report_of(self.watched):
+                    self._report(self.watched)
             except Exception as error:  # the next save is looked at again
                 tell_terminal(error)
 
@@ -92,13 +94,6 @@ class Following:
             if self.watched.said == RUNNING:
                 self.watched.check()
             self._report(self.watched)
-
-    @staticmethod
-    def _saved(watched: Watched) -> bool:
-        try:
-            return watched.changed()
-        except InputError:  # half a file; the next save is looked at again
-            return False
 
     def _reload(self, edited: Edited) -> None:
         """Serve the new lesson, or say what is wrong with it while the one before goes on."""
@@ -127,6 +122,7 @@ class Following:
             page.go_on(before, after, news)
 
     def _report(self, watched: Watched) -> None:
+        self._reported = report_of(watched)
         self._tell(exercise_news(watched))
 
     def _tell(self, news: dict[str, Any]) -> None:
@@ -137,4 +133,9 @@ class Following:
 def exercise_news(watched: Watched) -> dict[str, Any]:
     """Return what a page is told of a student's file: its name, its source, and what the checks found."""
     source = {"name": watched.path.name, "html": text_html(watched.source)}
-    return {"tell": "exercise", "name": watched.exercise.name, "source": source, "report": report_data(watched.said)}
+    return {"tell": "exercise", "name": watched.exercise.name, "source": source, "report": report_of(watched)}
+
+
+def report_of(watched: Watched) -> dict[str, Any]:
+    """Return what the checks found of a student's file as it is now, and what it printed in the run that it drives."""
+    return report_data(watched.said, watched.printed())

@@ -137,7 +137,10 @@ class Student:
 
     def printed(self, most: int = 8000) -> str:
         """Return the beginning of what the student's code printed."""
-        return "" if self._printed is None else os.pread(self._printed.fileno(), most, 0).decode("utf-8", "replace")
+        try:
+            return "" if self._printed is None else os.pread(self._printed.fileno(), most, 0).decode("utf-8", "replace")
+        except (ValueError, AttributeError):  # another thread closed it just now
+            return ""
 
     def close(self) -> None:
         """End the process and everything it started; nothing of it is left."""

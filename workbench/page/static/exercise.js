@@ -28,7 +28,8 @@ const exercise = {
     box.replaceChildren(element("p", { className: "count", textContent: report.said }),
       ...(report.mistake ? [element("p", { className: "mistake", textContent: report.mistake })] : []),
       element("ul", {}, ...checks),
-      ...(report.printed ? [element("p", { textContent: "Your code printed:" }), element("pre", { textContent: report.printed })] : []));
+      ...[["In this run your code printed:", report.ran], ["In the checks it printed:", report.printed]].flatMap(
+        ([where, text]) => (text ? [element("p", { textContent: where }), element("pre", { textContent: text })] : [])));
     beside.show();
   },
 

@@ -1,0 +1,106 @@
+"""A student's file drives a lesson: what is said of it while it is edited, and when its function is called."""
+
+import pytest
+
+from workbench.exercise.watching import GONE_AFTER, Watched
+from workbench.lesson import catalog
+from workbench.session import Session
+
+RIGHT = """import numpy as np
+
+
+def align_rigid(p_target, p_source):
+    print("called with", len(p_source))
+    q, p = p_target.mean(0), p_source.mean(0)
+    U, _, Vt = np.linalg.svd((p_source - p).T @ (p_target - q))
+    R = Vt.T @ np.diag([1, 1, np.sign(np.linalg.det(U @ Vt))]) @ U.T
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = R, q - R @ p
+    return T
+"""
+BROKEN = RIGHT.replace("q, p =", "q, p = 1 / 0,")
+
+
+@pytest.fixture
+def watched(tmp_path):
+    file = tmp_path / "my_align_rigid.py"
+    file.write_text(RIGHT)
+    made = Watched(catalog()["icp"], file)
+    yield made
+    made.close()
+
+
+def calls(watched: Watched) -> int:
+    return watched.printed().count("called with")
+
+
+def to_the_end(session: Session) -> int:
+    while session.pending:
+        session.compute(10.0)
+    return len(session.timeline)
+
+
+def test_going_back_never_calls_the_function_again(watched):
+    session = Session(watched.lesson)
+    steps = to_the_end(session)
+    called = calls(watched)
+    assert called > 3
+    session.last()
+    for _ in range(steps + 2):
+        session.back()
+        assert session.look() is not None
+    assert session.step == 0
+    session.last()
+    session.look()
+    assert calls(watched) == called
+
+
+def test_what_it_prints_in_the_run_is_kept_apart_for_each_save(watched):
+    to_the_end(Session(watched.lesson))
+    assert watched.printed().startswith("called with ")
+    watched.path.write_text(RIGHT.replace("called with", "asked for"))
+    assert watched.changed()
+    assert watched.printed() == ""
+    to_the_end(Session(watched.lesson))
+    assert watched.printed().startswith("asked for ")
+
+
+def test_a_file_that_is_gone_is_said_and_what_ran_stays(watched):
+    watched.check()
+    found, lesson = watched.said, watched.lesson
+    text = watched.path.read_text()
+    watched.path.unlink()
+    assert not watched.changed()
+    assert watched.said is found  # an editor may be replacing it
+    for _ in range(GONE_AFTER):
+        assert not watched.changed()
+    assert str(watched.said).startswith("my_align_rigid.py is gone")
+    assert watched.lesson is lesson
+    watched.path.write_text(text)
+    assert watched.changed()
+    watched.check()
+    assert watched.said == found
+
+
+def test_a_file_that_is_no_text_is_said_and_what_ran_stays(watched):
+    lesson = watched.lesson
+    watched.path.write_bytes(b"\xff\xfe\x00" * 9)
+    assert not watched.changed()
+    assert "cannot be read as text" in str(watched.said)
+    assert watched.lesson is lesson
+    assert to_the_end(Session(lesson)) > 3
+
+
+def test_after_an_error_is_mended_the_step_is_kept(watched):
+    session = Session(watched.lesson)
+    steps = to_the_end(session)
+    session.seek(5)
+    for text in (BROKEN, RIGHT):
+        before = watched.lesson
+        watched.path.write_text(text)
+        assert watched.changed()
+        assert watched.lesson is not before
+        session.go_on(watched.lesson, session.params)
+        known = to_the_end(session)
+        assert (session.step, known) == ((known - 1, known) if text is BROKEN else (5, steps))
+        assert (known < 5) == (text is BROKEN)
