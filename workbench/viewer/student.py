@@ -36,6 +36,9 @@ from workbench.viewer.wishes import Wishes, read_wish
 SCENE_ALONE = frozenset({"light", "handles", "theme"})
 """Wishes that change how a step is drawn, and nothing of what is said of it."""
 
+AWAITED = 30.0
+"""Seconds that a page whose step is being computed keeps its run, however little room there is."""
+
 
 class Student:
     """What one page sees.
@@ -56,6 +59,7 @@ class Student:
         self.session: Session | None = None
         self.acted = self._loop.time()  # when something was last wished for
         self.asleep = False  # whether its run was let go to make room
+        self._waits = False  # whether what was wished for is still to be shown
         self._wake = asyncio.Event()
         self._coming: tuple[bool, viser.ClientHandle | None] = False, None  # a scene that has come or gone
         self._scene = LiveScene(self._moved, self._clicks)
@@ -77,7 +81,7 @@ class Student:
 
     def _wish(self, wish: Mapping[str, Any]) -> None:
         self._wishes.add(wish)
-        self.acted = self._loop.time()
+        self.acted, self._waits = self._loop.time(), True
         self._wake.set()
 
     def _wish_elsewhere(self, verb: str, **wish: Any) -> None:
@@ -90,7 +94,8 @@ class Student:
 
     def sleep(self) -> bool:
         """Let go of the run, to make room, until something is wished for; tell whether there was one. From any thread."""
-        if self.asleep or self.session is None or self._wishes:
+        is_awaited = self._waits and self._loop.time() - self.acted < AWAITED
+        if self.asleep or self.session is None or self._wishes or is_awaited:
             return False
         self.asleep = True
         self._loop.call_soon_threadsafe(self._sleep)
@@ -142,6 +147,8 @@ class Student:
         late = 0.0 if session.timeline is self._told.timeline else LATE
         for text in await self.runs.showing.do(self._show, session, redraw, tell, late=late):
             await self._send(text)
+        timeline = session.timeline
+        self._waits = bool(self._wishes) or not (timeline.finished or 0 <= session.wanted < len(timeline))
         await self._glide()
 
     def _show(self, session: Session, redraw: bool, tell: bool) -> list[str]:
