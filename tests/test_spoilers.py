@@ -83,6 +83,13 @@ GIVEAWAYS: dict[tuple[str, str], tuple[str, ...]] = {
     ("disparity", "averages"): (r"mean (of the depths|depth) is (further|larger|greater)", r"depths? averages? (too )?far"),
     ("disparity", "baseline"): (r"twice as (much|many)[^.]*hidden", r"half as (much|many)[^.]*hidden"),
     ("disparity", "window"): (r"fattened edges", r"balls have grown", r"window across an edge", r"swallows? edges"),
+    ("alignment", "predict-rotations"): (r"\b(8|eight) rotations", r"after (8|eight)\b", r"Rotation 8"),
+    ("alignment", "predict-frames"): (r"\b(4|four) (right-handed )?frames", r"(4|four) of (the )?(8|eight)"),
+    ("alignment", "predict-signs"): (
+        r"\b(a quarter|one in four)\b", r"no better than chance", r"2\d % come home", r"of four frames",
+    ),
+    ("alignment", "predict-negated"): (r"0\.7\d m",),
+    ("alignment", "predict-product"): (r"product (is|of)[^.]*0\.9", r"there and back[^.]*(less|below)"),
 }  # fmt: skip
 """For each question the sentences that tell its answer, as patterns; case does not matter."""
 

@@ -48,6 +48,22 @@ def corner(count: int, rng: np.random.Generator) -> Cloud:
     return np.column_stack([x, np.where(floor, s, 0.0) - 0.3, np.where(floor, 0.0, s) - 0.3])
 
 
+def box_surface(count: int, size: tuple[float, float, float], rng: np.random.Generator) -> Cloud:
+    """Return points on the surface of a box about the origin; a box of height 0 is a plate.
+
+    Args:
+        count: How many.
+        size: Its sides along x, y and z, metres; at most one of them is 0.
+        rng: Draws the places.
+    """
+    x, y, z = size
+    areas = np.array([y * z, x * z, x * y])
+    across = rng.choice(3, count, p=areas / areas.sum())  # the axis that the point's face is across
+    p = rng.uniform(-0.5, 0.5, (count, 3))
+    p[np.arange(count), across] = rng.choice([-0.5, 0.5], count)
+    return p * size
+
+
 SHAPES = {"rabbit": rabbit, "vase": vase, "corner": corner}
 
 
