@@ -84,6 +84,8 @@ def axes_verdict(axes: np.ndarray, p: np.ndarray, hint: str = AXES_HINT, first: 
     right = np.linalg.svd(centred, full_matrices=len(p) < 3)[2].T
     degrees = geometry.degrees_between_axes(axes, right)[:first]
     worst_axis = int(degrees.argmax())
+    if geometry.degrees_between_axes(axes.T, right).max() < 0.1 < degrees[worst_axis]:
+        hint = "Your rows are the axes: transpose the matrix."
     x, y, z = right[:, worst_axis]
     said = f"right is ({x:.3f}, {y:.3f}, {z:.3f}), or the opposite. {hint}"
     return band(f"Axis {worst_axis + 1} is off by", float(degrees.max()), "degrees", good=0.1, fair=2.0, hint=said)
