@@ -75,9 +75,32 @@ def align_similarity(
     """
     m = _moments(p_target, p_source, weights)
     R, explained = _rotation(m.cross)
-    spread = np.trace(m.source)
-    scale = explained / spread if spread > 0 else 1.0  # eq. 42
+    scale = _scale(m, explained)
     return motion(scale * R, m.mean_target - scale * R @ m.mean_source)
+
+
+def similarity_scale(p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]) -> float:
+    """Return the scale of the similarity that fits pairs best: how many times larger the target is, by least squares.
+
+    Args:
+        p_target: Points in the target frame.
+        p_source: Their partners in the source frame, row by row.
+
+    Raises:
+        ValueError: As `align_rigid`.
+
+    Note:
+        Noise in the source makes it too small (regression dilution), so that there and back do not multiply to 1. Source
+        points that all coincide say nothing about scale: it is 1 then.
+
+    Reference: Umeyama 1991, eq. 42; Fuller, Measurement Error Models, 1987, 1.1.1, for the dilution.
+
+    Examples:
+        >>> round(similarity_scale(2.5 * np.eye(3) + 1.0, np.eye(3)), 6)
+        2.5
+    """
+    m = _moments(p_target, p_source, None)
+    return _scale(m, _rotation(m.cross)[1])
 
 
 def align_affine(
@@ -133,7 +156,7 @@ def point_to_plane_step(
     _check_pairs(p_target, p_source)
     centre = p_source.mean(axis=0)
     normal_matrix, right_side = np.zeros((6, 6)), np.zeros(6)
-    for rows in _chunks(len(p_source)):
+    for rows in chunks(len(p_source)):
         (x, y, z), (a, b, c) = (np.ascontiguousarray(v.T) for v in (p_source[rows] - centre, n_target[rows]))
         jacobian = np.stack([y * c - z * b, z * a - x * c, x * b - y * a, a, b, c])  # eq. 8: p x n and n of each pair
         gap = np.einsum("ij,ij->i", p_target[rows] - p_source[rows], n_target[rows])
@@ -235,7 +258,7 @@ def _moments(p_target: np.ndarray, p_source: np.ndarray, weights: np.ndarray | N
     first_target, first_source = p_target[start], p_source[start]
     total, sum_target, sum_source = 0.0, np.zeros(3), np.zeros(3)
     cross, source = np.zeros((3, 3)), np.zeros((3, 3))
-    for rows in _chunks(len(p_source)):
+    for rows in chunks(len(p_source)):
         a, b = p_target[rows] - first_target, p_source[rows] - first_source
         w = np.ones(len(a)) if weights is None else weights[rows]
         wb = b if weights is None else w[:, None] * b
@@ -261,6 +284,12 @@ def _rotation(cross: np.ndarray) -> tuple[np.ndarray, float]:
     return (U * S) @ Vt, float(D @ S)
 
 
+def _scale(m: _Moments, explained: float) -> float:
+    """Return trace(D S) over the source's variance (Umeyama, eq. 42), or 1 where the source is a single place."""
+    spread = np.trace(m.source)
+    return float(explained / spread) if spread > 0 else 1.0
+
+
 def _check_pairs(p_target: np.ndarray, p_source: np.ndarray) -> None:
     if len(p_target) != len(p_source):
         raise ValueError(f"pairs need as many target points as source points, not {len(p_target)} and {len(p_source)}")
@@ -268,5 +297,6 @@ def _check_pairs(p_target: np.ndarray, p_source: np.ndarray) -> None:
         raise ValueError("no pairs to align")
 
 
-def _chunks(n: int) -> list[slice]:
+def chunks(n: int) -> list[slice]:
+    """Return slices of so many rows, each short enough to stay in the processor's cache."""
     return [slice(i, i + CHUNK) for i in range(0, n, CHUNK)]

@@ -1,0 +1,249 @@
+"""Experiments that show what axes and pairs know and do not know, and what to predict before looking."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from lessons.alignment.state import AxesState, PairsState, Params, State, Turns
+from workbench.lesson import Preset, Question, View
+from workbench.numerals import counted, fixed, length, percent
+
+HOME = Params()
+LARGEST = Params(signs="largest-entry")
+FRESH = Params(fresh=True)
+BOX = Params(shape="box", fresh=True)
+NEARLY = Params(shape="box", fresh=True, side=0.99)
+VASE = Params(shape="vase", fresh=True)
+CUBE = Params(shape="cube", fresh=True)
+DENSE = Params(density=2)
+PART = Params(seen=0.8)
+STRAY = Params(stray=(0.0, 2.0, 0.0))
+FAR = Params(stray=(0.0, 10.0, 0.0))
+PAIRS = Params(stage="pairs", noise=0.01)
+MIRRORED = Params(stage="pairs", mirrored=True)
+WRONG_FLIP = replace(MIRRORED, flip="largest")
+NEGATED = replace(MIRRORED, flip="whole")
+FLAT = Params(stage="pairs", shape="plate", points=200, noise=0.02)
+SCALE = Params(stage="pairs", scale=1.5, noise=0.05)
+SCALE_CLEAN = replace(SCALE, noisy="target")
+
+VIEW = View(eye=(-0.75, -2.55, 1.1), target=(-0.62, 0.0, 0.12), grid=None, axes=False)
+TOGETHER = View(eye=(-0.95, -2.3, 1.1), target=(-1.1, 0.0, 0.2), grid=None, axes=False)
+WIDE = View(eye=(-3.5, -6.5, 5.0), target=(-0.6, 2.5, -0.4), grid=None, axes=False)
+ABOVE = View(eye=(-1.05, -1.5, 2.0), target=(-1.2, 0.0, 0.0), grid=None, axes=False)
+APART = View(eye=(-1.1, -3.6, 1.8), target=(-1.25, 0.0, 0.1), grid=None, axes=False)
+LARGE = View(eye=(-1.1, -4.0, 1.9), target=(-1.1, 0.0, 0.15), grid=None, axes=False)
+FIRST, FLIP = 3, 5  # steps: the first rotation; where a direction is turned round
+POSE, TURNS = -2, -1
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "home", "Plane turns find the axes",
+        "Each rotation makes the largest entry off the diagonal zero and disturbs the others. Step on, and read how fast"
+        " what is left shrinks.",
+        HOME, FIRST,
+    ),
+    Preset(
+        "signs", "A rule that looks at numbers",
+        "The largest entry of each axis is made positive: the same scan gives the same signs. And the same scan, turned?",
+        LARGEST, POSE, TOGETHER, breaks=True,
+    ),
+    Preset(
+        "fresh", "Two scans, no point in common",
+        "Third moments turn with the shape. Other points of the same rabbit have other moments: one of them is small, and"
+        " its sign at stake.",
+        FRESH, TURNS, TOGETHER, breaks=True,
+    ),
+    Preset(
+        "box", "A box has no front",
+        "Half a turn takes a box to itself, so its third moments are 0 and chance gives them a sign. Compare what the"
+        " points say with the truth.",
+        BOX, POSE, TOGETHER, breaks=True,
+    ),
+    Preset(
+        "vase", "A vase, turned",
+        "Two of its variances are equal, so every direction across its own axis is a principal one. Axis 1 stays; see"
+        " where axis 2 goes.",
+        VASE, TURNS, TOGETHER, breaks=True,
+    ),
+    Preset(
+        "nearly", "Nearly equal sides",
+        "Sides of 1 m and 0.99 m: their variances differ by less than sampling does. Look at the axes in the table.",
+        NEARLY, POSE, TOGETHER, breaks=True,
+    ),
+    Preset(
+        "cube", "The box of a cube",
+        "All variances are equal. The box along principal axes is often taken for the smallest: compare its volume with the"
+        " cube's.",
+        CUBE, POSE, APART, breaks=True,
+    ),
+    Preset(
+        "density", "The upper half twice as dense",
+        "Principal axes are those of the points, not of the surface: no point of the second scan lies off the rabbit.",
+        DENSE, POSE, TOGETHER, breaks=True,
+    ),
+    Preset(
+        "part", "A fifth is missing",
+        "The second scan saw 80 % of the rabbit. Centroid and axes are those of that part.",
+        PART, POSE, TOGETHER, breaks=True,
+    ),
+    Preset(
+        "stray", "One stray point",
+        "One point of 1,501 lies 2 m away: drag it. The axes hardly move, but the signs are made of cubes.",
+        STRAY, POSE, breaks=True,
+    ),
+    Preset(
+        "far", "The same point, 10 m away",
+        "Squares listen most to the farthest point: one of 1,501 decides where axis 1 points.",
+        FAR, FIRST, WIDE, breaks=True,
+    ),
+    Preset(
+        "pairs", "Pairs instead of axes",
+        "Every point knows its partner, with 1 cm of noise. Vᵀ turns the second scan into its singular directions, U out"
+        " of them.",
+        PAIRS, 3,
+    ),
+    Preset(
+        "mirrored", "A mirror image",
+        "The determinant is −1, and one direction has to be turned round. See what it costs with the least singular value.",
+        MIRRORED, FLIP, TOGETHER,
+    ),
+    Preset(
+        "wrong-flip", "The wrong direction turned round",
+        "“Flip any column”: with the largest singular value the determinant is +1 as well. Compare the RMSE.",
+        WRONG_FLIP, FLIP, TOGETHER, breaks=True,
+    ),
+    Preset(
+        "negated", "All of R negated",
+        "−R has the determinant +1 too, and turns all three directions round. What does that cost?",
+        NEGATED, 4, TOGETHER, breaks=True,
+    ),
+    Preset(
+        "flat", "A plate with noise",
+        "Nothing is mirrored here, but nothing but noise tells a plate from its mirror image: see the determinant, and"
+        " other seeds.",
+        FLAT, 4, ABOVE, breaks=True,
+    ),
+    Preset(
+        "scale", "Noise in both scans",
+        "The first scan is 1.5 times as large; both have 5 cm of noise. Least squares blames the first scan alone, and the"
+        " scale comes out too small.",
+        SCALE, FLIP, LARGE, breaks=True,
+    ),
+    Preset(
+        "scale-clean", "Noise in the first scan only",
+        "Now the noise is where least squares expects it: the scale is 1.5 again, to 1 %. The ratio of sizes is not.",
+        SCALE_CLEAN, -1, LARGE,
+    ),
+)  # fmt: skip
+
+
+def of_axes(states: Sequence[State]) -> AxesState:
+    """Return the last step of a run by axes."""
+    last = states[-1]
+    assert isinstance(last, AxesState)
+    return last
+
+
+def of_pairs(states: Sequence[State]) -> PairsState:
+    """Return the last step of a run by pairs."""
+    last = states[-1]
+    assert isinstance(last, PairsState)
+    return last
+
+
+def turns_of(states: Sequence[State]) -> Turns:
+    """Return what became of the many turns."""
+    turns = of_axes(states).turns
+    assert turns is not None
+    return turns
+
+
+def after_flip(states: Sequence[State]) -> float:
+    """Return the RMSE once a direction is turned round, before any scale."""
+    state = states[FLIP]
+    assert isinstance(state, PairsState)
+    return state.now.rmse
+
+
+def product(states: Sequence[State]) -> float:
+    """Return the product of the scales there and back."""
+    last = of_pairs(states)
+    assert last.now.scale is not None
+    return last.now.scale * last.back
+
+
+def _why_product(states: Sequence[State]) -> str:
+    last = of_pairs(states)
+    assert last.now.scale is not None
+    return (
+        f"{fixed(last.now.scale, 3)} there and {fixed(last.back, 3)} back. Each way the scan that is moved counts as free of"
+        " noise; its noise swells its size and shrinks the scale."
+    )
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        "predict-rotations",
+        "A rotation makes one of three entries off the diagonal zero, and the next one brings it back, smaller. After how"
+        " many rotations is nothing but rounding left?",
+        answer=lambda states: float(of_axes(states).rotations),
+        why=lambda states: (
+            f"{counted(of_axes(states).rotations, 'rotation')}: slowly at first; in the end each sweep of three squares what"
+            " is left."
+        ),
+        params=HOME,
+        step=10,
+        tolerance=2.0,
+    ),
+    Question(
+        "predict-frames",
+        "Three lines are given, in the order of variance. How many right-handed frames have them as axes?",
+        answer=lambda states: float(of_axes(states).frames),
+        why=lambda states: (
+            f"{of_axes(states).frames}: each line has two ends, and of the eight choices half are left-handed. They are half"
+            " a turn apart."
+        ),
+        params=replace(HOME, turn=60.0),
+        step=POSE,
+        tolerance=0.5,
+    ),
+    Question(
+        "predict-signs",
+        "Signs by the largest entry, as many libraries do. The same scan is turned at random, 200 times: how many percent"
+        " come home?",
+        answer=lambda states: 100.0 * float(turns_of(states).home.mean()),
+        why=lambda states: (
+            f"{percent(float(turns_of(states).home.mean()), 0)}, as by chance, one frame of four. The rule is deterministic,"
+            " but it looks at coordinates, and a turn changes them."
+        ),
+        params=LARGEST,
+        step=TURNS,
+        unit="%",
+        tolerance=8.0,
+    ),
+    Question(
+        "predict-negated",
+        "A rabbit and its mirror image. The least direction turned round leaves an RMSE of 0.29 m. What does −R leave, all"
+        " three turned round?",
+        answer=after_flip,
+        why=lambda states: (
+            f"{length(after_flip(states))}. Turning a direction round costs in proportion to its singular value, and now"
+            " all three are paid for."
+        ),
+        params=NEGATED,
+        step=FLIP,
+        unit="m",
+        tolerance=0.12,
+    ),
+    Question(
+        "predict-product",
+        "True scale 1.5, noise of 5 cm in both scans. The scale from second to first, times the scale from first to second,"
+        " makes …",
+        answer=lambda states: float(np.digitize(product(states), [0.98, 1.02])),
+        why=_why_product,
+        params=SCALE,
+        choices=("less than 1", "1, one being the inverse of the other", "more than 1"),
+    ),
+)

@@ -1,0 +1,187 @@
+"""What a step says: what just happened, its numbers, and at the end whether the second scan has come home."""
+
+import numpy as np
+
+from lessons.alignment.state import HOME_DEGREES, AxesState, PairsState, Params, State
+from workbench.geometry.motions import rotation_angle
+from workbench.numerals import angle, brief, fixed, length, percent
+from workbench.scene import Caption
+
+PARTS = ((1e-4, 1e2, " %"), (1e-7, 1e6, " millionths"), (1e-10, 1e9, " billionths"), (1e-12, 1e12, " trillionths"))
+RULES = {
+    "none": "Signs stay as the rotations happened to leave them.",
+    "largest-entry": "Axes 1 and 2 are turned so that their largest entry is positive; axis 3 is their cross product.",
+    "third-moment": "Axes 1 and 2 point to where their third moment is positive; axis 3 is their cross product.",
+}
+FLIPS = {
+    "least": "The direction of the least singular value is turned round",
+    "middle": "The direction of the middle singular value is turned round, not the least",
+    "largest": "The direction of the largest singular value is turned round, not the least",
+    "whole": "All three directions are turned round, not the least alone",
+    "none": "No direction is turned round: it stays a mirror image",
+}
+
+
+def caption(state: State) -> Caption:
+    """Return the caption of a step."""
+    return _of_axes(state) if isinstance(state, AxesState) else _of_pairs(state)
+
+
+def _of_axes(state: AxesState) -> Caption:
+    now, moment = state.jacobi, state.moment
+    if moment == "cloud" or now is None:
+        return Caption(_of_cloud(state) if moment == "cloud" else _of_centroid(state))
+    if moment == "covariance":
+        return Caption(
+            "The covariance as an ellipsoid, two standard deviations large. In the axes x, y, z of the scan its"
+            f" entries off the diagonal are {part(now.off)} of the whole."
+        )
+    if moment == "rotation":
+        return Caption(_of_rotation(state))
+    if moment == "order" and state.variances is not None:
+        sizes = [length(float(np.sqrt(max(value, 0.0)))) for value in state.variances]
+        return Caption(
+            f"In the order of variance: standard deviations {sizes[0]}, {sizes[1]} and {sizes[2]}. So far an axis is a line;"
+            " no variance says which end is its tip."
+        )
+    if moment == "signs":
+        return Caption(f"{RULES[state.params.signs]} {_skewness(state)}")
+    return _of_turns(state) if state.turns is not None else _of_pose(state)
+
+
+def _of_cloud(state: AxesState) -> str:
+    scans, params = state.scans, state.params
+    n, m = len(scans.p_target), len(scans.p_source)
+    counts = f"{n:,} points each" if n == m else f"{n:,} and {m:,} points"
+    if scans.own:
+        return (
+            f"Two scans of your own, {counts}, one metre long here. Which turn takes the second to the"
+            f" first?{_idle(params)}"
+        )
+    what = params.source.name if params.source is not None else f"one {params.shape}"
+    return (
+        f"Two scans of {what}, {counts}; the second is turned by {angle(params.turn)}. No point knows its partner: which"
+        f" turn takes it back?{_idle(params)}"
+    )
+
+
+def _idle(params: Params) -> str:
+    idle = [name.replace("_", " ") for name in params.idle]
+    if not idle:
+        return ""
+    return f" Your own clouds are open: {', '.join(idle)} {'has' if len(idle) == 1 else 'have'} no effect."
+
+
+def _of_centroid(state: AxesState) -> str:
+    x, y, z = (fixed(100 * value, 1) for value in state.p_centre)
+    return f"The centroid, the mean of the points, at ({x}, {y}, {z}) cm: it moves with its scan and settles the shift."
+
+
+def _of_rotation(state: AxesState) -> str:
+    now, before = state.jacobi, state.before
+    assert now is not None
+    assert before is not None
+    assert now.plane is not None
+    i, j = ("xyz"[k] for k in now.plane)
+    was = np.linalg.norm(before - np.diag(np.diag(before))) / np.linalg.norm(before)
+    return (
+        f"Rotation {state.rotations}: the frame turns by {angle(abs(np.degrees(now.angle)))} in its {i}-{j} plane, to where"
+        f" variance is largest and least. Off the diagonal {part(float(was))} → {part(now.off)}."
+    )
+
+
+def part(share: float) -> str:
+    """Write a share of what is off the diagonal, in per cent or in parts that suit it."""
+    for least, factor, unit in PARTS:
+        if share >= least:
+            return f"{brief(factor * share, 2)}{unit}"
+    return "nothing but rounding"
+
+
+def _skewness(state: AxesState) -> str:
+    assert state.moments is not None
+    assert state.variances is not None
+    over = state.moments / np.maximum(state.variances, 1e-12) ** 1.5
+    return f"The moments were {fixed(float(over[0]), 2)} and {fixed(float(over[1]), 2)} (over σ³)."
+
+
+def _of_pose(state: AxesState) -> Caption:
+    outcome = state.outcome
+    assert outcome is not None
+    near = f"its points lie {length(outcome.gap)} (RMS) from the nearest of the first"
+    box = f" The box along its axes holds {brief(state.box)} times the shape's own." if np.isfinite(state.box) else ""
+    if not np.isfinite(outcome.rotation):
+        return Caption(f"Frame laid on frame: {near}. Nobody knows the truth here, and half a turn may look alike.")
+    off = angle(outcome.rotation)
+    if outcome.home:
+        return Caption(
+            f"Frame laid on frame: the second scan is {off} from the truth; {near}. It has come home.{box}", "good"
+        )
+    return Caption(f"Frame laid on frame: {near}, and it is wrong, {off} from the truth.{box}", "wrong")
+
+
+def _of_turns(state: AxesState) -> Caption:
+    turns = state.turns
+    assert turns is not None
+    scan = "a new scan each time" if state.params.fresh else "the same scan"
+    return Caption(
+        f"{len(turns.degrees)} random turns, {scan}, the same recipe: {percent(float(turns.home.mean()), 0)} come home,"
+        f" within {HOME_DEGREES:g}°. The median rotation error is {angle(float(np.median(turns.degrees)))}; axis 1 as a"
+        f" line is {angle(float(np.median(turns.axes[:, 0])))} off."
+    )
+
+
+def _of_pairs(state: PairsState) -> Caption:
+    now = state.now
+    fall = f"RMSE {length(state.before)} → {length(now.rmse)}"
+    match now.stage:
+        case "pairs":
+            return Caption(
+                f"{len(state.scans.p_source):,} pairs: each point of the second scan knows its partner in the"
+                f" first.{_idle(state.params)}"
+            )
+        case "centre":
+            return Caption(
+                f"Centroid on centroid: RMSE {length(now.rmse)}. What is left is a turn, perhaps a mirror image, and"
+                " a scale."
+            )
+        case "cross":
+            assert now.D is not None
+            a, b, c = (brief(1e4 * value) for value in now.D)
+            return Caption(
+                f"The cross-covariance H = U D Vᵀ of the pairs has the singular values {a}, {b} and {c} cm²: three"
+                " directions in the one scan, three in the other."
+            )
+        case "in":
+            assert now.V is not None
+            return Caption(
+                f"Vᵀ turns the second scan by {angle(np.degrees(rotation_angle(now.V.T)))}: its three directions lie along"
+                f" x, y and z now. {fall}."
+            )
+        case "out":
+            if now.mirror:
+                return Caption(f"U Vᵀ has the determinant −1: a mirror image, which no turn can make. {fall}.")
+            return Caption(f"U turns them on to the directions of the first scan; the determinant is +1. {fall}.")
+        case "flip":
+            return Caption(_of_flip(state, fall))
+        case _:
+            return _of_scale(state)
+
+
+def _of_flip(state: PairsState, fall: str) -> str:
+    if not state.now.mirror:
+        return f"The determinant is +1, so no direction is turned round: RMSE {length(state.now.rmse)}."
+    return f"{FLIPS[state.params.flip]}. {fall}."
+
+
+def _of_scale(state: PairsState) -> Caption:
+    now = state.now
+    assert now.scale is not None
+    text = f"Scale {fixed(now.scale, 3)} by least squares"
+    if state.mirrored:
+        return Caption(f"{text}: RMSE {length(now.rmse)}. No turn and no scale makes a scan of its mirror image.")
+    if not np.isfinite(state.outcome.rotation):
+        return Caption(f"{text}: RMSE {length(now.rmse)}.")
+    text += f", {fixed(state.true_scale, 3)} in truth; the turn is {angle(state.outcome.rotation)} off,"
+    text += f" RMSE {length(now.rmse)}."
+    return Caption(f"{text} It has come home.", "good") if state.home else Caption(f"{text} It is wrong.", "wrong")
