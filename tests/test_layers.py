@@ -49,7 +49,7 @@ ALLOWED = {
     "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
                                      "workbench.images", "workbench.progress", "workbench.atomic"},
     "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic",
-                           "workbench.workers"},
+                           "workbench.workers", "workbench.numerals"},
     "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
