@@ -49,7 +49,7 @@ ALLOWED = {
     "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
                                      "workbench.images", "workbench.progress", "workbench.atomic"},
     "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic",
-                           "workbench.workers"},
+                           "workbench.workers", "workbench.numerals"},
     "workbench.handout": LESSON | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail",
                                    "workbench.atomic"},
     "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset"},

@@ -2,8 +2,8 @@
 
     python -m tests.exercise.table [EXERCISE ...] [--said]
 
-`solutions/NAME.py` has functions `right_...` and `wrong_...` as students write them, with numpy alone, in one process for all
-of a file. NAMED says which of the wrong ones make a mistake that the exercise knows; no other may be named.
+`solutions/NAME.py` has functions `right_...` and `wrong_...` as students write them; those of a file share one process.
+Its NAMED says which of the wrong ones make a mistake that the exercise knows; no other may be named.
 """
 
 import ast
@@ -24,7 +24,9 @@ from workbench.exercise.submission import Submission
 
 FOLDER = Path(__file__).with_name("solutions")
 DISPATCH = "\n\ndef any_of_these(name, *args):\n    return globals()[name](*args)\n"
-SAYS_BOTH = re.compile(r"right is|the contract asks for|asked for were|changed an array|raised \w+|not written|took more")
+SAYS_BOTH = re.compile(
+    r"right is|the contract asks for|asked for were|changed an array|raised \w+|not written|took more"
+)
 """What a useful message has: what came and what was wanted, or what went wrong where."""
 FATES = ("full", "less", "named", "misnamed", "useful", "vague")
 
@@ -83,7 +85,9 @@ def graded(exercise: Exercise) -> Iterator[Graded]:
     source = path.read_text(encoding="utf-8")
     tree = ast.parse(source)
     names = [node.name for node in tree.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
-    names += [t.id for node in tree.body if isinstance(node, ast.Assign) for t in node.targets if isinstance(t, ast.Name)]
+    names += [
+        t.id for node in tree.body if isinstance(node, ast.Assign) for t in node.targets if isinstance(t, ast.Name)
+    ]
     named = {}
     for node in tree.body:
         if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "NAMED":
@@ -99,7 +103,13 @@ def complaints(found: list[Graded]) -> list[str]:
     """Return what is not as it should be: a line for each solution."""
     lines = []
     for one in found:
-        good = one.fate == "full" if one.is_right else one.fate == "named" if one.named else one.fate in ("useful", "vague")
+        good = (
+            one.fate == "full"
+            if one.is_right
+            else one.fate == "named"
+            if one.named
+            else one.fate in ("useful", "vague")
+        )
         if not good:
             asked = f", not {one.named}" if one.named else ""
             lines.append(f"{one.name}: {one.fate}{asked}\n{terminal(one.report)}")

@@ -14,8 +14,8 @@ from workbench.exercise import reports
 from workbench.exercise.candidate import Candidate, held_to_contract
 from workbench.exercise.driven import driven, first_difference, gap
 from workbench.exercise.grading import grade_function
-from workbench.exercise.naming import values_alike
 from workbench.exercise.model import Exercise, Verdict, band, check, contract, full
+from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError, Wall
 from workbench.exercise.starter import starter
 from workbench.timeline import Timeline

@@ -100,7 +100,7 @@ def every_mistake_is_named(subject: Subject, exercise: Exercise) -> Found:
             yield f"{where} gets full marks; a check has to tell it from a right answer"
         elif report.mistake is not item:
             taken = "is not recognised" if report.mistake is None else f"is taken for {report.mistake.name!r}"
-            yield f"{where} {taken}: no check asks for what would tell"
+            yield f"{where} {taken}: no check tells it from a right answer and from every other mistake"
         else:
             yield None
         good = SENTENCE[0] <= len(item.sentence) <= SENTENCE[1]

@@ -11,7 +11,6 @@ import numpy as np
 from workbench.exercise.model import Function, number
 from workbench.exercise.sandbox import StudentError
 
-
 MOST_SHOWN = 12
 """How many numbers a call may have that is shown to the student."""
 

@@ -63,7 +63,9 @@ def motion_verdict(
     turned = rotation_verdict(T[:3, :3], T_right[:3, :3], hint, good=degrees[0], fair=degrees[1], name=name)
     p = np.zeros((1, 3)) if p is None else p
     away = np.linalg.norm(p @ (T - T_right)[:3, :3].T + (T - T_right)[:3, 3], axis=1).max()
-    told = beside(T[:3, 3], T_right[:3, 3], hint, "The rotation is right; the last column" if turned.share == 1 else "t")
+    told = beside(
+        T[:3, 3], T_right[:3, 3], hint, "The rotation is right; the last column" if turned.share == 1 else "t"
+    )
     moved = band("Position error", float(away), "m", good=metres[0], fair=metres[1], hint=told)
     if turned.share == moved.share == 1.0:
         return full(f"{turned.message} {moved.message}")
@@ -139,17 +141,15 @@ def beside(got: Any, right: Any, hint: str, name: str = "") -> str:
     with np.errstate(invalid="ignore"):
         off = np.abs(got - right)
     off = np.where(np.isnan(off), np.where(np.isnan(got) == np.isnan(right), 0.0, np.inf), off)
-    is_rows = right.ndim == 2 and right.shape[1] <= 3 and right.shape[0] != right.shape[1]
-    if is_rows:
-        at = (int(np.argmax(off.max(axis=1))),)
-    elif right.ndim == 1 and right.size <= 4:
-        at = ()
-    else:
-        at = tuple(int(i) for i in np.unravel_index(int(np.argmax(off)), off.shape))
-    where = f"{name or ''}[{', '.join(map(str, at))}]" if at else name
-    where = f"Row {at[0]}" if is_rows and not name else where
+    row = int(np.argmax(off.reshape(len(off), -1).max(axis=1))) if off.ndim else 0
+    at = tuple(int(i) for i in np.unravel_index(int(np.argmax(off)), off.shape))
+    where = f"{name}[{', '.join(map(str, at))}]"
+    if right.ndim == 2 and right.shape[1] <= 3 and right.shape[0] != right.shape[1]:
+        at, where = (row,), f"{name}[{row}]" if name else f"Row {row}"
+    elif right.ndim == 0 or (right.ndim == 1 and right.size <= 4):
+        at, where = (), name or "Yours"
     yours, wanted = number(got[at]), number(right[at])
-    return f"{where or 'Yours'} is {yours}, right is {wanted}. {hint}"
+    return f"{where} is {yours}, right is {wanted}. {hint}"
 
 
 def _short(value: Any) -> str:

@@ -8,7 +8,7 @@ and returns a `Verdict`. It judges geometry in degrees and metres, properties an
 """
 
 import math
-from collections.abc import Callable, Sized
+from collections.abc import Callable
 from dataclasses import dataclass
 from types import ModuleType
 from typing import Any
@@ -64,7 +64,7 @@ def band(what: str, value: float, unit: str, *, good: float, fair: float, hint: 
 
 def number(value: Any, digits: int = 4) -> str:
     """Write a number of an answer as messages do, several in brackets; nan and inf as Python writes them."""
-    if isinstance(value, Sized) and getattr(value, "ndim", 1):
+    if getattr(value, "ndim", isinstance(value, (list, tuple))):
         return f"({', '.join(number(one, digits) for one in value)})"
     value = float(value)
     if not math.isfinite(value):

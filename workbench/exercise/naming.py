@@ -32,27 +32,28 @@ class Evidence:
 
     Attributes:
         weight: How much in the answers differs from the right ones as the mistake's do, and is not given by chance.
-        refused: Of the calls for which the contract asks for an error and the mistake gives none of that name, whether
-            each was answered as the mistake does.
-        right: Whether every other such call was answered as the contract asks.
+        made: On how many calls for which the contract asks for an error the mistake was made.
+        spared: On how many of those on which the mistake is one the right error was raised.
+        other: On how many such calls something else went wrong.
     """
 
     weight: int
-    refused: tuple[bool, ...]
-    right: bool
+    made: int
+    spared: int
+    other: int
 
     @property
     def is_all(self) -> bool:
-        """Whether the function is as the mistake is wherever the contract says what is right."""
-        return self.right and all(self.refused)
+        """Whether nothing but this mistake was made."""
+        return not self.other and bool(self.weight or not self.spared)
 
 
 def recognised(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> Mistake | None:
     """Return the one mistake whose answers are those of the calls and are not the right ones; None if there is none.
 
-    It is looked for in all calls first, then in the calls of each failing check, since who makes two mistakes may make
-    one of them alone in some checks: in most of those that fail, or it is not what to mend first. A mistake that a refused call alone would tell of, and one whose sentence says that
-    all else is right, is named only where all else is.
+    It is looked for in all calls first, then in those of each failing check alone: who makes two mistakes makes one of
+    them in most of the checks that fail, or it is not what to mend first. A mistake that refused calls alone tell of, and
+    one whose sentence says that all else is right, is named only where all else is right.
 
     Args:
         calls: By check, what the student's function was asked, and what it said.
@@ -67,7 +68,7 @@ def recognised(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise:
         evidence = _evidence(mistake, every, exercise)
         needs_all = evidence is not None and (mistake.spares_the_rest or not evidence.weight)
         if evidence is not None and (evidence.is_all or not needs_all):
-            found[mistake] = evidence.weight + sum(evidence.refused)
+            found[mistake] = evidence.weight + evidence.made
     return _the_most(found, 1) or _the_most(_in_some_checks(calls, failing, exercise), ENOUGH)
 
 
@@ -76,7 +77,7 @@ def concerned(
 ) -> frozenset[str]:
     """Return the names of the failing checks in which a function makes a mistake."""
     told = {name: _evidence(mistake, calls[name], exercise) for name in failing}
-    return frozenset(name for name, found in told.items() if found and (found.weight or any(found.refused)))
+    return frozenset(name for name, found in told.items() if found and (found.weight or found.made))
 
 
 def _in_some_checks(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> dict[Mistake, int]:
@@ -98,13 +99,16 @@ def _the_most(weights: dict[Mistake, int], least: int) -> Mistake | None:
 
 def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Evidence | None:
     """Return how calls speak for a mistake; None where one speaks against it."""
-    weight, numbers, refused, right = 0, set[float](), [], True
+    weight, numbers, made, spared, other = 0, set[float](), 0, 0, 0
     for call in calls:
         if call.right.error:
-            if _alike(_answer(mistake.function, call), call.right, exercise):
-                right &= _alike(call.answer, call.right, exercise)
+            is_one = not _alike(_answer(mistake.function, call), call.right, exercise)
+            if _alike(call.answer, call.right, exercise):
+                spared += is_one
+            elif is_one and _alike(call.answer, _answer(mistake.function, call), exercise):
+                made += 1
             else:
-                refused.append(_alike(call.answer, _answer(mistake.function, call), exercise))
+                other += 1
         else:
             mistaken, others = _answer(mistake.function, call), [_answer(f, call) for f in exercise.alternatives]
             is_open = any(not _alike(other, call.right, exercise) for other in others)
@@ -114,7 +118,8 @@ def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Ev
                 weight += _wrong_entries(mistaken.value, call.right.value, numbers) if tells else 0
             elif not is_open:
                 return None
-    return Evidence(weight + sum(1 if number.is_integer() else 2 for number in numbers), tuple(refused), right)
+    weight += sum(1 if number.is_integer() else 2 for number in numbers)
+    return Evidence(weight, made, spared, other)
 
 
 def _is_apart(mistaken: Answer, right: Sequence[Answer]) -> bool:

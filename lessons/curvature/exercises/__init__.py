@@ -26,6 +26,14 @@ def with_a_flat_face(p: np.ndarray, faces: np.ndarray) -> Mesh:
     return np.concatenate([p, (p[[a]] + p[[b]]) / 2]), np.concatenate([faces[1:], new])
 
 
+def box(seed: int) -> Mesh:
+    """Return a box of edges from half a metre to two, two triangles per side."""
+    p = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+    sides = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    faces = np.array([face for a, b, c, d in sides for face in ((a, b, c), (a, c, d))])
+    return p * np.random.default_rng(seed).uniform(0.5, 2.0, 3), faces
+
+
 def some_rotation(seed: int) -> np.ndarray:
     """Return a rotation by about half a turn about some axis."""
     return exp_so3(np.random.default_rng(seed).normal(size=3) * 1.5)
@@ -52,7 +60,8 @@ def curvature_verdict(
         i = lost[0]
         said = f"{what}{lost.size} of {inside.sum()} vertices inside the border have no finite value. At vertex {i} yours is"
         return fail(f"{said} {number(got[i].squeeze())}, right is {number(right[i].squeeze())}. {hint}")
-    away = np.where(inside, np.linalg.norm(got - np.where(inside[:, None], right, got), axis=1), 0.0)
+    away = np.zeros(len(got))
+    away[inside] = np.linalg.norm(got[inside] - right[inside], axis=1)
     i, off = int(np.argmax(away)), away.max()
     told = f"At vertex {i} yours is {number(got[i].squeeze())}, right is {number(right[i].squeeze())}. {hint}"
     size = size or float(np.linalg.norm(right[inside], axis=1).max())

@@ -10,6 +10,7 @@ from lessons.curvature.exercises import (
     TETRAHEDRON,
     TRIANGLE,
     border_of,
+    box,
     curvature_verdict,
     irregular,
     some_rotation,
@@ -119,10 +120,12 @@ def size_and_side(candidate: Function) -> Verdict:
 def face_without_area(candidate: Function) -> Verdict:
     """A face without area adds its angles and no area."""
     ball = surfaces.sphere(42)
-    p, faces = with_a_flat_face(ball.p, ball.faces)
-    right = curvature.gaussian_curvature(p, faces)
     hint = "It is obtuse: its parts are a half and two quarters of nothing. Clip cosines, or take arctan2."
-    return curvature_verdict(candidate(p, faces), right, hint, good=0.1, fair=5)
+    verdicts = []
+    for mesh in (with_a_flat_face(ball.p, ball.faces), with_a_flat_face(*box(GRADERS))):
+        right = curvature.gaussian_curvature(*mesh)
+        verdicts.append(curvature_verdict(candidate(*mesh), right, hint, good=0.1, fair=5))
+    return worst(verdicts)
 
 
 @mistake("You returned the angle defect. It is curvature times area: divide it by the area that belongs to the vertex.")

@@ -11,13 +11,13 @@ from workbench.exercise import (
     Verdict,
     alternative,
     band,
+    beside,
     check,
     contract,
     left_alone,
     mistake,
     motion_verdict,
     refused,
-    rotation_verdict,
     worst,
 )
 from workbench.geometry import alignment
@@ -146,9 +146,11 @@ def points_on_a_line(candidate: Function) -> Verdict:
     verdicts = [refused(candidate, np.empty((0, 3)), np.empty((0, 3)), what="A call without pairs")]
     for what, p_source in (("Points on a line", line), ("A single pair", line[:1])):
         got, p_target = candidate(apply(T, p_source), p_source), apply(T, p_source)
-        away = float(np.linalg.norm(apply(got, p_source) - p_target, axis=1).max())
-        verdicts.append(rotation_verdict(got[:3, :3], got[:3, :3], f"{what}. {ALIGN_HINT}"))
-        verdicts.append(band(f"{what}: largest distance left", away, "m", good=1e-3, fair=2e-2, hint=ALIGN_HINT))
+        moved = apply(got, p_source)
+        away = float(np.linalg.norm(moved - p_target, axis=1).max())
+        hint = beside(moved[-1], p_target[-1], ALIGN_HINT, "The last point")
+        verdicts.append(motion_verdict(got, got, f"{what}. {ALIGN_HINT}"))
+        verdicts.append(band(f"{what}: largest distance left", away, "m", good=1e-3, fair=2e-2, hint=hint))
     return worst(verdicts)
 
 

@@ -39,7 +39,7 @@ def right_covariance_in_a_loop(p_target, p_source):
         raise ValueError("I need at least one pair")
     ct, cs = sum(p_target) / n, sum(p_source) / n
     H = np.zeros((3, 3))
-    for q, p in zip(p_target, p_source):  # noqa: B905
+    for q, p in zip(p_target, p_source):
         H += np.outer(q - ct, p - cs)
     U, _, Vt = np.linalg.svd(H)
     if np.linalg.det(U @ Vt) < 0:
@@ -244,4 +244,4 @@ def wrong_returns_points(p_target, p_source):
 
 
 def wrong_prints_and_returns_nothing(p_target, p_source):
-    print(right_with_helpers(p_target, p_source))  # noqa: T201
+    print(right_with_helpers(p_target, p_source))

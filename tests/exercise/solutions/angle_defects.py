@@ -6,7 +6,6 @@ NAMED = {
     "wrong_no_border": "full turn on the border",
     "wrong_fancy_index_sum": "repeated indices",
     "wrong_arccos_not_clipped": "cosine beyond 1",
-    "wrong_sum_returned_in_degrees_and_sign": None,
 }
 
 

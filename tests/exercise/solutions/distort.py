@@ -118,7 +118,9 @@ def wrong_r_not_squared(xy, k1, k2, p1, p2):
     x, y = xy.T
     r = np.sqrt(x**2 + y**2)
     g = 1 + k1 * r + k2 * r**2
-    return np.stack([x * g + 2 * p1 * x * y + p2 * (r**2 + 2 * x**2), y * g + p1 * (r**2 + 2 * y**2) + 2 * p2 * x * y], 1)
+    return np.stack(
+        [x * g + 2 * p1 * x * y + p2 * (r**2 + 2 * x**2), y * g + p1 * (r**2 + 2 * y**2) + 2 * p2 * x * y], 1
+    )
 
 
 def wrong_sequential_assignment(xy, k1, k2, p1, p2):

@@ -3,6 +3,8 @@
 import numpy as np
 
 NAMED = {
+    "wrong_rows_as_they_come": "paired by row",
+    "wrong_nearest_for_each": "nearest neighbours",
     "wrong_rectangular": "points left out",
     "wrong_total": "sum for mean",
     "wrong_squares_assigned": "squares",

@@ -23,7 +23,7 @@ def right_log1p(inlier_ratio, sample_size, confidence):
 
 def right_numpy(inlier_ratio, sample_size, confidence):
     with np.errstate(divide="ignore"):
-        n = np.log1p(-confidence) / np.log1p(-np.float64(inlier_ratio) ** sample_size)
+        n = np.log1p(-confidence) / np.log1p(-(np.float64(inlier_ratio) ** sample_size))
     return float(np.maximum(1.0, np.ceil(n))) if inlier_ratio > 0 else float("inf")
 
 

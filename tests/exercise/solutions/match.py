@@ -87,7 +87,9 @@ def right_recursive_halves(p_target, p_source):
     if len(p_source) <= 16:
         return right_matrix(p_target, p_source)
     half = len(p_source) // 2
-    return np.append(right_recursive_halves(p_target, p_source[:half]), right_recursive_halves(p_target, p_source[half:]))
+    return np.append(
+        right_recursive_halves(p_target, p_source[:half]), right_recursive_halves(p_target, p_source[half:])
+    )
 
 
 class Brute:

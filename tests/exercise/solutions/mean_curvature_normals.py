@@ -8,7 +8,6 @@ NAMED = {
     "wrong_not_halved": "four h n",
     "wrong_thirds": "a third of each face",
     "wrong_border_kept": "a value on the border",
-    "wrong_direction_only": None,
 }
 
 

@@ -9,6 +9,7 @@ from workbench.exercise import (
     Verdict,
     alternative,
     band,
+    beside,
     check,
     contract,
     left_alone,
@@ -28,8 +29,9 @@ def cloud(seed: int, n: int = 20) -> tuple[np.ndarray, np.ndarray]:
 
 def judged(candidate: Function, p: np.ndarray, w: np.ndarray) -> Verdict:
     """Judge an answer by its distance to the right one."""
-    off = 1000 * float(np.linalg.norm(candidate(p, w) - weighted_centroid(p, w)))
-    return band("Distance to the centroid", off, "mm", good=0.001, fair=0.1, hint=HINT)
+    got, right = candidate(p, w), weighted_centroid(p, w)
+    off = 1000 * float(np.linalg.norm(got - right))
+    return band("Distance to the centroid", off, "mm", good=0.001, fair=0.1, hint=beside(got, right, HINT))
 
 
 @contract(
