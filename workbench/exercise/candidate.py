@@ -31,6 +31,7 @@ class Candidate:
     def __init__(self, function: Function, reference: Function, *, remember: bool = True):
         self.function, self._reference, self._remember = function, reference, remember
         self.calls: list[Call] = []
+        self.expected: Any = None  # what the reference answers to the last call; None where it raises
         self._changed = False
         self.__name__ = getattr(reference, "__name__", "candidate")
 
@@ -56,7 +57,8 @@ class Candidate:
         self._keep(args, value, "")
         pairs = zip(args, given, strict=True)
         self._changed = any(isinstance(arg, np.ndarray) and arg.tobytes() != now.tobytes() for arg, now in pairs)
-        return held_to_contract(value, self._expected(args), self.__name__)
+        self.expected = self._expected(args)
+        return held_to_contract(value, self.expected, self.__name__)
 
     @property
     def changed_inputs(self) -> bool:
