@@ -105,12 +105,15 @@ def test_a_worker_that_is_killed_takes_its_submission_along_and_costs_no_other(g
     until(lambda: sandboxed(process.pid))
 
 
-@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_a_check_that_is_ended_leaves_nothing(tmp_path, how):
+@pytest.mark.parametrize(
+    ("how", "sandbox"),
+    [(signal.SIGINT, "auto"), (signal.SIGTERM, "auto"), (signal.SIGKILL, "auto"), (signal.SIGKILL, "none")],
+)
+def test_a_check_that_is_ended_leaves_nothing(tmp_path, how, sandbox):
     (tmp_path / "my_invert_rigid.py").write_text(HANGS)
     (tmp_path / "tmp").mkdir()
     process = subprocess.Popen(
-        [sys.executable, "-m", "workbench", "check", str(tmp_path / "my_invert_rigid.py")],
+        [sys.executable, "-m", "workbench", "check", str(tmp_path / "my_invert_rigid.py"), "--sandbox", sandbox],
         stdout=subprocess.DEVNULL,
         env=os.environ | {"TMPDIR": str(tmp_path / "tmp")},
         start_new_session=True,

@@ -3,7 +3,6 @@
 import contextlib
 import os
 import secrets
-import shutil
 import signal
 import subprocess
 import tempfile
@@ -74,7 +73,6 @@ class Student:
         self._lock = threading.Lock()  # one call at a time: several runs may share a function
         self._process: subprocess.Popen | None = None
         self._pipe: Pipe | None = None
-        self._folder: str | None = None
         self._printed: IO[bytes] | None = None
 
     def __call__(self, *args: Any, **options: Any) -> Any:
@@ -117,20 +115,23 @@ class Student:
         self._end()
         self._pipe = Pipe()
         self._printed = self._printed or anonymous()
-        if not self.wall.holds:
-            self._folder = tempfile.mkdtemp(prefix="exercise-")
+        folder = "/" if self.wall.holds else tempfile.mkdtemp(prefix="exercise-")
         pipe_in, pipe_out = self._pipe.theirs
         try:
             self._process = self.wall.start(
                 pipe_in=pipe_in,
                 pipe_out=pipe_out,
                 printed=self._printed,
-                folder=self._folder or "/",
+                folder=folder,
                 megabytes=self._megabytes,
                 cpu_seconds=int(60 + 20 * self._seconds),
             )
         finally:
             self._pipe.inherited()
+            if folder != "/":
+                os.rmdir(
+                    folder
+                )  # the process stays in it: a folder that is no more takes no files, and none stays behind
         self._ask({"do": "start"}, START_SECONDS)
         modules = [list(pair) for pair in self.submission.modules.items()]
         self._ask({"do": "load", "source": self.source, "name": self.name, "modules": modules}, LOAD_SECONDS)
@@ -161,7 +162,6 @@ class Student:
         """End the process; its exit code, where it ended by itself."""
         process, self._process = self._process, None
         pipe, self._pipe = self._pipe, None
-        folder, self._folder = self._folder, None
         code = None
         if process is not None:
             code = process.poll()
@@ -170,8 +170,6 @@ class Student:
             process.wait()
         if pipe is not None:
             pipe.close()
-        if folder is not None:
-            shutil.rmtree(folder, ignore_errors=True)
         return code
 
     def _ask(self, request: dict[str, Any], seconds: float) -> dict[str, Any]:
