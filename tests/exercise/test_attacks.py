@@ -16,6 +16,7 @@ import pytest
 import lessons
 from tests.exercise import attacks
 from tests.exercise.centroid import EXERCISE
+from tests.exercise.processes import family
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises
 from workbench.exercise.grading import grade_file
@@ -79,29 +80,13 @@ def teacher(tmp_path_factory):
     made.listening.close()
 
 
-def processes_of(first: int) -> int:
-    """Return how many processes there are of a student's: the first, and what was started by one of them."""
-    parents = {}
-    for entry in Path("/proc").glob("[0-9]*"):
-        try:
-            parts = (entry / "stat").read_text().rpartition(")")[2].split()
-        except OSError:
-            continue
-        if parts[0] != "Z":
-            parents[int(entry.name)] = (int(parts[1]), int(parts[3]))
-    found = {pid for pid, (_, session) in parents.items() if pid == first or session == first}
-    for _ in range(6):
-        found |= {pid for pid, (parent, _) in parents.items() if parent in found}
-    return len(found)
-
-
 def left_of(first: int) -> int:
     """Return how many of a student's processes are there after a moment."""
     for _ in range(40):
-        if not processes_of(first):
+        if not family(first):
             return 0
         time.sleep(0.05)
-    return processes_of(first)
+    return len(family(first))
 
 
 TOGETHER = attacks.READING | attacks.HARM | attacks.PROCESSES | attacks.DOORS
@@ -142,7 +127,7 @@ def test_it_gets_nothing_and_harms_nobody(teacher, attempting, name):
     assert not got, f"it got {got}"
     assert teacher.seen() == before
     assert not teacher.was_called()
-    assert attempting._process is None or processes_of(attempting._process.pid) <= 3  # bubblewrap's two, and its own
+    assert attempting._process is None or len(family(attempting._process.pid)) <= 3  # bubblewrap's two, and its own
 
 
 @pytest.mark.parametrize("name", attacks.SOLUTIONS, ids=ids(attacks.SOLUTIONS))

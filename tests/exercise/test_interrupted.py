@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.exercise.test_attacks import processes_of
+from tests.exercise.processes import family
 from workbench.exercise.sandbox import best
 
 HANGS = "import time\ndef invert_rigid(T):\n    while True: time.sleep(0.01)\n"
@@ -31,24 +31,9 @@ def until(seen, seconds: float = 60.0):
     raise AssertionError("it did not come to that")
 
 
-def descendants(first: int) -> set[int]:
-    parents = {}
-    for entry in Path("/proc").glob("[0-9]*"):
-        try:
-            parts = (entry / "stat").read_text().rpartition(")")[2].split()
-        except OSError:
-            continue
-        if parts[0] != "Z":
-            parents[int(entry.name)] = int(parts[1])
-    found = {first}
-    while more := {pid for pid, parent in parents.items() if parent in found} - found:
-        found |= more
-    return found - {first}
-
-
 def sandboxed(first: int) -> set[int]:
     """Return all processes under the grader, once one of them is a student's that was started."""
-    found = descendants(first)
+    found = family(first) - {first}
     return found if any(b"child.py" in _command(pid) for pid in found) else set()
 
 
@@ -60,7 +45,7 @@ def _command(pid: int) -> bytes:
 
 
 def there(pids: set[int]) -> set[int]:
-    return {pid for pid in pids if processes_of(pid)}
+    return {pid for pid in pids if family(pid)}
 
 
 @pytest.fixture
@@ -112,20 +97,23 @@ def test_killed_it_leaves_no_process_and_no_folder(grading):
 
 def test_a_worker_that_is_killed_takes_its_submission_along_and_costs_no_other(grading):
     process, _, _ = grading
-    worker = min(pid for pid in descendants(process.pid) if b"child.py" not in _command(pid))
-    its = descendants(worker)
+    worker = min(pid for pid in family(process.pid) - {process.pid} if b"child.py" not in _command(pid))
+    its = family(worker) - {worker}
     os.kill(worker, signal.SIGKILL)
     until(lambda: not there(its))
     assert process.poll() is None
     until(lambda: sandboxed(process.pid))
 
 
-@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_a_check_that_is_ended_leaves_nothing(tmp_path, how):
+@pytest.mark.parametrize(
+    ("how", "sandbox"),
+    [(signal.SIGINT, "auto"), (signal.SIGTERM, "auto"), (signal.SIGKILL, "auto"), (signal.SIGKILL, "none")],
+)
+def test_a_check_that_is_ended_leaves_nothing(tmp_path, how, sandbox):
     (tmp_path / "my_invert_rigid.py").write_text(HANGS)
     (tmp_path / "tmp").mkdir()
     process = subprocess.Popen(
-        [sys.executable, "-m", "workbench", "check", str(tmp_path / "my_invert_rigid.py")],
+        [sys.executable, "-m", "workbench", "check", str(tmp_path / "my_invert_rigid.py"), "--sandbox", sandbox],
         stdout=subprocess.DEVNULL,
         env=os.environ | {"TMPDIR": str(tmp_path / "tmp")},
         start_new_session=True,

@@ -9,7 +9,7 @@ import pytest
 from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
 from workbench.exercise.grading import grade_file
-from workbench.exercise.sandbox import Patience, Student, StudentError
+from workbench.exercise.sandbox import CallBudget, Student, StudentError
 
 POINTS = np.arange(12.0).reshape(4, 3)
 
@@ -187,7 +187,7 @@ def test_a_cheat_earns_nothing(tmp_path, name):
 )
 def test_an_endless_loop_costs_its_limit_once(tmp_path, body, kind, said):
     given = written(tmp_path, body).submission
-    with Student(given, "centroid", seconds=5.0, patience=Patience(5.0)) as student:
+    with Student(given, "centroid", seconds=5.0, budget=CallBudget(5.0)) as student:
         began = time.monotonic()
         errors = []
         for _ in range(20):
@@ -201,7 +201,7 @@ def test_an_endless_loop_costs_its_limit_once(tmp_path, body, kind, said):
 
 def test_who_hangs_in_one_place_is_called_in_all_others(tmp_path):
     given = written(tmp_path, "while p.max() > 100: pass\nreturn p.mean(axis=0)").submission
-    with Student(given, "centroid", seconds=1.0, patience=Patience(1.0)) as student:
+    with Student(given, "centroid", seconds=1.0, budget=CallBudget(1.0)) as student:
         with pytest.raises(StudentError, match="took more than"):
             student(1000 * POINTS)
         for _ in range(5):
@@ -209,7 +209,7 @@ def test_who_hangs_in_one_place_is_called_in_all_others(tmp_path):
 
 
 def test_all_calls_together_have_a_bound():
-    patience = Patience(0.5)
+    patience = CallBudget(0.5)
     for _ in range(30):
         patience.took(0.4, "")
     assert "together" in patience.over

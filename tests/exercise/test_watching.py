@@ -2,10 +2,14 @@
 
 import pytest
 
+from workbench.exercise.driven import driven, first_difference
+from workbench.exercise.finding import exercises
 from workbench.exercise.watching import GONE_AFTER, Watched
 from workbench.lesson import catalog
 from workbench.session import Session
+from workbench.timeline import Timeline
 
+SUMS = exercises()["sad_cost_volume"]
 RIGHT = """import numpy as np
 
 
@@ -104,3 +108,12 @@ def test_after_an_error_is_mended_the_step_is_kept(watched):
         known = to_the_end(session)
         assert (session.step, known) == ((known - 1, known) if text is BROKEN else (5, steps))
         assert (known < 5) == (text is BROKEN)
+
+
+@pytest.mark.parametrize("function", [*SUMS.alternatives, SUMS.mistakes[0].function], ids=lambda one: one.__name__)
+def test_rounding_that_decides_between_equal_costs_is_no_first_difference(function):
+    lesson = catalog()[SUMS.lesson]
+    timeline = Timeline(driven(lesson, SUMS, function), lesson.params())
+    while len(timeline) < 10 and timeline.extend():
+        pass
+    assert (first_difference(timeline.known()) is None) == (function in SUMS.alternatives)

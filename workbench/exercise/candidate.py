@@ -61,6 +61,8 @@ class Candidate:
         """The arguments of the calls that changed them."""
         self.looks_at_inputs = False
         """Whether a check asked that inputs stay as they are."""
+        self.expected: Any = None
+        """What the reference answers to the last call; None where it raises."""
         self._changed = False
         self.__name__ = getattr(reference, "__name__", "candidate")
 
@@ -71,6 +73,7 @@ class Candidate:
             StudentError: If it gave no answer, or one of another shape or kind than the contract says.
         """
         right = self._right(args)
+        self.expected = right.value
         given = _copied(args)
         self._changed = False
         try:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from workbench.exercise.candidate import Candidate
+from workbench.exercise.grading import values_alike
 from workbench.exercise.model import Exercise, Function
 from workbench.exercise.sandbox import StudentError
 from workbench.lesson import Lesson
@@ -46,12 +47,33 @@ class Pair:
     ghost: Scene
 
 
+class _Beside:
+    """A student's function as a run calls it; remembers whether it ever answered otherwise than ours.
+
+    Where it never did, the two runs part by rounding at most, however far: equal costs are told apart by it.
+    """
+
+    def __init__(self, function: Function, exercise: Exercise):
+        self._candidate, self._either = (
+            Candidate(function, exercise.reference, remember=False),
+            exercise.contract.either,
+        )
+        self.differed = False
+
+    def __call__(self, *args: Any) -> Any:
+        value = self._candidate(*args)
+        right = self._candidate.expected
+        alike = values_alike(value, right) or (self._either is not None and values_alike(value, self._either(right)))
+        self.differed = self.differed or not alike
+        return value
+
+
 def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
     """Return the lesson driven by a student's function, with the reference's run as its ghost."""
-    slots = {exercise.contract.slot: Candidate(function, exercise.reference, remember=False)}
 
     def run(params: Any) -> Iterator[Pair]:
-        ours, theirs = lesson.run(params), lesson.run(params, **slots)
+        beside = _Beside(function, exercise)
+        ours, theirs = lesson.run(params), lesson.run(params, **{exercise.contract.slot: beside})
         state_ours, scene_ours, differed = None, {}, False
         while True:
             for state_ours in itertools.islice(ours, 1):
@@ -66,7 +88,7 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
                 yield Pair(state_ours, None, trouble, line, float("nan"), not differed, scene_ours, {})
                 return
             difference = gap(scene_ours, scene)
-            differs = not difference <= TOLERANCE
+            differs = beside.differed and not difference <= TOLERANCE
             behind = ghost(scene_ours, scene) if differs else {}
             yield Pair(state_ours, state, "", 0, difference, differs and not differed, scene, behind)
             differed = differed or differs

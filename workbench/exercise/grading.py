@@ -8,7 +8,7 @@ from workbench.exercise.candidate import Candidate
 from workbench.exercise.judging import changed
 from workbench.exercise.model import Check, Exercise, Function, Mistake, Verdict, fail
 from workbench.exercise.naming import concerned, recognised
-from workbench.exercise.sandbox import Patience, Student, StudentError, Wall
+from workbench.exercise.sandbox import CallBudget, Student, StudentError, Wall
 from workbench.exercise.submission import Submission
 
 
@@ -94,7 +94,7 @@ def grade_file(
     """
     seconds = exercise.contract.seconds
     room = {} if megabytes is None else {"megabytes": megabytes}
-    with Student(given, exercise.name, seconds=seconds, wall=wall, patience=Patience(seconds), **room) as student:
+    with Student(given, exercise.name, seconds=seconds, wall=wall, budget=CallBudget(seconds), **room) as student:
         student.start()
         return grade_function(student, exercise, hidden=hidden, file=student.submission.file)
 

@@ -11,6 +11,7 @@ import os
 import platform
 import resource
 import struct
+import sys
 from collections.abc import Iterable
 from typing import Any
 
@@ -45,14 +46,14 @@ def shut(settings: dict[str, Any]) -> None:
         hard = resource.getrlimit(what)[1]
         most = most if hard == resource.RLIM_INFINITY else min(most, hard)
         resource.setrlimit(what, (most, most))
-    if not settings["filter"]:
-        return
     if settings["user"] is not None:
         _become(settings["user"], settings["closed"])
-    if settings["landlock"] is not None or settings["user"] is not None:
+    if settings["grader"] is not None and sys.platform == "linux":
         _prctl(PR_SET_PDEATHSIG, SIGKILL)
         if os.getppid() != settings["grader"]:
             os._exit(0)  # it is gone already
+    if not settings["filter"]:
+        return
     _prctl(PR_SET_NO_NEW_PRIVS, 1)
     if settings["landlock"] is not None:
         _landlock(settings["landlock"])

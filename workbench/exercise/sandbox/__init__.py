@@ -4,8 +4,8 @@
 is the function as the grader calls it. What runs on the other side is in `workbench.exercise.inside`.
 """
 
-from workbench.exercise.sandbox.patience import Patience
+from workbench.exercise.sandbox.budget import CallBudget
 from workbench.exercise.sandbox.student import Student, StudentError
 from workbench.exercise.sandbox.walls import Wall, best, named
 
-__all__ = ["Patience", "Student", "StudentError", "Wall", "best", "named"]
+__all__ = ["CallBudget", "Student", "StudentError", "Wall", "best", "named"]

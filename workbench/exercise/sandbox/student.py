@@ -3,7 +3,6 @@
 import contextlib
 import os
 import secrets
-import shutil
 import signal
 import subprocess
 import tempfile
@@ -14,7 +13,7 @@ from typing import IO, Any
 
 from workbench.errors import InputError
 from workbench.exercise.inside.wire import WireError
-from workbench.exercise.sandbox.patience import Patience
+from workbench.exercise.sandbox.budget import CallBudget
 from workbench.exercise.sandbox.pipe import Pipe
 from workbench.exercise.sandbox.walls import START_SECONDS, Wall, anonymous, best
 from workbench.exercise.submission import Submission, read_submission
@@ -49,7 +48,7 @@ class Student:
         seconds: The longest one call may take, wall time; the process is killed then.
         megabytes: Address space of the process.
         wall: What shuts it in; the best of this machine by default.
-        patience: How long all its calls are waited for; None waits `seconds` for each.
+        budget: How long all its calls are waited for; None waits `seconds` for each.
 
     Raises:
         InputError: If the file cannot be read.
@@ -63,18 +62,17 @@ class Student:
         seconds: float = 5.0,
         megabytes: int = MEGABYTES,
         wall: Wall | None = None,
-        patience: Patience | None = None,
+        budget: CallBudget | None = None,
     ):
         self.submission = given if isinstance(given, Submission) else read_submission(given)
         self.name, self.__name__ = name, name
         self.wall = best() if wall is None else wall
         self.changed_inputs = False  # whether the last call changed what it was given
         self._seconds, self._megabytes = seconds, megabytes
-        self._patience = patience
+        self._budget = budget
         self._lock = threading.Lock()  # one call at a time: several runs may share a function
         self._process: subprocess.Popen | None = None
         self._pipe: Pipe | None = None
-        self._folder: str | None = None
         self._printed: IO[bytes] | None = None
 
     def __call__(self, *args: Any, **options: Any) -> Any:
@@ -84,8 +82,8 @@ class Student:
             StudentError: If it raised, took too long, ended its process, or returned what is no value.
         """
         with self._lock:
-            if self._patience is not None and self._patience.over:
-                raise StudentError(f"{self.name} was not called: {self._patience.over}", self._patience.kind)
+            if self._budget is not None and self._budget.over:
+                raise StudentError(f"{self.name} was not called: {self._budget.over}", self._budget.kind)
             if self._process is None or self._process.poll() is not None:
                 self.start()
             reply = self._called({"do": "call", "args": list(args), "options": list(options.items())})
@@ -98,15 +96,15 @@ class Student:
         return self.submission.source
 
     def _called(self, request: dict[str, Any]) -> dict[str, Any]:
-        seconds, began, how = self._patience.seconds if self._patience else self._seconds, time.monotonic(), ""
+        seconds, began, how = self._budget.seconds if self._budget else self._seconds, time.monotonic(), ""
         try:
             return self._ask(request, seconds)
         except StudentError as error:
             how = error.kind
             raise
         finally:
-            if self._patience is not None:
-                self._patience.took(time.monotonic() - began, how)
+            if self._budget is not None:
+                self._budget.took(time.monotonic() - began, how)
 
     def start(self) -> None:
         """Start the process and load the student's file.
@@ -117,20 +115,23 @@ class Student:
         self._end()
         self._pipe = Pipe()
         self._printed = self._printed or anonymous()
-        if not self.wall.holds:
-            self._folder = tempfile.mkdtemp(prefix="exercise-")
+        folder = "/" if self.wall.holds else tempfile.mkdtemp(prefix="exercise-")
         pipe_in, pipe_out = self._pipe.theirs
         try:
             self._process = self.wall.start(
                 pipe_in=pipe_in,
                 pipe_out=pipe_out,
                 printed=self._printed,
-                folder=self._folder or "/",
+                folder=folder,
                 megabytes=self._megabytes,
                 cpu_seconds=int(60 + 20 * self._seconds),
             )
         finally:
             self._pipe.inherited()
+            if folder != "/":
+                os.rmdir(
+                    folder
+                )  # the process stays in it: a folder that is no more takes no files, and none stays behind
         self._ask({"do": "start"}, START_SECONDS)
         modules = [list(pair) for pair in self.submission.modules.items()]
         self._ask({"do": "load", "source": self.source, "name": self.name, "modules": modules}, LOAD_SECONDS)
@@ -161,7 +162,6 @@ class Student:
         """End the process; its exit code, where it ended by itself."""
         process, self._process = self._process, None
         pipe, self._pipe = self._pipe, None
-        folder, self._folder = self._folder, None
         code = None
         if process is not None:
             code = process.poll()
@@ -170,8 +170,6 @@ class Student:
             process.wait()
         if pipe is not None:
             pipe.close()
-        if folder is not None:
-            shutil.rmtree(folder, ignore_errors=True)
         return code
 
     def _ask(self, request: dict[str, Any], seconds: float) -> dict[str, Any]:

@@ -5,7 +5,7 @@ LEAST_SECONDS = 1.0
 CALLS = 20
 
 
-class Patience:
+class CallBudget:
     """The time that calls of one function may take together.
 
     The first call that is late costs its whole limit, the next ones a fifth of it. After three that were late or ended
