@@ -1,7 +1,12 @@
 """A run in a notebook: one frame that needs nothing else, and the same told as text."""
 
+import json
+import os
 import re
+import subprocess
+import sys
 from html import unescape
+from pathlib import Path
 
 import pytest
 
@@ -49,6 +54,41 @@ def test_a_lesson_may_be_given_itself_and_params_start_from_a_preset():
     preset = fake.lesson.presets[0]
     assert workbench.replay(fake.lesson, preset=preset.name).params == preset.params
     assert len(workbench.replay(fake.lesson).timeline) == len(Timeline(fake.lesson, fake.Params()).complete())
+
+
+MARIMO = """
+import marimo
+
+app = marimo.App()
+
+
+@app.cell
+def _():
+    import workbench
+
+    workbench.replay("icp", start_angle=60, steps=3)
+    return
+
+
+if __name__ == "__main__":
+    app.run()
+"""
+
+
+def test_marimo_keeps_the_frame_as_it_is(shown, tmp_path):
+    pytest.importorskip("marimo", reason="pip install marimo")
+    (tmp_path / "run.py").write_text(MARIMO)
+    command = [sys.executable, "-m", "marimo", "export", "html", "run.py", "-o", "run.html", "--no-include-code"]
+    homes = {f"XDG_{name}_HOME": str(tmp_path / name) for name in ("CONFIG", "STATE", "DATA")}
+    environment = os.environ | homes | {"PYTHONPATH": str(Path(workbench.__file__).parents[1])}
+    subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, check=True)
+    written = re.findall(r'"text/html": ("(?:[^"\\]|\\.)*")', (tmp_path / "run.html").read_text())
+    frames = [html for html in map(json.loads, written) if "<iframe" in html]
+    assert len(frames) == 1
+    document = unescape(re.search(r'srcdoc="([^"]*)"', frames[0])[1])  # type: ignore[index]
+    assert all(json.dumps(step.caption.text, ensure_ascii=False)[1:-1] in document for step in shown.timeline.known())
+    assert frames[0].count("<iframe") == 1
+    assert frames[0].endswith("</iframe>")
 
 
 @pytest.mark.parametrize(

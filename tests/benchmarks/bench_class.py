@@ -35,6 +35,8 @@ GOALS = {
     "mixed, steps": "p95 below 50 ms",
     "mixed, new page": "below 500 ms",
     "alone, steps": "",
+    "attacked, steps": "p95 below 100 ms",
+    "attacked, new page": "",
     "alone, new page": "",
     "silent, steps": "as alone",
     "silent, new page": "as alone",
@@ -199,6 +201,25 @@ async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
     return found
 
 
+async def attacked(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
+    """One who steps, alone; then beside the attackers, who have a process of their own."""
+    found = {name: Waits() for name in ("alone, steps", "attacked, steps", "attacked, new page")}
+    walker = (await arrived(server, "?lesson=transforms"))[0]
+    await walker.until(lambda page: page.run["finished"])
+    await measured(server, given, [lambda end: stepping(walker, end, found["alone, steps"], 0.25)])
+    command = [sys.executable, "-m", "tests.benchmarks.attackers", server.address, str(given.seconds + 20)]
+    with psutil.Popen(command, cwd=ROOT, text=True, stdout=subprocess.PIPE) as attackers:
+        while await asyncio.to_thread(attackers.stdout.readline) != "here\n":
+            assert attackers.is_running()
+        tasks = [lambda end: stepping(walker, end, found["attacked, steps"], 0.25),
+                 lambda end: coming(server, "?lesson=transforms", end, found["attacked, new page"])]  # fmt: skip
+        await measured(server, given, tasks)
+        attackers.terminate()
+        print(f"  sent in all: {(attackers.stdout.read().strip().splitlines() or [''])[-1]}")
+    await walker.close()
+    return found
+
+
 async def coming(server: Served, query: str, end: float, waits: Waits) -> None:
     """Open a new page now and then."""
     while time.perf_counter() < end:
@@ -243,7 +264,7 @@ async def costs(server: Served, given: argparse.Namespace) -> None:
     )
 
 
-SCENARIOS: dict[str, Any] = {"cost": costs, "one": one_lesson, "mixed": mixed, "silent": silent}
+SCENARIOS: dict[str, Any] = {"cost": costs, "one": one_lesson, "mixed": mixed, "silent": silent, "attacked": attacked}
 
 
 def afterwards(server: Served) -> tuple[int, float]:
