@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from workbench.exercise.candidate import Candidate
-from workbench.exercise.grading import values_alike
 from workbench.exercise.model import Exercise, Function
+from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError
 from workbench.lesson import Lesson
 from workbench.scene import Caption, Mesh, Points, Primitive, Scalar, Scene, Segments, caption_of, ghost
