@@ -31,7 +31,7 @@ ALLOWED = {
     "workbench.numerals": set(),
     "workbench.geometry": MATHS,
     "workbench.algorithms": MATHS | {"workbench.algorithms"},
-    "workbench.data": MATHS | {"workbench.data"},
+    "workbench.data": MATHS | {"workbench.data", "workbench.numerals"},
     "workbench.lesson": DRAWING,
     "workbench.timeline": LESSON,
     "workbench.loading": LESSON,

@@ -4,6 +4,7 @@ import numpy as np
 
 from lessons.curvature.state import State
 from workbench.algorithms.curvature import Measured
+from workbench.geometry.laplacian import mixed_cell, vertex_pushes
 from workbench.geometry.polylines import between, segments
 from workbench.numerals import brief
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
@@ -107,11 +108,7 @@ def _unbent(along: np.ndarray, angles: np.ndarray) -> np.ndarray:
 def cell(now: Measured) -> dict[str, Primitive]:
     """Return the mixed area of the vertex, piece by piece: its part of each face around."""
     lift = 2 * LIFT * edge_length(now) * now.normals[now.vertex]
-    quads = []
-    for face in now.faces[now.ring_faces]:
-        k = int(np.flatnonzero(face == now.vertex)[0])
-        a, b, c = now.p[np.roll(face, -k)]
-        quads.append(np.stack([a, (a + b) / 2, _corner(a, b, c), (a + c) / 2]))
+    quads = mixed_cell(now.p, now.faces[now.ring_faces], now.vertex)
     p = np.concatenate(quads) + lift
     start = 4 * np.arange(len(quads))[:, None]
     faces = (start + np.array([[0, 1, 2, 0, 2, 3]])).reshape(-1, 3)
@@ -128,23 +125,13 @@ def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
     start, total = _lifted(now), now.normals_2H[now.vertex]
     scene: dict[str, Primitive] = {}
     if np.isfinite(total).all():
-        parts = scale * _pushes(now)
+        parts = scale * vertex_pushes(now.p[now.vertex], now.p[now.ring], now.areas[now.vertex])
         chain = np.cumsum(np.vstack([np.zeros(3), parts]), axis=0) + start
         scene["pushes"] = Segments(segments(chain), "other", 3, name="cotangent × edge, neighbour after neighbour")
         tip = start + scale * total
         scene["mean normal"] = Segments(between(start, tip), "highlight", 6, name="their sum: 2 H n")
         scene["mean label"] = Label(f"|2 H n| = {brief(float(np.linalg.norm(total)))} m⁻¹", tip, "highlight")
     return scene
-
-
-def _pushes(now: Measured) -> np.ndarray:
-    """Return each neighbour's (cot a + cot b) (p_i - p_j) / 2 A, Meyer (8), in the order of the ring."""
-    ring, here = now.p[now.ring], now.p[now.vertex]
-    weight = np.zeros(len(ring))
-    for other in (np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0)):
-        a, b = here - other, ring - other
-        weight += np.einsum("nx,nx->n", a, b) / np.linalg.norm(np.cross(a, b), axis=1)
-    return weight[:, None] * (here - ring) / (2 * now.areas[now.vertex])
 
 
 def circles(now: Measured) -> dict[str, Primitive]:
@@ -202,17 +189,6 @@ def patch(state: State) -> dict[str, Primitive]:
         p = now.p[now.vertex] + x * right + y * up + z * n
         scene["patch"] = Mesh(p, faces, "highlight", opacity=0.7, name="quadric")
     return scene
-
-
-def _corner(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
-    """Return the corner of a's mixed area across from a: the circumcentre, or for obtuse faces a point on an edge."""
-    u, v = b - a, c - a
-    if u @ v < 0:
-        return (b + c) / 2
-    if (a - b) @ (c - b) < 0 or (a - c) @ (b - c) < 0:
-        return a + (u + v) / 4
-    w = np.cross(u, v)
-    return a + (np.cross(w, u) * (v @ v) + np.cross(v, w) * (u @ u)) / (2 * w @ w)
 
 
 def _lifted(now: Measured, edges: float = LIFT) -> np.ndarray:

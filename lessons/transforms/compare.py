@@ -9,15 +9,12 @@ from lessons.transforms.body import Numbers
 from lessons.transforms.state import Body, Compare, Ghost, Params
 from workbench.geometry.affine import transform
 from workbench.geometry.alignment import align_rigid
-from workbench.geometry.motions import exp_so3, inverse, motion
+from workbench.geometry.motions import inverse, motion
 from workbench.geometry.rotations import (
     EulerOrder,
-    euler_axes,
-    euler_to_matrix,
     gimbal_margin,
     locked_family,
     matrix_from_quaternion,
-    matrix_to_euler,
     other_triple,
     quaternion_from_matrix,
 )
@@ -97,22 +94,6 @@ def other_triples(numbers: Numbers) -> np.ndarray:
 
 def _other_triples(numbers: Numbers) -> list[tuple[str, np.ndarray]]:
     return [(in_degrees(triple), replace(numbers, angles=triple).motion()) for triple in other_triples(numbers)]
-
-
-def jump_out_of_lock(numbers: Numbers) -> np.ndarray:
-    """Return the triple, of the two nearest to ours, that turns the body by 1 degree more in the lost direction.
-
-    The lost direction is at right angles to all axes of the three angles, so no small change of them turns about it.
-    """
-    first, second, _ = euler_axes(numbers.angles, numbers.order)
-    R = exp_so3(np.radians(1.0) * np.cross(first, second)) @ euler_to_matrix(numbers.angles, numbers.order)
-    found = matrix_to_euler(R, numbers.order)
-    return min((found, other_triple(found, numbers.order)), key=lambda triple: change(triple, numbers.angles))
-
-
-def change(triple: np.ndarray, other: np.ndarray) -> float:
-    """Return by how much the angle differs that differs most, radians; a full turn is no difference."""
-    return float(np.abs((triple - other + np.pi) % (2.0 * np.pi) - np.pi).max())
 
 
 def _transpose(numbers: Numbers) -> list[tuple[str, np.ndarray]]:

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from lessons.transforms.body import numbers_of
-from lessons.transforms.compare import in_degrees, jump_out_of_lock
+from lessons.transforms.compare import in_degrees
 from lessons.transforms.state import Built, Moved, Params, State
-from workbench.geometry.rotations import euler_axes
+from workbench.geometry.rotations import euler_axes, triple_past_lock
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import angle, fixed, length, percent
 
@@ -143,6 +143,12 @@ def directions_left(states: Sequence[State]) -> int:
     return int(np.linalg.matrix_rank(euler_axes(state.angles, state.params.order), tol=1e-9))
 
 
+def jump_out_of_lock() -> np.ndarray:
+    """Return the angles, radians, that turn the locked body by 1 degree more in the lost direction."""
+    numbers = numbers_of(GIMBAL)
+    return triple_past_lock(numbers.angles, numbers.order, np.radians(1.0))
+
+
 def volume_kept(state: Built) -> float:
     """Return the volume now over the volume at the start."""
     return float(abs(np.linalg.det(state.T[:3, :3])))
@@ -181,7 +187,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=lambda states: float(directions_left(states) - 1),
         why=lambda states: (
             f"{directions_left(states)}: angles 1 and 3 turn about the same line. No pose is out of reach, but 1° in the"
-            f" lost direction needs a jump from (30, 90, 50)° to {in_degrees(jump_out_of_lock(numbers_of(GIMBAL)))}."
+            f" lost direction needs a jump from (30, 90, 50)° to {in_degrees(jump_out_of_lock())}."
         ),
         params=GIMBAL,
         choices=("1", "2", "3"),

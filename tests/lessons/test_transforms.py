@@ -8,14 +8,19 @@ import numpy as np
 import pytest
 
 from lessons.transforms.body import numbers_of
-from lessons.transforms.compare import change, jump_out_of_lock
 from lessons.transforms.experiments import directions_left, halfway
 from lessons.transforms.lesson import lesson
 from lessons.transforms.state import Compare, Method, Params
 from tests.lessons.transforms_runs import MOVE, built, exp_axis, moved, opened, opened_at, preset, survivors, timeline
 from workbench.geometry.affine import Kind, kind_of, transform
 from workbench.geometry.motions import inverse, motion, rotation_angle
-from workbench.geometry.rotations import axis_angle_from_rotation, euler_to_matrix, rotation_from_axis_angle
+from workbench.geometry.rotations import (
+    angles_apart,
+    axis_angle_from_rotation,
+    euler_to_matrix,
+    rotation_from_axis_angle,
+    triple_past_lock,
+)
 from workbench.scene import Segments, caption_of, is_rigid
 
 # building -------------------------------------------------------------------------------------------------------------
@@ -68,10 +73,12 @@ def test_gimbal_lock_loses_a_direction_and_no_pose():
     assert len(ghosts) == 3
     assert max(ghost.distance for ghost in ghosts) < 1e-12
     numbers = numbers_of(params)
-    triple = jump_out_of_lock(numbers)  # one degree more in the lost direction is reached, but from far away
+    triple = triple_past_lock(
+        numbers.angles, numbers.order, np.radians(1.0)
+    )  # one degree more in the lost direction is reached, but from far away
     R = euler_to_matrix(triple, params.order) @ numbers.rotation().T
     assert np.degrees(rotation_angle(R)) == pytest.approx(1.0)
-    assert np.degrees(change(triple, numbers.angles)) > 80
+    assert np.degrees(angles_apart(triple, numbers.angles)) > 80
     locked = opened_at(params, -2).caption.text
     assert "Gimbal lock: angles 1 and 3 turn about one axis; (70, 90, 90)° is the same" in locked
     R_named = euler_to_matrix(np.radians([70.0, 90.0, 90.0]), params.order)

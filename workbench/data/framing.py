@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
-from workbench.geometry.motions import apply, motion
+from workbench.geometry.motions import apply, exp_so3, motion
 
 Unit = Literal["m", "cm", "mm", "km"]
 METRES: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0}
@@ -103,6 +103,25 @@ def likely_up(p: Float[np.ndarray, "n 3"], kind: str) -> Up:
     if stands[1] != stands[2]:
         return "y" if stands[1] else "z"
     return "z" if kind == ".stl" else "y"
+
+
+def broad_side_to(p: Float[np.ndarray, "n 3"], eye: Float[np.ndarray, "3"], up: Up) -> Float[np.ndarray, "3 3"]:
+    """Return R_world_file: the axis `up` becomes +Z, and the broad side of the points turns to an eye.
+
+    Of the two broad sides it is the one that needs the smaller turn about the vertical.
+
+    Args:
+        p: Points, in any unit.
+        eye: Where they are seen from, of which only the direction along the ground counts.
+        up: The axis of the file that points up.
+    """
+    R_up = UPRIGHT[up]
+    xy = (p @ R_up.T)[:, :2]
+    _, _, directions = np.linalg.svd(xy - xy.mean(axis=0), full_matrices=False)
+    thin, ahead = directions[1], eye[:2]
+    thin = thin if thin @ ahead >= 0 else -thin
+    turn = np.arctan2(ahead[1], ahead[0]) - np.arctan2(thin[1], thin[0])
+    return exp_so3(np.array([0.0, 0.0, turn])) @ R_up
 
 
 def round_below(length: float) -> float:

@@ -141,7 +141,7 @@ def transform_directions(A: Map, v: Float[np.ndarray, "n 3"]) -> Float[np.ndarra
 
 
 def is_affine(H: Map) -> bool:
-    """Tell whether a map keeps parallel lines parallel: its last row is 0 0 0 1."""
+    """Return whether a map keeps parallel lines parallel: its last row is 0 0 0 1."""
     return bool(np.array_equal(H[3], (0, 0, 0, 1)))
 
 

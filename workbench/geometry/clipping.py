@@ -73,7 +73,13 @@ def clip_to_rectangle(
 def segments_inside(
     ends: Float[np.ndarray, "n 2 d"], low: Float[np.ndarray, "d"], high: Float[np.ndarray, "d"]
 ) -> Float[np.ndarray, "m 2 d"]:
-    """Return the segments whose ends are both finite and inside a rectangle or box; nothing is cut."""
+    """Return the segments whose ends are both finite and inside a rectangle or box; nothing is cut.
+
+    Args:
+        ends: Both ends of each segment.
+        low: The corner of the box with the smallest coordinates.
+        high: The corner with the largest.
+    """
     return ends[(np.isfinite(ends) & (ends >= low) & (ends <= high)).all(axis=(1, 2))]
 
 

@@ -49,6 +49,54 @@ def mixed_areas_of(measured: Corners) -> Float[np.ndarray, " v"]:
     return measured.sums(shares)
 
 
+def mixed_cell(p: Points, faces: Faces, vertex: int) -> Float[np.ndarray, "f 4 3"]:
+    """Return the mixed area of a vertex piece by piece: its part of each face.
+
+    Each piece goes from the vertex to the middle of one edge, a corner inside or on the face, and the middle of the other.
+
+    Args:
+        p: Vertices, metres.
+        faces: Those that have the vertex as a corner.
+        vertex: Its index.
+    """
+    pieces = []
+    for face in faces:
+        k = int(np.flatnonzero(face == vertex)[0])
+        a, b, c = p[np.roll(face, -k)]
+        pieces.append(np.stack([a, (a + b) / 2, _cell_corner(a, b, c), (a + c) / 2]))
+    return np.array(pieces)
+
+
+def _cell_corner(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+    """Return the corner of a's mixed area across from a: the circumcentre, or for obtuse faces a point on an edge."""
+    u, v = b - a, c - a
+    if u @ v < 0:
+        return (b + c) / 2
+    if (a - b) @ (c - b) < 0 or (a - c) @ (b - c) < 0:
+        return a + (u + v) / 4
+    w = np.cross(u, v)
+    return a + (np.cross(w, u) * (v @ v) + np.cross(v, w) * (u @ u)) / (2 * w @ w)
+
+
+def vertex_pushes(
+    here: Float[np.ndarray, "3"], ring: Float[np.ndarray, "k 3"], area: float
+) -> Float[np.ndarray, "k 3"]:
+    """Return what each neighbour adds to the mean-curvature normal 2 H n of a vertex inside the border, 1/m.
+
+    Args:
+        here: The vertex.
+        ring: Its neighbours, one after the other around it, metres.
+        area: Its mixed area, m^2.
+
+    Reference: Meyer, Desbrun, Schroeder, Barr, 2003, (8): (cot a + cot b) (p_i - p_j) / 2 A.
+    """
+    weight = np.zeros(len(ring))
+    for other in (np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0)):
+        a, b = here - other, ring - other
+        weight += np.einsum("nx,nx->n", a, b) / np.linalg.norm(np.cross(a, b), axis=1)
+    return weight[:, None] * (here - ring) / (2 * area)
+
+
 def eigenpairs(
     p: Points, faces: Faces, count: int
 ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, "v {count}"]]:

@@ -11,8 +11,8 @@ def segments(p: Float[np.ndarray, "n d"], *, closed: bool = False) -> Float[np.n
     return np.stack([p[:-1], p[1:]], axis=1)
 
 
-def between(p: Float[np.ndarray, "*n d"], q: Float[np.ndarray, "*n d"]) -> Float[np.ndarray, "m 2 d"]:
-    """Return the segments from each point to its partner; two single points (d,) have one segment.
+def between(p: Float[np.ndarray, "*n d"], q: Float[np.ndarray, "*k d"]) -> Float[np.ndarray, "m 2 d"]:
+    """Return the segments from each point (n, d) to its partner in the same row; single points may be (d,).
 
     Examples:
         >>> between(np.array([0.0, 0.0]), np.array([1.0, 2.0])).tolist()
@@ -34,7 +34,13 @@ def circle(pieces: int = 64) -> Float[np.ndarray, "n 2"]:
 
 
 def sphere_rings(centre: Float[np.ndarray, "3"], radius: float, pieces: int = 64) -> Float[np.ndarray, "n 2 3"]:
-    """Return three great circles of a sphere and two circles of latitude, as segments."""
+    """Return three great circles of a sphere and two circles of latitude, as segments.
+
+    Args:
+        centre: Of the sphere.
+        radius: Likewise.
+        pieces: Segments of each circle.
+    """
     (c, s), zero = circle(pieces).T, np.zeros(pieces + 1)
     rings = [np.column_stack([c, s, zero]), np.column_stack([c, zero, s]), np.column_stack([zero, c, s])]
     rings += [np.column_stack([0.8 * c, 0.8 * s, zero + z]) for z in (-0.6, 0.6)]

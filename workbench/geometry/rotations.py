@@ -180,6 +180,32 @@ def other_triple(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.
     return np.array([a + np.pi, -b if i == k else np.pi - b, c + np.pi])
 
 
+def triple_past_lock(angles: Float[np.ndarray, "3"], order: EulerOrder, turn: float) -> Float[np.ndarray, "3"]:
+    """Return the triple, of the two nearest to these, that turns the body further in the direction lost in gimbal lock.
+
+    The lost direction is at right angles to all axes of the three angles, so no small change of them turns about it.
+
+    Args:
+        angles: The three angles, radians, in gimbal lock.
+        order: Their axes.
+        turn: How much further, radians.
+    """
+    first, second, _ = euler_axes(angles, order)
+    R = exp_so3(turn * np.cross(first, second)) @ euler_to_matrix(angles, order)
+    found = matrix_to_euler(R, order)
+    return min((found, other_triple(found, order)), key=lambda triple: angles_apart(triple, angles))
+
+
+def angles_apart(triple: Float[np.ndarray, "3"], other: Float[np.ndarray, "3"]) -> float:
+    """Return by how much the angle differs that differs most, radians; a full turn is no difference.
+
+    Examples:
+        >>> round(angles_apart(np.array([3.0, 0.0, 0.0]), np.array([3.0 - 2 * np.pi, 0.1, 0.0])), 6)
+        0.1
+    """
+    return float(np.abs((triple - other + np.pi) % (2.0 * np.pi) - np.pi).max())
+
+
 def quaternion_from_matrix(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"]:
     """Return the unit quaternion (w, x, y, z) of a rotation that has w >= 0; its negative is the same rotation.
 

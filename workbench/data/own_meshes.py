@@ -1,0 +1,48 @@
+"""A person's own mesh as a surface on which something can be measured: read, mended where its shape stays, or refused."""
+
+from pathlib import Path
+
+from jaxtyping import Float, Int
+from numpy import ndarray
+
+from workbench.data.files import read_mesh
+from workbench.errors import InputError
+from workbench.geometry.meshes import check_mesh, welded
+from workbench.geometry.repair import oriented, split_where_sheets_touch, without_repeats
+from workbench.numerals import counted
+
+
+def read_surface(path: Path, most: int) -> tuple[Float[ndarray, "v 3"], Int[ndarray, "f 3"], tuple[str, ...]]:
+    """Read a mesh and mend it where its surface stays as it is.
+
+    Args:
+        path: A mesh file, as `read_mesh` takes it.
+        most: So many vertices it may have, and twice as many faces.
+
+    Returns:
+        Vertices in the unit of the file, faces, and in words what was mended.
+
+    Raises:
+        InputError: If it is too large, or no surface whose curvature could be told; names the file.
+    """
+    p, faces = read_mesh(path)
+    if len(faces) > 2 * most:
+        raise InputError(f"{path.name}: {len(faces):,} faces; at most {2 * most:,} are measured, simplify it first")
+    p, welded_faces = welded(p, faces)
+    once = without_repeats(welded_faces)
+    agreeing = oriented(once)
+    placed, faces = split_where_sheets_touch(p, agreeing)
+    if len(placed) > most:
+        raise InputError(f"{path.name}: {len(placed):,} vertices; at most {most:,} are measured, simplify it first")
+    try:
+        check_mesh(placed, faces)
+    except InputError as error:
+        raise InputError(f"{path.name}: {error}") from None
+    repeats, turned = len(welded_faces) - len(once), int((agreeing != once).any(axis=1).sum())
+    split = len(placed) - len(p)
+    done = (
+        (repeats, f"{counted(repeats, 'face')} listed twice left out"),
+        (turned, f"{counted(turned, 'face')} turned round to agree with the others"),
+        (split, f"{counted(split, 'vertex', 'vertices')} added where sheets only touch, one for each sheet"),
+    )
+    return placed, faces, tuple(words for count, words in done if count)
