@@ -193,7 +193,12 @@ BROKEN = [
         "by_normal_equations is right, and loses",
     ),
     (TASK, "fit_circle(p) * np.array([2, 2, 1])", "fit_circle(p)", "the mistake 'doubled centre' gets full marks"),
-    (TASK, "** np.array([1, 1, 2])", "* np.array([2, 2, 1])", "the mistake 'doubled centre' is not recognised: no check tells it"),
+    (
+        TASK,
+        "** np.array([1, 1, 2])",
+        "* np.array([2, 2, 1])",
+        "the mistake 'doubled centre' is not recognised: no check tells it",
+    ),
     (TASK, "@alternative\n", "", "it has 0 alternatives; wanted are 1 or more"),
     (
         TASK,
