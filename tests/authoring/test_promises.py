@@ -192,12 +192,7 @@ BROKEN = [
         "return np.array([a, b, c])\n\n\n@check",
         "by_normal_equations is right, and loses",
     ),
-    (
-        TASK,
-        "fit_circle(p) * np.array([2, 2, 1])",
-        "fit_circle(p)",
-        "the mistake 'doubled centre' gets full marks",
-    ),
+    (TASK, "fit_circle(p) * np.array([2, 2, 1])", "fit_circle(p)", "the mistake 'doubled centre' gets full marks"),
     (
         TASK,
         "** np.array([1, 1, 2])",

@@ -7,7 +7,6 @@ Its NAMED says which of the wrong ones make a mistake that the exercise knows; n
 """
 
 import ast
-import re
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -15,8 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from workbench.authoring.exercise_promises import is_vague
 from workbench.exercise.finding import exercises
-from workbench.exercise.grading import Outcome, Report, grade_function
+from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise
 from workbench.exercise.reports import terminal
 from workbench.exercise.sandbox import Student
@@ -24,10 +24,6 @@ from workbench.exercise.submission import Submission
 
 FOLDER = Path(__file__).with_name("solutions")
 DISPATCH = "\n\ndef any_of_these(name, *args):\n    return globals()[name](*args)\n"
-SAYS_BOTH = re.compile(
-    r"right is|the contract asks for|asked for were|changed an array|raised \w+|not written|took more"
-)
-"""What a useful message has: what came and what was wanted, or what went wrong where."""
 FATES = ("full", "less", "named", "misnamed", "useful", "vague")
 
 
@@ -72,11 +68,6 @@ class Graded:
         if said is not None:
             return "named" if said == self.named else "misnamed"
         return "vague" if any(map(is_vague, self.report.outcomes)) else "useful"
-
-
-def is_vague(outcome: Outcome) -> bool:
-    """Tell whether a check failed without a word on what came and what was wanted."""
-    return outcome.verdict.share < 1.0 and not SAYS_BOTH.search(outcome.verdict.message)
 
 
 def graded(exercise: Exercise) -> Iterator[Graded]:

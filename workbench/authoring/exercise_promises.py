@@ -1,6 +1,7 @@
 """What every exercise promises, each as a function that looks and tells, as in `promises`."""
 
 import inspect
+import re
 import tempfile
 import warnings
 from collections.abc import Callable, Iterator
@@ -13,7 +14,7 @@ import numpy as np
 
 from workbench.authoring.promises import Found, Subject
 from workbench.authors import at
-from workbench.exercise.grading import Report, grade_file, grade_function
+from workbench.exercise.grading import Outcome, Report, grade_file, grade_function
 from workbench.exercise.model import Exercise, Function
 from workbench.exercise.starter import starter, write_starter
 from workbench.knobs import fields_of
@@ -22,7 +23,10 @@ from workbench.lesson import Lesson
 LEAST_CHECKS, LEAST_MISTAKES, LEAST_ALTERNATIVES, LEAST_EXAMPLES = 4, 3, 1, 2
 TASK = (40, 600)
 SENTENCE = (30, 300)
-LEAST_MESSAGE = 20
+SAYS_BOTH = re.compile(
+    r"\bright is\b|the contract asks for|asked for were|changed an array|\braised \w+|not written|took more"
+)
+"""What the message of a check that failed has: what came and what is right, or what went wrong."""
 WIDEST = 125
 OF_EXERCISES: list[Callable[[Subject, Exercise], Found]] = []
 
@@ -107,9 +111,9 @@ def every_mistake_is_named(subject: Subject, exercise: Exercise) -> Found:
         wanted = f"wanted are {SENTENCE[0]} to {SENTENCE[1]}"
         yield None if good else f"{where} has a sentence of {len(item.sentence)} characters; {wanted}"
         for outcome in report.outcomes:
-            short = outcome.verdict.share < 1.0 and len(outcome.verdict.message) < LEAST_MESSAGE
-            said = f"says only {outcome.verdict.message!r}"
-            yield f"exercise {exercise.name}: {at(outcome.check.judge)}{outcome.check.name} {said}" if short else None
+            said = f"says only {outcome.verdict.message!r}; `beside` says what came and what is right"
+            vague = f"exercise {exercise.name}: {at(outcome.check.judge)}{outcome.check.name} {said}"
+            yield vague if is_vague(outcome) else None
 
 
 @promise
@@ -176,6 +180,11 @@ def who_changes_the_input_is_told_so(subject: Subject, exercise: Exercise) -> Fo
         if some
         else f"{who(exercise)}a function that changes its input gets {report.points:g} of {report.possible:g}"
     )
+
+
+def is_vague(outcome: Outcome) -> bool:
+    """Tell whether a check failed without a word on what came and what is right."""
+    return outcome.verdict.share < 1.0 and not SAYS_BOTH.search(outcome.verdict.message)
 
 
 class _CalledError(Exception):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from workbench.exercise import alternative, band, check, contract, left_alone, mistake, refused, worst
+from workbench.exercise import alternative, band, beside, check, contract, left_alone, mistake, refused, worst
 
 CIRCLE = np.array([2.0, -1.0, 0.5])
 HINT = "Solve [2x 2y 1] (a, b, c) = x² + y²; then r² = c + a² + b²."
@@ -15,8 +15,9 @@ def on_circle(circle: np.ndarray, degrees: float = 300.0, noise: float = 0.0) ->
 
 
 def judged(candidate, p):
-    off = 1000 * np.abs(candidate(p) - fit_circle(p)).max()
-    return band("Largest error of x, y or r", float(off), "mm", good=0.01, fair=1.0, hint=HINT)
+    got, right = candidate(p), fit_circle(p)
+    off = 1000 * float(np.abs(got - right).max())
+    return band("Largest error of x, y or r", off, "mm", good=0.01, fair=1.0, hint=beside(got, right, HINT))
 
 
 @contract(
