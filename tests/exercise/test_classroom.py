@@ -54,6 +54,18 @@ def test_a_class_is_graded_whole_in_parallel_and_goes_on_where_it_stopped(tmp_pa
     assert "18 graded, 8 with full marks, 2 could not be graded" in summary
 
 
+def test_a_class_graded_twice_gives_equal_bytes(tmp_path):
+    write_class(tmp_path / "in", 10)
+    for out, jobs in (("one", 1), ("two", 3)):
+        classroom.grade_class(tmp_path / "in", tmp_path / out, jobs=jobs)
+    one, two = (
+        {path.relative_to(tmp_path / out).as_posix(): path.read_bytes() for path in (tmp_path / out).rglob("*.*")}
+        for out in ("one", "two")
+    )
+    assert len(one) == 13
+    assert one == two
+
+
 def test_a_file_that_changed_is_graded_again(tmp_path):
     write_class(tmp_path / "in", 1)
     classroom.grade_class(tmp_path / "in", tmp_path / "out")

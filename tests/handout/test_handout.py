@@ -7,6 +7,7 @@ import os
 import stat
 import subprocess
 import sys
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from tests.exercise.formats import ASSESSMENT, GRADESCOPE, PRAIRIELEARN, QUESTIO
 from workbench.cli import main
 from workbench.exercise.finding import exercises
 from workbench.handout.assignment import assigned, read
+from workbench.handout.parcel import CARRIED, NEEDED
 from workbench.handout.samples import right
 from workbench.handout.writing import files, lay_out_gradescope, lay_out_prairielearn, run, write
 
@@ -323,6 +325,13 @@ sys.meta_path[:] = map(Here, sys.meta_path)
 sys.argv[:] = sys.argv[1:]
 runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
 """
+
+
+def test_what_grading_needs_is_written_down_once():
+    said = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())
+    group = said["dependency-groups"]["grade"]
+    assert set(group) <= set(said["project"]["dependencies"])
+    assert [line.partition(">")[0] for line in group] == [*NEEDED, CARRIED[0]]
 
 
 def blocked(*words: object) -> subprocess.CompletedProcess:
