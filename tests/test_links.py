@@ -37,7 +37,7 @@ def test_a_link_is_short_and_readable():
         ("?lesson=fake&angle=1e9", "angle = '1e9': a number from 0 to 180 deg"),
         ("?lesson=fake&step=last", "no whole number"),
         ("?lesson=fake&step=-", "no whole number"),
-        ("?lesson=fake&speed=3", "unknown parameter 'speed'"),
+        ("?lesson=fake&angel=3", "unknown parameter 'angel'"),
         ("?lesson=fake&preset=none", "has no preset 'none'"),
         ("?lesson=fake&scan=/etc/passwd", "cannot name files"),
         ("?lesson=fake&colors=%3Cscript%3E", "one of role"),
@@ -54,6 +54,10 @@ def test_any_text_is_a_place_or_one_line(text):
     for query in (text, "?lesson=fake&" + text):
         with contextlib.suppress(InputError):
             read(query)
+
+
+def test_keys_of_others_are_left_alone():
+    assert read("?lesson=fake&angle=120&websocket=ws://x&utm_source=mail") == read("?lesson=fake&angle=120")
 
 
 def test_no_lesson_is_no_place_and_a_preset_can_be_named():

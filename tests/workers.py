@@ -9,14 +9,15 @@ from xdist.scheduler import LoadScopeScheduling
 
 RUN_LESSONS = re.compile(r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers|page/test_article)\.py::\w+\[(\w+)")
 OF_A_LESSON = re.compile(r"tests/lessons/test_(\w+?)(?:_(?:own|slots|drawn|run))?\.py::")
+HOMES_OF_A_LESSON = re.compile(r"(tests/browser/test_matrix\.py::\w+\[\w+)-")
 IN_A_BROWSER = re.compile(r"(tests/(?:browser/\w+|recording/test_browser)\.py)::")
 
 
 class Scheduling(LoadScopeScheduling):
-    """Gives a worker all whole runs of a lesson, or all of a file that opens a browser; other tests one by one."""
+    """Gives a worker all whole runs of a lesson, all its homes, or all of a file that opens a browser; others one by one."""
 
     def _split_scope(self, nodeid: str) -> str:
         return next((found[1] for pattern in GROUPS if (found := pattern.match(nodeid))), nodeid)
 
 
-GROUPS = (IN_A_BROWSER, OF_A_LESSON, RUN_LESSONS)
+GROUPS = (HOMES_OF_A_LESSON, IN_A_BROWSER, OF_A_LESSON, RUN_LESSONS)

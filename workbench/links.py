@@ -1,6 +1,7 @@
 """Addresses of exact moments: `?lesson=icp&start_angle=120&step=7`. Everything in one is checked like any other input."""
 
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
@@ -35,8 +36,10 @@ def read(query: str, *, here: Lesson | None = None) -> Place | None:
         query: What stands behind the address, with or without `?`; untrusted.
         here: A lesson that is served although the catalogue does not have it.
 
+    Keys that are not ours, such as those of a mail program or a proxy, are left alone; a misspelt parameter is told.
+
     Raises:
-        InputError: On an unknown lesson, parameter, value or step, and on a parameter that names a file.
+        InputError: On an unknown lesson, value or step, a misspelt parameter, and on a parameter that names a file.
     """
     values = dict(parse_qsl(query[:4000].removeprefix("?"), keep_blank_values=True))
     name = values.pop("lesson", None)
@@ -54,6 +57,8 @@ def read(query: str, *, here: Lesson | None = None) -> Place | None:
     ):
         raise InputError(f"this link names step {step[:20]!r}, which is no whole number")
     preset = values.pop("preset", None)
+    fields = [field.name for field in knobs.fields_of(lesson.params)]
+    values = {key: value for key, value in values.items() if key in fields or get_close_matches(key, fields)}
     base = None if preset is None else lesson.preset(preset).params
     for field in knobs.fields_of(lesson.params):
         if field.sensitive and field.name in values:

@@ -11,7 +11,7 @@ from workbench.errors import InputError
 from workbench.flags import show_command
 from workbench.lesson import Lesson, find
 from workbench.loading import load
-from workbench.numerals import brief
+from workbench.numerals import brief, length
 from workbench.page.document import lesson_document
 from workbench.publish.replay import Renderer
 from workbench.publish.runs import Run, run_script, viser_script
@@ -81,7 +81,7 @@ class Replay:
         """Return the run as text: its last caption and numbers, and the command that opens it live."""
         last = len(self.timeline) - 1
         numbers = [
-            f"{one.scalar.name}: {brief(one.values[last])} {one.scalar.unit}".rstrip()
+            f"{one.scalar.name}: {_said(one.values[last], one.scalar.unit)}"
             for one in self.timeline.series().values()
             if np.isfinite(one.values[last])
         ]
@@ -94,13 +94,14 @@ class Replay:
 
     def document(self) -> str:
         """Return the page as one HTML document that needs nothing else."""
-        preset = self.lesson.preset_of(self.params)
+        preset, last = self.lesson.preset_of(self.params), len(self.timeline) - 1
+        step = self.lesson.first_step if preset is None or preset.step is None else preset.step
         run = Run(
             name="default" if preset is None else preset.name,
             title="one run" if preset is None else preset.title,
             line="",
             params=self.params,
-            first=0,
+            first=min(max(step, -last - 1), last),
             recorded=False,
         )
         with Renderer() as renderer:
@@ -132,3 +133,7 @@ class Replay:
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         return {"text/html": self._repr_html_(), "text/plain": repr(self)}
+
+
+def _said(value: float, unit: str) -> str:
+    return length(value) if unit == "m" else f"{brief(value)} {unit}".rstrip()

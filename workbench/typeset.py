@@ -23,6 +23,15 @@ from workbench.errors import AuthorError
 
 PICTURES = {".svg": "svg+xml", ".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".webp": "webp"}
 LARGEST_PICTURE = 300_000  # bytes
+_WORDING = re.compile(r"\{\{(live|site):\s*(.*?)\}\}", re.DOTALL)
+
+
+def wording(markdown: str, home: str) -> str:
+    """Return a lesson's page as one home has it: what stands as `{{live: ...}}` or `{{site: ...}}` is for that one only.
+
+    `site` is every home that cannot compute: a published page, a notebook, a recording.
+    """
+    return _WORDING.sub(lambda found: found[2] if found[1] == home else "", markdown)
 
 
 def page_of(markdown: str, file: Path | None) -> str:

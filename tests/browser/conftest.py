@@ -1,6 +1,7 @@
 """A running workbench for the tests in this folder, and visits to it."""
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import pytest
 
@@ -21,12 +22,12 @@ def visit(chromium, server) -> Iterator[Callable[..., Visit]]:
     """visit(query): a page that is open until the test ends; errors in its console fail the test."""
     visits: list[Visit] = []
 
-    def opened(query: str = "", at: Server = server, **size: int) -> Visit:
-        visits.append(Visit(chromium, at, query, **size))
+    def opened(query: str = "", at: Server = server, **how: Any) -> Visit:
+        visits.append(Visit(chromium, at, query, **how))
         return visits[-1]
 
     yield opened
-    errors = [error for one in visits for error in one.errors]
     for one in visits:
         one.page.context.close()
+    errors = [error for one in visits for error in one.errors]
     assert errors == []

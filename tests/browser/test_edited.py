@@ -26,7 +26,7 @@ def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
     lesson = load(folder)
     server = Server(links.Place(lesson, lesson.params(), None), edited=Edited(folder, lesson))
     try:
-        me = visit("?lesson=circle&arc=60&step=2", at=server)
+        me = visit("?lesson=circle&arc=60&step=2", at=server, scene=True)
         other = visit("?lesson=circle&arc=60&points=41&step=0", at=server)
         me.says("Gauss-Newton step 2 gives radius 1.045 m")
         other.says("The algebraic fit of 41 points")

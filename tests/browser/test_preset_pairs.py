@@ -18,7 +18,7 @@ FIRST, *OTHERS = ("conventions", "mirror", "perspective", "inverse")
 
 
 def opened(chromium, server):
-    page = chromium.new_page(viewport={"width": 1100, "height": 640})
+    page = chromium.new_page(viewport={"width": 640, "height": 640})
     page.goto(f"{server.address}/?lesson=transforms")
     page.frame_locator("#scene iframe").locator("canvas[data-engine]").wait_for()
     return page
@@ -33,7 +33,7 @@ def seen(page, name: str) -> np.ndarray:
     page.locator("#caption").get_by_text(caption, exact=True).wait_for()
     page.mouse.move(0, 0)
     view = page.locator("#view").bounding_box()
-    between = {"x": view["x"] + 40, "y": view["y"] + 60, "width": view["width"] - 80, "height": view["height"] - 80}
+    between = {"x": view["x"] + 10, "y": view["y"] + 40, "width": view["width"] - 20, "height": view["height"] - 90}
     before, alike = b"", 0
     for _ in range(MOST):
         page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")

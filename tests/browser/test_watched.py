@@ -33,7 +33,7 @@ def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
     watched = Watched(lesson, file)
     server = Server(links.Place(watched.lesson, lesson.params(), None), watched=watched)
     try:
-        me = visit(at=server)
+        me = visit(at=server, scene=True)
         report = me.page.locator("#exercise .report")
         report.get_by_text("public 0/3 · hidden 4 not run here").wait_for()
         report.get_by_text("Your R equals the transpose of the right one").wait_for()

@@ -1,17 +1,47 @@
 """A page that is open in a real browser, and what a student does in it."""
 
+from typing import Any
+
 from workbench.viewer.server import Server
+
+SELDOM = """if (parent !== self && (location.pathname.includes("/scene/") || parent.stage)) {
+  const waiting = [];
+  let last = 0;
+  window.requestAnimationFrame = (draw) => waiting.push(draw);
+  setInterval(() => {
+    if (!waiting.length || performance.now() - last < (parent.secondsBetweenPictures ?? 0.2) * 1000) return;
+    last = performance.now();
+    for (const draw of waiting.splice(0)) draw(last);
+  }, 50);
+}"""
+"""Lets viser draw a few pictures a second or fewer: without a graphics card they are what a visit costs most."""
 
 
 class Visit:
-    """One browser window on the workbench; errors of its console, and addresses elsewhere that it asks for, are kept."""
+    """One browser window on the workbench; errors of its console, and addresses elsewhere that it asks for, are kept.
 
-    def __init__(self, chromium, server: Server, query: str = "", width: int = 1440, height: int = 900):
+    Without `scene` an empty page stands in the place of viser's: for what is said, and not drawn.
+    """
+
+    def __init__(
+        self,
+        chromium: Any,
+        server: Server,
+        query: str = "",
+        *,
+        width: int = 1280,
+        height: int = 720,
+        scene: bool = False,
+    ):
         self.errors: list[str] = []
         self.address = server.address
-        context = chromium.new_context(viewport={"width": width, "height": height})
+        context = chromium.new_context(viewport={"width": width, "height": height}, reduced_motion="reduce")
         context.grant_permissions(["clipboard-read", "clipboard-write"], origin=server.address)
         self.page = context.new_page()
+        self.page.add_init_script(SELDOM)
+        if not scene:
+            empty = "<!doctype html><title>No scene</title>"
+            self.page.route("**/scene/*/", lambda route: route.fulfill(body=empty, content_type="text/html"))
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         self.page.on("request", lambda request: self._local(request.url, server))

@@ -25,7 +25,7 @@ def address(run: str, step: int | None) -> str:
 
 def test_a_link_runs_a_preset_at_a_step_and_leads_there_without_a_script(tmp_path):
     text = article_html(
-        written(tmp_path, "See [its end](run:half@-1), [here](run:this@3) and [anew](run:default)."), address
+        written(tmp_path, "See [its end](run:half@-1), [here](run:this@3) and [anew](run:default)."), address, "live"
     )
     assert '<a class="run" href="?run=half&amp;step=-1" data-run="half" data-step="-1">its end</a>' in text
     assert 'data-run="" data-step="3">here</a>' in text
@@ -34,26 +34,35 @@ def test_a_link_runs_a_preset_at_a_step_and_leads_there_without_a_script(tmp_pat
 
 def test_a_link_to_no_preset_is_told_with_those_there_are(tmp_path):
     with pytest.raises(AuthorError, match=r"'nope', which is no preset; there are: .*half"):
-        article_html(written(tmp_path, "[x](run:nope@2)"), address)
+        article_html(written(tmp_path, "[x](run:nope@2)"), address, "live")
 
 
 def test_a_term_names_a_thing_of_the_scene_and_arrays_stay_arrays(tmp_path):
     text = article_html(
-        written(tmp_path, "The [[cloud/moved|moved cloud]] of `[[1, 0], [0, 1]]` and [[grid]]."), address
+        written(tmp_path, "The [[cloud/moved|moved cloud]] of `[[1, 0], [0, 1]]` and [[grid]]."), address, "live"
     )
     assert '<span class="term" tabindex="0" data-thing="cloud/moved">moved cloud</span>' in text
     assert 'data-thing="grid">grid</span>' in text
     assert "[[1, 0], [0, 1]]" in text
 
 
+def test_a_home_has_its_own_wording(tmp_path):
+    lesson = written(tmp_path, "One vertex{{live:; *click* another}}. {{site: Choose\na run.}}")
+    live, site = (article_html(lesson, address, home) for home in ("live", "site"))
+    assert "One vertex; <em>click</em> another." in live
+    assert "Choose" not in live
+    assert "One vertex. Choose\na run." in site
+    assert "{{" not in live + site
+
+
 def test_questions_stand_in_the_section_that_asks_to_predict(tmp_path):
-    text = article_html(written(tmp_path, "# A\n\n## Predict\n\nGuess.\n\n## After\n\nMore."), address)
+    text = article_html(written(tmp_path, "# A\n\n## Predict\n\nGuess.\n\n## After\n\nMore."), address, "live")
     assert text.index("Guess.") < text.index(PLACE) < text.index("After")
 
 
 @pytest.mark.parametrize("lesson", catalog().values(), ids=lambda lesson: lesson.name)
 def test_the_document_of_every_lesson_has_its_text_and_no_answer(lesson):
-    page = lesson_document(lesson, article_html(lesson, address), home="live", root="page/")
+    page = lesson_document(lesson, article_html(lesson, address, "live"), home="live", root="page/")
     assert page.count("<form") == len(lesson.questions)
     assert all(f'data-run="{preset.name}"' in page for preset in lesson.presets)
     said = in_script(lesson_data(lesson))

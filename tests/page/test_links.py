@@ -13,7 +13,7 @@ LINK = re.compile(r'data-run="([^"]*)"(?: data-step="(-?\d+)")?>')
 
 
 def led_to(lesson: Lesson) -> list[tuple[str, int | None]]:
-    text = article_html(lesson, lambda run, step: "")
+    text = article_html(lesson, lambda run, step: "", "live")
     return [(run, int(step) if step else None) for run, step in LINK.findall(text)]
 
 
@@ -27,7 +27,7 @@ def test_a_link_leads_to_a_step_that_exists(lesson):
 
 @pytest.mark.parametrize("lesson", LESSONS)
 def test_a_term_names_a_thing_that_is_drawn(lesson):
-    terms = set(re.findall(r'data-thing="([^"]*)"', article_html(lesson, lambda run, step: "")))
+    terms = set(re.findall(r'data-thing="([^"]*)"', article_html(lesson, lambda run, step: "", "live")))
     drawn: set[str] = set()
     for params in (lesson.params(), *(preset.params for preset in lesson.presets)):
         if terms <= drawn:

@@ -2,6 +2,7 @@
 
 In page.md, `[the last step](run:far@-1)` opens the preset `far` at its last step, `[the last step](run:this@-1)` goes to a
 step of the run that is open, and `[[source]]` or `[[source|the scan]]` names a thing of the scene.
+`{{live: Drag the slider.}}` and `{{site: Choose a recorded run.}}` stand in that home only.
 """
 
 import re
@@ -10,7 +11,7 @@ from html import escape
 
 from workbench.errors import AuthorError
 from workbench.lesson import Lesson
-from workbench.typeset import page_of
+from workbench.typeset import page_of, wording
 
 _LINK = re.compile(r'<a href="run:([^"@]*)(?:@(-?\d+))?">')
 _TERM = re.compile(r"\[\[([a-z][\w/. ~-]*?)(?:\|([^\]|<]+))?\]\]")
@@ -21,13 +22,13 @@ Address = Callable[[str, int | None], str]
 """address(run, step) -> what a link to that moment leads to where no script runs."""
 
 
-def article_html(lesson: Lesson, address: Address) -> str:
-    """Return a lesson's article, with PLACE where the questions belong.
+def article_html(lesson: Lesson, address: Address, home: str) -> str:
+    """Return a lesson's article as a home, `live` or `site`, has it, with PLACE where the questions belong.
 
     Raises:
         AuthorError: If the page names a run that the lesson does not have, or a picture that is not there.
     """
-    text = page_of(lesson.text(), lesson.page).replace(
+    text = page_of(wording(lesson.text(), home), lesson.page).replace(
         '<div class="math block">', '<div class="math block" tabindex="0">'
     )
     names = {"this", "default", *(preset.name for preset in lesson.presets)}

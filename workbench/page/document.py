@@ -164,7 +164,7 @@ def _stage(still: str) -> str:
         '<div id="legend" role="group" aria-label="Legend" tabindex="0"></div>'
         '<div id="tools" role="group" aria-label="Tools">'
         '<button type="button" id="move" data-needs="handles" aria-pressed="false" title="Handles in the scene (H)" hidden>'
-        "Move it yourself</button>"
+        "Move<span> it yourself</span></button>"
         '<button type="button" id="pin" data-needs="pin" aria-pressed="false" title="Keep this run behind the next (I)" '
         "hidden>Pin</button>"
         '<button type="button" id="set" data-needs="change sweep" aria-expanded="false" aria-controls="drawer" '

@@ -60,7 +60,7 @@ def lesson_page(lesson: Lesson, known: Mapping[str, Any], head: str = "") -> str
     """
     return lesson_document(
         lesson,
-        article_html(lesson, moment),
+        article_html(lesson, moment, "site"),
         home="site",
         root=f"../{PAGE}/",
         ending=exercises_html(exercises_of(lesson)),

@@ -99,20 +99,37 @@ def swept(lesson: Lesson, sweep: Sweep) -> list[tuple[str, str, Any]]:
 
 
 def sweep_data(lesson: Lesson) -> list[dict[str, Any]]:
-    """Return the sweeps of a lesson as knobs of a page that cannot compute: what is shown, and the run at each value."""
-    fields = {field.name: field for field in knobs.fields_of(lesson.params)}
-    runs = runs_of(lesson)
-    return [
-        {
-            "label": fields[sweep.knob].label,
-            "unit": fields[sweep.knob].knob.unit,
-            "hint": fields[sweep.knob].knob.hint,
-            "names": [name for name, _, _ in swept(lesson, sweep)],
-            "values": [name.partition(":")[2] for name, _, _ in swept(lesson, sweep)],
-            "runs": [next(run.name for run in runs if run.params == params) for _, _, params in swept(lesson, sweep)],
-        }
-        for sweep in lesson.sweeps
-    ]
+    """Return the sweeps of a lesson as knobs of a page that cannot compute: what is shown, and the run at each value.
+
+    The default run is always on the dial, at its own value. `places` tells for every run of the page where the dial stands
+    and what it says: at the nearest value, where the run's own is not on it.
+    """
+    return [_dial(lesson, sweep, runs_of(lesson)) for sweep in lesson.sweeps]
+
+
+def _dial(lesson: Lesson, sweep: Sweep, runs: Sequence[Run]) -> dict[str, Any]:
+    field = next(field for field in knobs.fields_of(lesson.params) if field.name == sweep.knob)
+    stops = {getattr(params, sweep.knob): params for params in (*lesson.swept(sweep), lesson.params())}
+    values = list(stops)
+    if all(isinstance(value, int | float) for value in values) and values[:-1] == sorted(values[:-1]):
+        values.sort()
+    said = [knobs.text_of(value) for value in values]
+    return {
+        "label": field.label,
+        "unit": field.knob.unit,
+        "hint": field.knob.hint,
+        "names": [f"{sweep.knob}:{text}" for text in said],
+        "values": said,
+        "runs": [next(run.name for run in runs if run.params == stops[value]) for value in values],
+        "places": {run.name: _place(getattr(run.params, sweep.knob), values) for run in runs},
+    }
+
+
+def _place(value: Any, values: Sequence[Any]) -> tuple[int, str]:
+    """Return where a value stands among others, or the nearest to it where they are numbers, and what it is in words."""
+    if value in values or not isinstance(value, int | float):
+        return values.index(value) if value in values else 0, knobs.text_of(value)
+    return min(range(len(values)), key=lambda i: abs(values[i] - value)), knobs.text_of(value)
 
 
 def files_of(lesson: Lesson, run: Run) -> tuple[str, ...]:

@@ -56,7 +56,7 @@ class LessonPages:
 
 def lesson_page(lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None) -> str:
     """Return the document of a lesson, with what drives it where a student's file does."""
-    article = _told(lesson, "page", lambda: article_html(lesson, lambda run, step: address(lesson, run, step)))
+    article = _told(lesson, "page", lambda: article_html(lesson, lambda run, step: address(lesson, run, step), "live"))
     exercises = _told(lesson, "exercises", lambda: _exercises(lesson, watched))
     course = [{"name": one.name, "title": one.title, "needs": one.needs} for one in in_order(lessons)]
     return lesson_document(lesson, article, home="live", root=ROOT, ending=exercises, more={"COURSE": course})

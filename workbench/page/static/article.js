@@ -62,7 +62,9 @@ const article = {
 
   // marks the experiment that is open, and the links to the step that is seen
   show(run, k) {
-    for (const button of $$("button[data-run]")) button.setAttribute("aria-pressed", String(button.dataset.run === run.name));
+    const usual = run.name === "default" ? LESSON.presets.filter((preset) => !Object.keys(preset.params).length) : [];
+    const open = [run.name, ...usual.map((preset) => preset.name)];
+    for (const button of $$("button[data-run]")) button.setAttribute("aria-pressed", String(open.includes(button.dataset.run)));
     for (const link of $$("a[data-run]")) {
       const step = Number(link.dataset.step), at = step < 0 ? run.known + step : step;
       const here = (!link.dataset.run || link.dataset.run === run.name) && link.dataset.step !== undefined && at === k && (step >= 0 || run.finished);

@@ -31,7 +31,8 @@ const beside = {
 
   series(run, chart, lines) {
     const axes = run.charts[chart], upto = run.seen ? Infinity : run.played, log = lines[0].log;
-    const said = lines.filter((l) => (l.values[page.k] ?? null) !== null).map((l) => `${l.name} ${measured(l.values[page.k], l.unit)}`);
+    const told = lines.filter((l) => (l.values[page.k] ?? null) !== null).map((l) => [l.name, measured(l.values[page.k], l.unit)]);
+    const said = told.map((words) => words.join(" "));
     const curve = (l, kind, name) => ({
       name, kind, color: l.color, marks: [], x: l.values.map((_, i) => i),
       y: l.values.map((v) => (v !== null && log ? (v > 0 ? Math.log10(v) : null) : v)),
@@ -45,7 +46,7 @@ const beside = {
       const more = element("button", { type: "button", textContent: "Show the whole run", onclick: () => { run.seen = true; this.show(); } });
       return element("div", {}, drawn, ...(run.seen || upto >= page.known() - 1 ? [] : [more]));
     };
-    return { key: `series ${chart}`, telling: chart === LESSON.telling, title: said.join(" · ") || chart, small: sparkline(data, marks, upto), whole };
+    return { key: `series ${chart}`, telling: chart === LESSON.telling, title: said.join(" · ") || chart, value: told.length === 1 ? told[0] : null, small: sparkline(data, marks, upto), whole };
   },
 
   thing(thing, i) {
@@ -67,7 +68,7 @@ const beside = {
   code(source, at) {
     const whole = () => {
       const box = element("div", { className: "wb-code" });
-      box.innerHTML = `<p><b>${escape(source.name)}</b>: the marked line is where this step was yielded.</p><div class="lines">${source.html}</div>` +
+      box.innerHTML = `<p><b>${escape(source.name)}</b>: the marked line is where this step was yielded.</p><div class="lines" tabindex="0">${source.html}</div>` +
         `<table><thead><tr><th>Variable</th><th>Shape or type</th><th>Value or range</th></tr></thead><tbody>${
           at.locals.map((row) => `<tr>${row.map((cell, i) => `<td>${i ? escape(cell) : `<code>${escape(cell)}</code>`}</td>`).join("")}</tr>`).join("")}</tbody></table>`;
       $(`[data-line="${at.line}"]`, box)?.classList.add("here");
@@ -77,8 +78,10 @@ const beside = {
     return { key: "code", title: "Code", small: `<span class="sign">{ }</span>`, whole };
   },
 
-  tile({ key, title, small }) {
-    const button = element("button", { type: "button", className: "tile", innerHTML: `${small}<span>${escape(title)}</span>` });
+  // of one value the name may be cut off, but not the value
+  tile({ key, title, small, value }) {
+    const words = value ? `<span>${escape(value[0])}</span><b>${escape(value[1])}</b>` : `<span>${escape(title)}</span>`;
+    const button = element("button", { type: "button", className: "tile", title, innerHTML: `${small}<span>${words}</span>` });
     button.setAttribute("aria-pressed", String(key === this.large));
     button.onclick = () => this.enlarge(key === this.large ? null : key);
     return button;

@@ -56,7 +56,7 @@ const exercise = {
   // the student's own source before that of the algorithm that calls it; where it failed the line is marked
   source(box, at) {
     if (!this.mine) return;
-    const mine = element("div", { innerHTML: `<p><b>${escape(this.mine.name)}</b>: your function drives this run.</p><div class="lines">${this.mine.html}</div>` });
+    const mine = element("div", { innerHTML: `<p><b>${escape(this.mine.name)}</b>: your function drives this run.</p><div class="lines" tabindex="0">${this.mine.html}</div>` });
     if (at.wrong) {
       $(".here", box)?.classList.remove("here"); // the eye goes to one line
       $(`[data-line="${at.wrong}"]`, mine)?.classList.add("here", "wrong");

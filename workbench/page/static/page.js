@@ -75,7 +75,15 @@ const page = {
   // the address is the place: a reload or a shared link comes back to it
   remember() {
     if (transport.playing || !this.run || !this.run.query) return;
-    history.replaceState(null, "", `${this.run.query}&step=${this.k}`);
+    history.replaceState(null, "", `${this.run.query}&step=${this.k}${this.others()}`);
+  },
+
+  // keys of the address that are not ours are left alone
+  others() {
+    if (!this.run.query.startsWith("?")) return "";
+    const ours = new Set(["lesson", "preset", "step", ...Object.keys(this.run.params), ...LESSON.files.map((one) => one.name)]);
+    const theirs = [...new URLSearchParams(location.search)].filter(([key]) => !ours.has(key));
+    return theirs.map(([key, value]) => `&${encodeURIComponent(key)}=${encodeURIComponent(value)}`).join("");
   },
 
   theme(dark) {

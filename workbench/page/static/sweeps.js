@@ -1,5 +1,6 @@
 // Knobs of a page that cannot compute: a param at the values whose runs are recorded. RECORDED.sweeps holds, for each,
-// {label, unit, hint, values: what is shown, runs: the name of the run at each value}.
+// {label, unit, hint, values: what is shown, runs: the name of the run at each value, places: for every run of the page
+// where the dial stands and what it says}.
 "use strict";
 
 const sweeps = {
@@ -12,11 +13,9 @@ const sweeps = {
       const input = element("input", { type: "range", min: 0, max: sweep.values.length - 1, step: 1, title: sweep.hint });
       const shown = element("output");
       input.setAttribute("aria-label", `${sweep.label}${unit}`);
-      input.addEventListener("input", () => {
-        this.tell(sweep, input, shown);
-        const atEnd = page.run && page.k === page.known() - 1;
-        source.open(sweep.runs[input.value], atEnd ? -1 : page.k); // the same place in another run
-      });
+      input.addEventListener("input", () => this.go(sweep, input, shown));
+      // a run that is not on the dial stands at the value next to its own: that one can be chosen too, though nothing moves
+      for (const kind of ["click", "keyup"]) input.addEventListener(kind, ({ key = "" }) => /^$|Arrow|Home|End|Page/.test(key) && this.go(sweep, input, shown));
       return [sweep, input, shown];
     });
     const boxes = this.rows.map(([sweep, input, shown]) => element("fieldset", { className: "knob" },
@@ -25,17 +24,27 @@ const sweeps = {
     return [element("p", { className: "note", textContent: RECORDED.note }), ...boxes];
   },
 
-  // sets every knob to the run that is open; one that this run is not of stands at the default's value
+  // opens the run at the value where the dial stands, at the same place
+  go(sweep, input, shown) {
+    const run = sweep.runs[input.value];
+    if (run === (this.asked ?? page.run?.name)) return;
+    this.asked = run;
+    this.tell(sweep, input, shown, sweep.values[input.value]);
+    source.open(run, page.run && page.k === page.known() - 1 ? -1 : page.k);
+  },
+
+  // sets every knob to the run that is open
   show(run) {
+    this.asked = null;
     for (const [sweep, input, shown] of this.rows) {
-      const at = sweep.runs.indexOf(run), usual = Math.max(0, sweep.runs.indexOf("default"));
-      if (input !== document.activeElement || at >= 0) input.value = at < 0 ? usual : at;
-      this.tell(sweep, input, shown);
+      const [at, said] = sweep.places[run];
+      input.value = at;
+      this.tell(sweep, input, shown, said);
     }
   },
 
-  tell(sweep, input, shown) {
-    shown.textContent = measured(sweep.values[input.value], sweep.unit);
-    input.setAttribute("aria-valuetext", `${sweep.values[input.value]} ${sweep.unit}`.trim());
+  tell(sweep, input, shown, said) {
+    shown.textContent = Number.isNaN(Number(said)) ? said : measured(said, sweep.unit);
+    input.setAttribute("aria-valuetext", `${said} ${sweep.unit}`.trim());
   },
 };

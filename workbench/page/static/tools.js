@@ -22,8 +22,19 @@ function number(value) {
   return text.replaceAll("-", "−");
 }
 
+// a length in the unit that suits it, from µm to km, as numerals.py writes it in captions
+function length(metres) {
+  const size = Math.abs(metres);
+  if (size < 1e-9) return "0 mm";
+  const whole = (count) => Math.round(count).toLocaleString("en").replace("-", "−");
+  if (size >= 1e3) return size >= 1e6 ? `${whole(metres / 1e3)} km` : `${whole(metres)} m`;
+  if (size >= 0.1) return `${number(metres)} m`;
+  return size >= 1e-6 ? `${number(1e3 * metres)} mm` : `${number(Number((1e6 * metres).toPrecision(2)))} µm`;
+}
+
 // a value with its unit, as a sentence writes it
 function measured(value, unit) {
+  if (unit === "m") return length(value);
   return unit === "deg" || unit === "°" ? `${number(value)}°` : `${number(value)} ${unit ?? ""}`.trim();
 }
 

@@ -1,0 +1,309 @@
+"""Every lesson in every home it has does everything: one visit each, and what it says is what the Timeline says.
+
+By keyboard alone, but for handles and points of the scene; without motion on the way from step to step; in a light window of
+a laptop at first, then in a dark one of a phone.
+"""
+
+import contextlib
+import functools
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from playwright.sync_api import TimeoutError as TookTooLong
+
+from tests.browser.homes import HOMES, PHONE, Home, asked, barriers, linked, opened
+from workbench.knobs import Gizmo, Pick, fields_of, text_of
+from workbench.lesson import catalog
+from workbench.page.code import moment_data
+from workbench.questions import answer
+from workbench.scene import Picture
+from workbench.timeline import Timeline
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.mark.parametrize("kind", HOMES)
+@pytest.mark.parametrize("name", catalog())
+def test_a_lesson_does_everything_in_its_home(chromium, server, tmp_path, name, kind):
+    with opened(kind, catalog()[name], chromium, server, tmp_path) as home:
+        says_what_the_timeline_says(home)
+        is_stepped_and_played_by_keys(home)
+        shows_the_line_of_code(home)
+        if kind != "site":
+            nobody_is_kept_out(home)
+        if kind == "live":
+            a_knob_leads_to_another_run(home)
+            a_handle_and_a_point_are_moved_by_hand(home)
+        if kind != "notebook":
+            links_run_things(home)
+            a_question_is_answered_wrong_and_right(home)
+        if kind == "site":
+            a_sweep_leads_to_another_run(home)
+        a_run_is_pinned(home)
+        fits_a_phone_in_the_dark(home)
+        if kind == "site":
+            nobody_is_kept_out(home)
+        assert home.errors == []
+
+
+def complete(home: Home, params: Any) -> Timeline:
+    """Return a run of the lesson that is open; what the home itself ran is not run again."""
+    return home.server.runs.timelines.get(catalog()[home.lesson.name], params).complete()
+
+
+def here(home: Home) -> Timeline:
+    """Return the default run."""
+    return complete(home, home.lesson.params())
+
+
+def opens_at(timeline: Timeline, step: int) -> int:
+    return step if step >= 0 else len(timeline) + step
+
+
+def says_what_the_timeline_says(home: Home) -> None:
+    run = here(home)
+    home.says(run[opens_at(run, home.lesson.first_step)].caption.text)
+    home.until("n => page.known() === n && page.run.series.every((one) => one.values.length === n)", len(run))
+    told = {one["path"]: (one["name"], one["unit"], one["values"]) for one in home.ask("page.run.series")}
+    series = run.series()
+    assert told.keys() == series.keys()
+    for path, one in series.items():
+        name, unit, values = told[path]
+        assert (name, unit) == (one.scalar.name, one.scalar.unit)
+        known = [math.nan if value is None else value for value in values]
+        np.testing.assert_allclose(known, np.where(np.isfinite(one.values), one.values, np.nan), rtol=1e-5, atol=1e-12)
+    home.find("#scene iframe").wait_for()
+    home.frame.frame_locator("#scene iframe").locator("canvas").first.wait_for()
+    home.ask("void (secondsBetweenPictures = 3600)")
+
+
+def is_stepped_and_played_by_keys(home: Home) -> None:
+    run = here(home)
+    last = len(run) - 1
+
+    def shows(k: int) -> None:
+        home.says(run[k].caption.text, k)
+        assert home.find("#count").inner_text() == f"{k} / {last}"
+
+    home.press("Tab")
+    assert home.ask("document.activeElement.className") == "skip"
+    for key, k in (("Home", 0), ("n", 1), ("ArrowRight", 2), ("p", 1), ("End", last), ("ArrowLeft", last - 1)):
+        home.press(key)
+        shows(min(k, last))
+    home.find("[data-act=back]").press("Enter")
+    shows(max(0, last - 2))
+    home.find("#speed").select_option("8")
+    home.find("[data-act=play]").press("Enter")
+    shows(last)
+    home.until("!transport.playing")
+    home.press("?")
+    home.find("#large").get_by_text("play or pause").wait_for()
+    home.press("Escape")
+    home.find("#large").wait_for(state="hidden")
+
+
+def shows_the_line_of_code(home: Home) -> None:
+    run = here(home)
+    moments = [(k, step.moment) for k, step in enumerate(run.known()) if step.moment is not None]
+    if not moments:
+        return
+    k, moment = moments[-1]
+    home.ask("k => page.seek(k)", k)
+    home.says(run[k].caption.text, k)
+    home.find(".tile", has_text="Code").press("Enter")
+    line = home.find("#large .here")
+    assert line.count() == 1
+    assert line.get_attribute("data-line") == str(moment_data(moment)["line"])
+
+
+def nobody_is_kept_out(home: Home, *rules: str) -> None:
+    """Ask axe what is serious, with whatever is open; of some rules only, if any are named."""
+    assert barriers(home.frame, *rules) == []
+    home.press("Escape")
+
+
+def a_knob_leads_to_another_run(home: Home) -> None:
+    home.press("s")
+    slider = home.find("#drawer fieldset:not(:disabled) input[type=range]").first
+    name = slider.locator("xpath=ancestor::fieldset").get_attribute("data-knob")
+    before = home.ask("name => page.run.params[name]", name)
+    slider.press("ArrowLeft" if slider.input_value() == slider.get_attribute("max") else "ArrowRight")
+    home.until("([name, was]) => String(page.run.params[name]) !== was", [name, text_of(before)])
+    agrees_with_its_params(home)
+    home.find("#drawer").get_by_role("button", name="Reset").press("Enter")
+    home.until("page.run.name === 'default'")
+    home.press("s")
+    home.find("#drawer").wait_for(state="hidden")
+
+
+def agrees_with_its_params(home: Home) -> None:
+    """See to it that what is said is what the run with these params says."""
+    session = next(iter(home.server.students.values())).session
+    assert session is not None
+    run = complete(home, session.params)
+    home.until("n => page.run.finished && page.known() === n", len(run))
+    k = home.ask("page.k")
+    home.says(run[k].caption.text, k)
+
+
+def a_handle_and_a_point_are_moved_by_hand(home: Home) -> None:
+    by = {kind: [f for f in fields_of(home.lesson.params) if isinstance(f.knob.by, kind)] for kind in (Gizmo, Pick)}
+    home.ask("void (secondsBetweenPictures = 0.4)")
+    for field in by[Gizmo][:1]:
+        assert isinstance(field.knob.by, Gizmo)
+        home.press("h")
+        home.find("#move[aria-pressed=true]").wait_for()
+        place = np.array(home.ask("name => page.run.params[name]", field.name)[:3])
+        start = on_screen(home, place)
+        ways = [on_screen(home, place + 0.6 * field.knob.by.size * axis) - start for axis in np.eye(3)]
+        moved(home, field.name, functools.partial(drag, home, start, max(ways, key=np.linalg.norm)))
+        home.press("h")
+    for field in by[Pick][:1]:
+        assert isinstance(field.knob.by, Pick)
+        moved(home, field.name, functools.partial(click, home, field.knob.by.path))
+    home.ask("void (secondsBetweenPictures = 3600)")
+    home.press("r")
+    home.until("page.run.name === 'default'")
+
+
+def moved(home: Home, name: str, act: Callable[[int], None]) -> None:
+    """Do something in the scene until a param has changed by it: what is drawn comes a little later than what is said."""
+    before = home.ask("name => String(page.run.params[name])", name)
+    for turn in range(60):
+        act(turn)
+        with contextlib.suppress(TookTooLong):
+            home.frame.wait_for_function(
+                "([name, was]) => String(page.run.params[name]) !== was", arg=[name, before], timeout=3000
+            )
+            return agrees_with_its_params(home)
+    raise AssertionError(f"{name} stays {before}")
+
+
+def drag(home: Home, start: np.ndarray, way: np.ndarray, turn: int) -> None:
+    """Draw at the end of a handle's longest arrow."""
+    home.page.mouse.move(*(start + way))
+    home.page.mouse.down()
+    for far in (10, 20, 30):
+        home.page.mouse.move(*(start + (1 + far / np.linalg.norm(way)) * way))
+    home.page.mouse.up()
+
+
+def click(home: Home, path: str, turn: int) -> None:
+    home.page.mouse.click(*another_point(home, path, turn))
+
+
+def another_point(home: Home, path: str, turn: int) -> np.ndarray:
+    """Return where, on the screen, a part of what is at a path is that a click may mean: one off its middle."""
+    student = next(iter(home.server.students.values()))
+    assert student.session is not None
+    look = student.session.look()
+    assert look is not None
+    one: Any = look.scene[path]
+    T = np.eye(4) if one.T_world_object is None else one.T_world_object
+    p = np.array([[0.23, 0.1, 0.0]]) * (one.width or 1.0) if isinstance(one, Picture) else one.p
+    places = np.array([on_screen(home, p_world) for p_world in (p @ T[:3, :3].T + T[:3, 3])[:200]])
+    box = home.find("#view").bounding_box()
+    middle = np.array([box["x"] + 0.5 * box["width"], box["y"] + 0.55 * box["height"]])
+    order = np.argsort(np.linalg.norm(places - middle, axis=1))
+    return places[order[turn % len(order)]]
+
+
+def on_screen(home: Home, p_world: np.ndarray) -> np.ndarray:
+    """Return where a point of the scene is in the window, by the camera of viser's client."""
+    (client,) = home.server._viser.get_clients().values()
+    camera, box = client.camera, home.find("#view").bounding_box()
+    ahead = camera.look_at - camera.position
+    ahead = ahead / np.linalg.norm(ahead)
+    right = np.cross(ahead, camera.up_direction)
+    right = right / np.linalg.norm(right)
+    x, y, z = (axis @ (p_world - camera.position) for axis in (right, np.cross(right, ahead), ahead))
+    scale = 0.5 * box["height"] / np.tan(0.5 * camera.fov)
+    return np.array([box["x"] + 0.5 * box["width"] + scale * x / z, box["y"] + 0.5 * box["height"] - scale * y / z])
+
+
+def links_run_things(home: Home) -> None:
+    moment = home.find("a.run[data-run=default][data-step], a.run[data-run=''][data-step]").first
+    if moment.count():
+        run, step = here(home), int(moment.get_attribute("data-step"))
+        moment.press("Enter")
+        home.says(run[opens_at(run, step)].caption.text, opens_at(run, step))
+        assert moment.get_attribute("aria-current") == "true"
+    name = linked(home.lesson)
+    if name is not None:
+        preset = home.lesson.preset(name)
+        link = home.find(f"a.run[data-run='{name}']").first
+        step = link.get_attribute("data-step")
+        run = complete(home, preset.params)
+        at = int(step) if step is not None else home.lesson.first_step if preset.step is None else preset.step
+        link.press("Enter")
+        home.says(run[opens_at(run, at)].caption.text, opens_at(run, at))
+        assert home.find(f"button[data-run='{name}']").get_attribute("aria-pressed") == "true"
+
+
+def a_question_is_answered_wrong_and_right(home: Home) -> None:
+    if not home.lesson.questions:
+        return
+    question = asked(home.lesson)
+    found = answer(catalog()[home.lesson.name], question, None, home.server.runs.timelines)
+    form = home.find(f"form[data-question='{question.name}']")
+    if question.choices:
+        wrong, right = next(one for one in question.choices if one != found.truth), found.truth
+    else:
+        wrong, right = f"{found.value + 2 * question.tolerance + 1:.9g}", f"{found.value:.9g}"
+    for given, said in ((wrong, "You said "), (right, "Right: ")):
+        if question.choices:
+            form.get_by_label(given, exact=True).press("Space")
+        else:
+            form.locator("input").fill(given)
+        form.get_by_role("button", name="Answer", exact=True).press("Enter")
+        form.locator("output", has_text=said).wait_for()
+        assert form.locator("output").inner_text().endswith(found.why)
+    home.says(complete(home, question.params)[found.step].caption.text)
+
+
+def a_sweep_leads_to_another_run(home: Home) -> None:
+    if not home.lesson.sweeps:
+        return
+    lesson, knob = catalog()[home.lesson.name], home.lesson.sweeps[0].knob
+    usual = getattr(lesson.params(), knob)
+    values = {text_of(value): value for value in (*home.lesson.sweeps[0].values, usual)}
+    home.press("s")
+    dial = home.find("#drawer input[type=range]").first
+    for key in ("Home", "End"):
+        dial.press(key)
+        value = values[home.ask("at => RECORDED.sweeps[0].values.at(at)", 0 if key == "Home" else -1)]
+        run = complete(home, lesson.validated(replace(lesson.params(), **{knob: value})))
+        home.until("n => page.known() === n && source.open_.name === page.run.name", len(run))
+        k = home.ask("page.k")
+        home.says(run[k].caption.text, k)
+        assert dial.get_attribute("aria-valuetext").startswith(text_of(value))
+    home.press("s")
+
+
+def a_run_is_pinned(home: Home) -> None:
+    home.find("#pin").press("Enter")
+    home.until("page.run.pinned?.length")
+    assert home.find("#pin").get_attribute("aria-pressed") == "true"
+    home.find("#pin").press("Enter")
+    home.until("!page.run.pinned")
+
+
+def fits_a_phone_in_the_dark(home: Home) -> None:
+    home.shown_as(**PHONE)
+    home.press("t")
+    home.find("html[data-theme=dark]").wait_for(state="attached")
+    assert home.ask("document.documentElement.scrollWidth") <= PHONE["width"]
+    if home.ask("page.k") == 0:
+        home.press("n")
+    k = home.ask("page.k")
+    home.find("[data-act=back]").press("Enter")
+    home.until("k => page.k === k", k - 1)
+    for place in ("#scene", "#caption", "[data-act=play]"):
+        box = home.find(place).bounding_box()
+        assert box is not None
+        assert box["y"] >= 0
+        assert box["y"] + box["height"] <= PHONE["height"]
