@@ -24,7 +24,7 @@ import numpy as np
 import psutil
 
 from tests.fake_page import FakePage
-from workbench.viewer.server import EMPTY, ROOM
+from workbench.viewer.server import EMPTY
 
 ROOT = Path(__file__).parents[2]
 LESSONS = ("transforms", "pinhole", "icp", "ransac", "curvature", "disparity")
@@ -211,8 +211,10 @@ async def attacked(server: Served, given: argparse.Namespace) -> dict[str, Waits
     with psutil.Popen(command, cwd=ROOT, text=True, stdout=subprocess.PIPE) as attackers:
         while await asyncio.to_thread(attackers.stdout.readline) != "here\n":
             assert attackers.is_running()
-        tasks = [lambda end: stepping(walker, end, found["attacked, steps"], 0.25),
-                 lambda end: coming(server, "?lesson=transforms", end, found["attacked, new page"])]  # fmt: skip
+        tasks: list[Callable[[float], Awaitable[None]]] = [
+            lambda end: stepping(walker, end, found["attacked, steps"], 0.25),
+            lambda end: coming(server, "?lesson=transforms", end, found["attacked, new page"]),
+        ]
         await measured(server, given, tasks)
         attackers.terminate()
         print(f"  sent in all: {(attackers.stdout.read().strip().splitlines() or [''])[-1]}")
@@ -267,10 +269,13 @@ async def costs(server: Served, given: argparse.Namespace) -> None:
 SCENARIOS: dict[str, Any] = {"cost": costs, "one": one_lesson, "mixed": mixed, "silent": silent, "attacked": attacked}
 
 
-def afterwards(server: Served) -> tuple[int, float]:
+def afterwards(server: Served, at_work: float) -> tuple[int, float]:
     """Return threads and MB of the server when all have gone, and it has let go of what it held for them."""
-    time.sleep(EMPTY + 2 * ROOM)
-    return server.held()
+    held, until = server.held(), time.monotonic() + 3 * EMPTY
+    while time.monotonic() < until and not (held[0] <= server.threads and held[1] < 0.9 * at_work):
+        time.sleep(1.0)
+        held = server.held()
+    return held
 
 
 def main() -> None:
@@ -293,7 +298,7 @@ def main() -> None:
         server = Served(given.threads, given.workers)
         try:
             found = asyncio.run(SCENARIOS[name](server, given)) or {}
-            threads, memory_after = afterwards(server)
+            threads, memory_after = afterwards(server, given.spent[2]) if found else (0, 0.0)
         finally:
             server.stop()
         for who, waits in found.items():

@@ -253,11 +253,25 @@ def test_the_container_s_recipe_agrees_with_the_project():
     assert {"workbench", "lessons", "pyproject.toml", project["readme"], "LICENSE"} <= set(copied)
     kinds = [kind for kind, _ in steps]
     user = dict(steps)["USER"]
-    assert user != "root"
-    assert any(kind == "RUN" and words.startswith("useradd") and words.endswith(user) for kind, words in steps)
+    assert int(user) > 0, "not root, and a number, which a cluster can check"
+    assert any(kind == "RUN" and words.startswith("useradd") and f"--uid {user} " in words for kind, words in steps)
     assert kinds.index("USER") < kinds.index("ENTRYPOINT")
     command = json.loads(dict(steps)["ENTRYPOINT"])
     assert command[0] in project["scripts"]
     called = flags.parse(cli.serve, command[1:], "workbench", "")
     assert callable(called)
     assert command[command.index("--port") + 1] == dict(steps)["EXPOSE"]
+
+
+def test_the_container_s_health_is_that_the_server_answers():
+    line = next(line for line in (RECIPES / "Dockerfile").read_text().splitlines() if line.startswith("HEALTHCHECK"))
+    words = json.loads(line.partition("CMD ")[2])
+    assert words[:2] == ["python", "-c"]
+    server = Server(host="0.0.0.0")
+    try:
+        assert server.rules.token is not None
+        look = [sys.executable, "-c", words[2].replace("8080", str(server.port))]
+        assert subprocess.run(look, check=False).returncode == 0
+    finally:
+        server.stop()
+    assert subprocess.run(look, check=False, stderr=subprocess.DEVNULL).returncode == 1

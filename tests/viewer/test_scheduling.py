@@ -22,7 +22,7 @@ from workbench.session import Session
 from workbench.timeline import Timeline
 from workbench.viewer import runs as runs_module
 from workbench.viewer import scheduling
-from workbench.viewer.runs import Crew, Runs, caches
+from workbench.viewer.runs import Runs, caches
 from workbench.viewer.scheduling import Scheduler
 
 
@@ -155,27 +155,23 @@ def test_while_people_wait_for_something_else_only_what_is_waited_for_is_compute
         scheduler.close()
 
 
-def test_what_is_quick_goes_before_what_is_expensive_but_not_for_ever():
-    done: list[str] = []
-    crew, held = Crew("test", 1), threading.Event()
+def test_while_pictures_of_other_runs_wait_a_step_is_shown_and_nothing_is_computed_at_rest():
+    runs, held = Runs(threads=1), threading.Event()
 
     async def asked() -> None:
-        tasks = [asyncio.create_task(crew.do(held.wait))]
-        await asyncio.sleep(0)
-        tasks += [asyncio.create_task(crew.do(done.append, "expensive", late=1000.0)),
-                  asyncio.create_task(crew.do(done.append, "quick")),
-                  asyncio.create_task(crew.do(done.append, "expensive and long ago", late=-1000.0))]  # fmt: skip
-        await asyncio.sleep(0)
-        assert crew.is_behind()
+        expensive = [asyncio.create_task(runs.showing.do(held.wait, 60)) for _ in range(9)]
+        while not runs.showing.is_behind():
+            await asyncio.sleep(0.001)
+        assert await runs.stepping.do(lambda: "a step") == "a step"
+        assert runs.scheduler._busy()
         held.set()
-        await asyncio.gather(*tasks)
+        await asyncio.gather(*expensive)
+        assert not runs.scheduler._busy()
 
     try:
         run_apart(asked())
-        assert done == ["expensive and long ago", "quick", "expensive"]
-        assert not crew.is_behind()
     finally:
-        crew.close()
+        runs.close()
 
 
 def test_a_lesson_that_ends_the_program_ends_its_own_run(one, steered):

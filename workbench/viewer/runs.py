@@ -4,11 +4,9 @@ import asyncio
 import contextlib
 import ctypes
 import gc
-import itertools
 import queue
 import sys
 import threading
-import time
 import weakref
 from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
@@ -23,25 +21,22 @@ Result = TypeVar("Result")
 
 MOST_BYTES = 3 * 2**29
 """What runs, their steps' data and lessons' caches may hold together."""
-LATE = 0.5
-"""Seconds that what is expensive lets pass that comes after it: who only steps does not wait for who moves knobs."""
 
 
 class Crew:
     """A few threads that do one kind of work, and end with the program whatever holds them up."""
 
     def __init__(self, name: str, threads: int):
-        self._work: queue.PriorityQueue[tuple[float, int, Any]] = queue.PriorityQueue()
-        self._number = itertools.count()
+        self._work: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._threads = threads
         for _ in range(threads):
             threading.Thread(target=self._run, name=name, daemon=True).start()
 
-    async def do(self, function: Callable[..., Result], *args: Any, late: float = 0.0) -> Result:
-        """Return what a function returns, called in one of the threads; what comes up to `late` seconds later goes first."""
+    async def do(self, function: Callable[..., Result], *args: Any) -> Result:
+        """Return what a function returns, called in one of the threads."""
         loop = asyncio.get_running_loop()
         answer: asyncio.Future[Result] = loop.create_future()
-        self._put((loop, answer, function, args), late)
+        self._work.put((loop, answer, function, args))
         return await answer
 
     def is_behind(self) -> bool:
@@ -51,13 +46,10 @@ class Crew:
     def close(self) -> None:
         """Do nothing more than what was begun."""
         for _ in range(self._threads):
-            self._put(None, 0.0)
-
-    def _put(self, task: Any, late: float) -> None:
-        self._work.put((time.monotonic() + late, next(self._number), task))
+            self._work.put(None)
 
     def _run(self) -> None:
-        while (task := self._work.get()[2]) is not None:
+        while (task := self._work.get()) is not None:
             loop, answer, function, args = task
             del task
             if answer.cancelled():
@@ -86,7 +78,10 @@ def _settle(answer: asyncio.Future, found: Any, error: Exception | None) -> None
 
 
 class Runs:
-    """What the pages of a server share; `showing` makes what they see, `asking` answers, `keeping` records and pictures.
+    """What the pages of a server share.
+
+    `stepping` shows a step of the run that a page shows already, `showing` the first of another, which costs several times
+    as much: who only steps does not wait for who moves knobs. `asking` answers, `keeping` makes recordings and pictures.
 
     Args:
         most_bytes: What runs, their steps' data and lessons' caches may hold together. Runs that nobody looks at go
@@ -96,8 +91,9 @@ class Runs:
 
     def __init__(self, most_bytes: int = MOST_BYTES, threads: int = 2):
         self.timelines = Timelines(most_bytes=most_bytes)
-        self.showing, self.asking, self.keeping = Crew("showing", 2), Crew("asking", 1), Crew("keeping", 1)
-        self.scheduler = Scheduler(threads, busy=self.showing.is_behind)
+        self.stepping, self.showing = Crew("stepping", 2), Crew("showing", 2)
+        self.asking, self.keeping = Crew("asking", 1), Crew("keeping", 1)
+        self.scheduler = Scheduler(threads, busy=lambda: self.stepping.is_behind() or self.showing.is_behind())
         self._most_bytes = most_bytes
         self._steps: weakref.WeakKeyDictionary[Timeline, Steps] = weakref.WeakKeyDictionary()
         self._lock = threading.Lock()
@@ -113,6 +109,7 @@ class Runs:
     def close(self) -> None:
         """End the threads; what is computed now is given up."""
         self.scheduler.close()
+        self.stepping.close()
         self.showing.close()
         self.asking.close()
         self.keeping.close()

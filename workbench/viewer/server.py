@@ -10,6 +10,7 @@ import functools
 import io
 import re
 import secrets
+import sys
 import threading
 import warnings
 from collections.abc import AsyncIterator, Mapping
@@ -52,6 +53,8 @@ ROOM = 3.0
 """Seconds between two looks at what is held in memory."""
 EMPTY = 30.0
 """Seconds without a page after which nothing is held any more."""
+SWITCH = 0.001
+"""Seconds that a thread which computes holds up another, such as the one that hears and tells; Python's own is 0.005."""
 warnings.filterwarnings("ignore", "Queued a .* on a closed connection")  # a browser that left while it was drawn for
 _TOKEN = re.compile(r"[0-9a-f]{24}")
 
@@ -95,6 +98,7 @@ class Server:
         self.rules = Rules(host, open_to_all=open_to_all, behind=behind, token=share and share.token)
         own = [listening(host, port)] if share is None else []
         more_files()
+        sys.setswitchinterval(SWITCH)
         self.port = own[0].getsockname()[1] if share is None else share.port
         self.doors, self._share = Doors(host, self.port, self.rules.token), share
         self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
@@ -212,9 +216,9 @@ class Server:
         except InputError as error:
             trouble = str(error)  # of a lesson that is here, the page's websocket tells it
         if lesson is None:
-            return page_response(request, await self.runs.showing.do(course_page, self.lessons, trouble))
+            return page_response(request, await self.runs.stepping.do(course_page, self.lessons, trouble))
         watched = self.following.watched if self.following else None
-        page = await self.runs.showing.do(self._lesson_pages.page, lesson, self.lessons, watched)
+        page = await self.runs.stepping.do(self._lesson_pages.page, lesson, self.lessons, watched)
         return page_response(request, page.replace("<body ", f'<body data-token="{self._new_token()}" ', 1))
 
     def _new_token(self) -> str:
@@ -238,7 +242,7 @@ class Server:
         return await receive(request, self.students.get(request.path_params["token"]))
 
     async def _math(self, request: Request) -> Response:
-        return PlainTextResponse(await self.runs.showing.do(math_font_css), media_type="text/css")
+        return PlainTextResponse(await self.runs.stepping.do(math_font_css), media_type="text/css")
 
     async def _picture(self, request: Request) -> Response:
         lesson = self.lessons.get(request.path_params["lesson"])

@@ -28,7 +28,7 @@ from workbench.timeline import Timeline
 from workbench.viewer.following import Following
 from workbench.viewer.live_scene import LiveScene
 from workbench.viewer.own_files import OwnFiles
-from workbench.viewer.runs import LATE, Runs
+from workbench.viewer.runs import Runs
 from workbench.viewer.telling import Telling, packed
 from workbench.viewer.terminal import tell_terminal
 from workbench.viewer.wishes import Wishes, read_wish
@@ -144,8 +144,8 @@ class Student:
             return
         self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
         redraw, tell = bool(wishes), any(wish["verb"] not in SCENE_ALONE for wish in wishes)
-        late = 0.0 if session.timeline is self._told.timeline else LATE
-        for text in await self.runs.showing.do(self._show, session, redraw, tell, late=late):
+        crew = self.runs.stepping if session.timeline is self._told.timeline else self.runs.showing
+        for text in await crew.do(self._show, session, redraw, tell):
             await self._send(text)
         timeline = session.timeline
         self._waits = bool(self._wishes) or not (timeline.finished or 0 <= session.wanted < len(timeline))
@@ -161,9 +161,7 @@ class Student:
 
     async def _glide(self) -> None:
         """Show what moves on its way; who wishes for something meanwhile sees where it ends."""
-        while await self.runs.showing.do(
-            functools.partial(self._scene.go_on, at_once=len(self._wishes) > 0), late=SECONDS / FRAMES
-        ):
+        while await self.runs.stepping.do(functools.partial(self._scene.go_on, at_once=len(self._wishes) > 0)):
             await asyncio.sleep(SECONDS / FRAMES)
 
     def _came(self) -> None:
@@ -279,7 +277,7 @@ class Student:
         session = self.session
         look = None if session is None else session.look()
         if look is not None and session is not None:
-            values = await self.runs.showing.do(
+            values = await self.runs.stepping.do(
                 picked_params, look.params, look.scene, message["p_origin"], message["v_ray"]
             )
             session.change(**values)
