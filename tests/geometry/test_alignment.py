@@ -16,6 +16,7 @@ from workbench.geometry.alignment import (
     nearest_rotation,
     point_to_plane_step,
     rmse,
+    similarity_scale,
 )
 from workbench.geometry.motions import apply, exp_se3, exp_so3, inverse, motion, rotation_angle
 
@@ -279,3 +280,23 @@ def test_the_error_of_a_motion_is_what_was_added_to_the_truth():
     assert turned.displacement == pytest.approx(2 * np.sin(np.radians(10)) * np.sqrt(np.mean(far**2)))
     unknown = motion_error(T_true, None, p)
     assert np.isnan([unknown.rotation, unknown.translation, unknown.displacement]).all()
+
+
+@settings(max_examples=40, deadline=None)
+@given(SEEDS, st.floats(0.05, 20), motions(), st.floats(0, 0.5))
+def test_the_scale_is_that_of_the_similarity_and_noise_makes_there_and_back_less_than_one(seed, scale, T, noise):
+    p = cloud(seed)
+    q = scale * (apply(T, p) + noise * cloud(seed + 1))
+    S = align_similarity(q, p)
+    assert similarity_scale(q, p) == pytest.approx(np.cbrt(np.linalg.det(S[:3, :3])))
+    product = similarity_scale(q, p) * similarity_scale(p, q)
+    assert product <= 1 + 1e-12
+    assert product == pytest.approx(1) or noise > 0
+
+
+def test_a_scale_that_nothing_tells_is_one_and_no_pairs_have_none():
+    p = cloud(0)
+    assert similarity_scale(p, np.ones_like(p)) == 1
+    assert similarity_scale(p[:1], p[:1]) == 1
+    with pytest.raises(ValueError, match="no pairs"):
+        similarity_scale(p[:0], p[:0])
