@@ -78,6 +78,17 @@ GIVEAWAYS: dict[tuple[str, str], tuple[str, ...]] = {
     ("chamfer_emd", "predict-outlier"): (
         r"Hausdorff is (that|\d+ times)", r"squares lean on", r"hardly notice",
     ),
+    ("measures", "predict-walls"): (
+        r"1\.5 times", r"half as large again", r"walls? (area )?(never|do(es)? not) converge", r"3/2 of",
+    ),
+    ("measures", "predict-tenth"): (r"\b100 times", r"a hundred times", r"hundredfold"),
+    ("measures", "predict-hits"): (
+        r"(?<!,)\b2[345]\d hits", r"ten dimensions[^.]*(hardly|few|none)", r"quarter of a per cent",
+    ),
+    ("measures", "predict-inscribed"): (
+        r"volume (loses|lacks|shrinks|falls) more", r"0\.86", r"volume[^.]*(larger|more)[^.]*than the area",
+    ),
+    ("measures", "predict-lantern"): (r"4\.9\d?", r"five times", r"lie almost level", r"not follow the area"),
     ("disparity", "quarter"): (r"board at 20 m", r"1, 5,? (and )?20 m", r"20 m, true 4\.2"),
     ("disparity", "nearer"): (r"20 m by", r"\b[45](\.0+)? m nearer", r"80 / 5", r"quadratic, not linear"),
     ("disparity", "averages"): (r"mean (of the depths|depth) is (further|larger|greater)", r"depths? averages? (too )?far"),

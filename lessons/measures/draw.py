@@ -10,10 +10,11 @@ from lessons.measures.state import State, Subject
 from lessons.measures.words import caption
 from workbench.algorithms.measures import Cells, Sums
 from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
+from workbench.geometry.meshes import edges
 from workbench.geometry.voxels import counted_surface
-from workbench.scene import Classes, Mesh, Points, Primitive, Scene, Segments
+from workbench.scene import Classes, Label, Mesh, Points, Primitive, Scene, Segments
 
-MOST_RAYS, MOST_POINTS, MOST_LINES, MOST_SHOWN = 120, 6000, 120, 96
+MOST_RAYS, MOST_EDGES, MOST_POINTS, MOST_LINES, MOST_SHOWN = 120, 5000, 6000, 120, 96
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 RIMS = CUBE[[[a, b] for a in range(8) for b in range(a) if np.abs(CUBE[a] - CUBE[b]).sum() == 1]]
 
@@ -64,16 +65,25 @@ def _faces(state: State, now: Sums) -> dict[str, Primitive]:
         "surface": Mesh(p, faces, color, flat=True, name=subject.name),
         "origin": Points(origin[None], "highlight", 0.04, name="origin"),
     }
+    if len(_edges(subject)) <= MOST_EDGES:
+        scene["edges"] = Segments(_edges(subject), "neutral", 1, opacity=0.5, name="edges")
     if len(subject.faces) < len(subject.whole):
         scene["border"] = Segments(_rim(subject), "highlight", 4, name="border of the hole")
     new = now.order[now.count - now.new : now.count]
     if len(new) and now.count < len(faces):
         few = new[:: -(-3 * len(new) // MOST_RAYS)]
         corners = p.reshape(-1, 3, 3)[few].reshape(-1, 3)
-        sign = Classes(np.repeat(added[few] == 2, 3).astype(np.uint8), ("target", "wrong"), ("plus", "minus"))
+        sign = Classes(
+            np.repeat(added[few] == 2, 3).astype(np.uint8), ("target", "wrong"), ("counts plus", "counts minus")
+        )
         rays = np.stack([np.broadcast_to(origin, corners.shape), corners], axis=1)
         scene["tetrahedra"] = Segments(rays, sign, 1.5, name="tetrahedra")
     return scene
+
+
+@functools.lru_cache(maxsize=4)
+def _edges(subject: Subject) -> np.ndarray:
+    return _shown(subject)[edges(subject.faces)]
 
 
 @functools.lru_cache(maxsize=4)
@@ -135,8 +145,11 @@ def _triangle(now: Sampled) -> dict[str, Primitive]:
     corner = np.column_stack([1 - weights.sum(axis=1), weights]) > 0.5
     which = np.where(corner.any(axis=1), corner.argmax(axis=1), 3).astype(np.uint8)
     color = Classes(which, ("source", "other", "highlight", "neutral"), ("at a", "at b", "at c", "in the middle"))
-    back = np.array([0.0, 0.01, 0.0])
-    return {
+    back, middle = np.array([0.0, 0.01, 0.0]), TRIANGLE.mean(axis=0)
+    names = {
+        f"corner {name}": Label(name, middle + 1.1 * (p - middle)) for name, p in zip("abc", TRIANGLE, strict=True)
+    }
+    return names | {
         "surface": Mesh(TRIANGLE + back, np.array([[0, 1, 2]]), "target", opacity=0.25, name="one triangle"),
         "quarters": Segments(np.stack([inner, np.roll(inner, 1, axis=0)], axis=1), "target", 2, name="its quarters"),
         "points": Points(
@@ -153,7 +166,7 @@ def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
     )
     two = subject.scale * np.stack([now.mean, state.middle])
     return {
-        "surface": Mesh(_shown(subject), subject.faces, half, opacity=0.4, name=subject.name),
+        "surface": Mesh(_shown(subject), subject.faces, half, opacity=0.3, name=subject.name),
         "points": Points(subject.scale * q, "source", 0.022 if len(q) < 1200 else 0.012, name="points"),
         "mean": Points(two[:1], "wrong", 0.06, name="mean of the points"),
         "middle": Points(two[1:], "truth", 0.06, name="middle of the surface"),

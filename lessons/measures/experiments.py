@@ -13,11 +13,11 @@ from workbench.numerals import brief, fixed, percent
 VIEW = View(eye=(2.3, -3.5, 1.7), target=(-0.05, -0.3, 0.0), grid=None, axes=False)
 MIDDLE = View(eye=(2.0, -3.6, 1.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 WIDE = View(eye=(2.6, -4.7, 2.1), target=(0.0, 0.0, 0.0), grid=None, axes=False)
-BEHIND = View(eye=(1.9, -4.6, 2.0), target=(-0.4, 0.6, -0.2), grid=None, axes=False)
+BEHIND = View(eye=(1.4, -5.0, 2.0), target=(0.5, 0.4, -0.1), grid=None, axes=False)
 FRONT = View(eye=(0.0, -3.9, 0.25), target=(0.0, 0.0, 0.2), grid=None, axes=False)
 
 FAR = Params(origin=(-12.0, -16.0, -8.0))
-HOLE = Params(origin=(-1.5, 2.2, -1.3), hole=0.01)
+HOLE = Params(origin=(1.0, 2.7, -0.6), hole=0.01)
 FLIPPED = Params(flipped=0.05)
 OVERLAP = Params(shape="two spheres", origin=(0.0, -2.0, -0.6))
 UNION = Params(method="voxels", shape="two spheres")
@@ -37,19 +37,18 @@ LINES = Params(method="lines", throws=4000)
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "origin", "The origin far away",
-        "The origin is seven diagonals away, and most tetrahedra are larger than the rabbit. What is left when plus and"
-        " minus are added up?",
+        "The origin is seven diagonals away: all plus together are 12 times the rabbit, all minus 11 times. What is left?",
         FAR, 15, MIDDLE,
     ),
     Preset(
         "hole", "A hole",
-        "1 % of the triangles is cut out, on the side you see. From an origin one diagonal behind, over 4 % of the volume go"
-        " with them; drag the origin.",
+        "1 % of the triangles is cut out, on the side you see. From an origin one diagonal behind, 7 % of the volume go with"
+        " them. Drag the origin: every place has its own number.",
         HOLE, 15, BEHIND, breaks=True,
     ),
     Preset(
         "flipped", "Faces turned round",
-        "5 % of the triangles are turned round, and each counts with the wrong sign: about 10 % of the volume are gone, of"
+        "5 % of the triangles are turned round, and each counts with the other sign: about 10 % of the volume are gone, of"
         " the area nothing.",
         FLIPPED, -1, breaks=True,
     ),
@@ -60,7 +59,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "union", "The same in voxels",
-        "A cell is full when its middle lies in either sphere, so nothing is counted twice: within 1 % from 11 cells on.",
+        "A cell is full when its middle lies in either sphere, so nothing is counted twice: within 1 % from 23 cells on.",
         UNION, -3, WIDE,
     ),
     Preset(
@@ -106,7 +105,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "alike", "Every face as likely",
-        "The faces of the right half were cut in four. Whoever picks all faces alike puts over 80 % of the points there, for"
+        "The faces of one half were cut in four. Whoever picks all faces alike puts over 80 % of the points there, for"
         " 60 % of the area.",
         ALIKE, -1, MIDDLE, breaks=True,
     ),

@@ -23,7 +23,7 @@ OWN_SIZE = 2.0  # metres of the picture that an own shape is long
 MOST_OWN = 400_000  # faces
 MOST_VOXELS = 40_000_000
 FINE = 96  # voxels along the longest side of which the surface of own voxels is made
-HOLE = np.array([0.5, -0.75, 0.45])  # where faces are cut out: on the side that is seen
+HOLE = np.array([-0.2, -1.0, 0.1])  # where faces are cut out: on the side that is seen
 
 
 def subject_of(params: Params) -> Subject:

@@ -72,7 +72,7 @@ def area_centroid(p: Points, faces: Faces) -> Float[np.ndarray, "3"]:
     Raises:
         ValueError: If the faces have no area.
     """
-    areas = np.concatenate([np.sqrt(np.einsum("xf,xf->f", n, n)) for n in _normals(p, faces)])
+    areas = np.concatenate([np.empty(0), *(np.sqrt(np.einsum("xf,xf->f", n, n)) for n in _normals(p, faces))])
     if not areas.sum() > 0:
         raise ValueError("the faces have no area")
     return areas @ p[faces].mean(axis=1) / areas.sum()

@@ -33,7 +33,8 @@ def points_on_faces(p: Points, faces: Faces, u: Float[np.ndarray, "n 3"]) -> Flo
     a, b, c = p[faces].transpose(1, 0, 2)
     n = np.cross(b - a, c - a)
     reached = np.cumsum(np.sqrt(np.einsum("fx,fx->f", n, n)))
-    k = np.minimum(np.searchsorted(reached, u[:, 0] * reached[-1], side="right"), len(faces) - 1)
+    last = np.searchsorted(reached, reached[-1])  # face with an area
+    k = np.minimum(np.searchsorted(reached, u[:, 0] * reached[-1], side="right"), last)
     s, t = np.sqrt(u[:, 1:2]), u[:, 2:3]
     return (1 - s) * a[k] + s * (1 - t) * b[k] + s * t * c[k]
 
