@@ -1,6 +1,7 @@
 """Every claim of the measures lesson in numbers: presets, questions, page and slots."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,15 +18,20 @@ from workbench.geometry.sampling import volume_by_chance
 from workbench.scene import caption_of
 
 
-def states(params: Params) -> tuple[State, ...]:
+def states(params: Params) -> tuple[Any, ...]:
     return finished(lesson.name, params).states()
 
 
-def of(name: str) -> tuple[State, ...]:
+def last_of(params: Params, **slots: Any) -> Any:
+    *_, last = run(params, **slots)
+    return last
+
+
+def of(name: str) -> tuple[Any, ...]:
     return states(lesson.preset(name).params)
 
 
-def whole(found: tuple[State, ...]) -> tuple[State, Sums]:
+def whole(found: tuple[Any, ...]) -> tuple[State, Sums]:
     state = next(state for state in reversed(found) if state.study is None)
     assert isinstance(state.now, Sums)
     return state, state.now
@@ -70,7 +76,7 @@ def test_a_hole_makes_the_volume_depend_on_the_origin():
     assert whole(of("hole"))[0].area_error == pytest.approx(-0.01, abs=1e-3)
     errors = []
     for origin in ((0.0, 0.0, 0.0), (0.0, -2.8, -0.9), (10.0, 20.0, -6.0)):
-        *_, last = run(replace(params, origin=origin))
+        last = last_of(replace(params, origin=origin))
         errors.append(round(last.volume_error, 3))
     assert errors == [-0.011, 0.043, pytest.approx(-0.44, abs=0.03)]
     assert tone("hole") == "wrong"
@@ -152,7 +158,7 @@ def test_throws_fall_with_the_root_and_even_draws_faster():
 def test_intervals_hold_the_truth_about_as_often_as_they_say():
     held = []
     for seed in range(60):
-        *_, last = run(Params(method="chance", shape="sphere", seed=seed))
+        last = last_of(Params(method="chance", shape="sphere", seed=seed))
         held.append(abs(last.volume_error * last.subject.volume) <= 1.96 * last.now.estimates.errors[-1])
     assert 0.87 <= np.mean(held) <= 1.0
 
@@ -173,7 +179,7 @@ def test_faces_alike_pull_the_mean_to_the_small_faces():
     assert isinstance(last.now, Sampled)
     gap = np.linalg.norm(last.now.mean - last.middle) / last.subject.diagonal
     assert gap > 0.06
-    *_, fair = run(replace(last.params, pick="by area"))
+    fair = last_of(replace(last.params, pick="by area"))
     assert np.linalg.norm(fair.now.mean - fair.middle) / fair.subject.diagonal < 0.02
 
 
@@ -255,10 +261,10 @@ def test_every_grid_begins_elsewhere_and_its_cells_are_halved_every_second_step(
 
 
 def test_slots_drive_the_run():
-    *_, last = run(Params(), signed_volume=lambda p, faces: 42.0)
+    last = last_of(Params(), signed_volume=lambda p, faces: 42.0)
     assert last.now.volume == 42.0
     assert caption_of(lesson.draw(last)).tone == "wrong"
-    *_, last = run(Params(method="chance"), volume_by_chance=lambda inside, box: (2.0, 0.5))
+    last = last_of(Params(method="chance"), volume_by_chance=lambda inside, box: (2.0, 0.5))
     assert (last.now.estimates.values[-1], last.now.estimates.errors[-1]) == (2.0, 0.5)
     first, *_ = run(Params(method="samples"), points_on_faces=lambda p, faces, u: np.tile(p[0], (len(u), 1)))
     np.testing.assert_allclose(first.quarters, [1, 0, 0, 0], atol=1e-9)
@@ -276,5 +282,5 @@ def test_a_slot_is_asked_about_the_origin_that_was_set():
 
 
 def test_what_is_thrown_is_counted():
-    *_, last = run(Params(method="chance", shape="sphere"))
+    last = last_of(Params(method="chance", shape="sphere"))
     assert volume_by_chance(last.now.inside, 8.0)[0] == pytest.approx(last.now.estimates.values[-1])

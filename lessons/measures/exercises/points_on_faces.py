@@ -5,12 +5,12 @@ triangle with it, then the whole surface, and looks where the points' mean lies.
 import numpy as np
 from jaxtyping import Float, Int
 
-from lessons.measures.exercises import GRADERS, STUDENTS, blob
+from lessons.measures.exercises import GRADERS, STUDENTS, blob, relative_verdict
+from lessons.measures.samples import with_small_half
 from workbench.exercise import (
     Function,
     Verdict,
     alternative,
-    band,
     check,
     contract,
     fail,
@@ -39,7 +39,7 @@ def points_on_faces(
     """Return a point on the mesh for each row of numbers: evenly spread, as the rows are over the unit cube.
 
     The first number picks the face, each as likely as it is large. With s the square root of the second and t the third,
-    the point is (1 - s) a + s (1 - t) b + s t c. Another way that is as even is as good.
+    the point is (1 - s) a + s (1 - t) b + s t c. (Another way that is as even earns as much.)
 
     Args:
         p: Vertices, metres, one row each.
@@ -70,10 +70,15 @@ def weights_of(q: np.ndarray, triangle: np.ndarray) -> np.ndarray:
     return np.column_stack([1 - found.sum(axis=1), found])
 
 
+def nothing(what: str, got: float, hint: str) -> Verdict:
+    """Judge a length that should be 0, up to a thousandth of a millimetre."""
+    return relative_verdict(what, max(got, 0.0), 0.0, hint, good=1e-4, fair=1e-1, size=1.0)
+
+
 def share_verdict(what: str, got: np.ndarray, right: np.ndarray, hint: str, good: float, fair: float) -> Verdict:
     """Judge shares of points by the largest difference, in per cent of all."""
     k = int(np.abs(got - right).argmax())
-    said = f"{what}: {100 * got[k]:.1f} % of the points where {100 * right[k]:.1f} % belong"
+    said = f"{what}: {100 * got[k]:.1f} % of the points lie in one of the parts, right is {100 * right[k]:.1f} %"
     off = 100 * abs(got[k] - right[k])
     if off <= good:
         return full(f"{said}.")
@@ -87,9 +92,7 @@ def points_lie_in_the_triangle(candidate: Function) -> Verdict:
     q = candidate(triangle, np.array([[0, 1, 2]]), even(8, STUDENTS))
     weights = weights_of(q, triangle)
     off = max(float(np.linalg.norm(weights @ triangle - q, axis=1).max()), float(-weights.min()))
-    return band(
-        "Farthest off the triangle", off, "m", good=1e-6, fair=1e-3, hint="Weights are not negative and add up to 1."
-    )
+    return nothing("Farthest off the triangle, m", off, "Weights are not negative and add up to 1.")
 
 
 @check(2)
@@ -130,15 +133,14 @@ def what_comes_in_is_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def a_whole_surface(candidate: Function) -> Verdict:
     """On a mesh of faces of many sizes every part gets its share, face by face."""
-    p, faces = blob(GRADERS)
-    q = candidate(p, faces, even(30, GRADERS))
+    p, faces = with_small_half(*blob(GRADERS))
+    q = candidate(p, faces, even(16, GRADERS))
     areas = face_areas(p, faces)
     middle = areas @ p[faces].mean(axis=1) / areas.sum()
     size = float(np.linalg.norm(np.ptp(p, axis=0)))
     off = 100 * float(np.linalg.norm(q.mean(axis=0) - middle)) / size
-    return band(
-        "Mean of the points off the surface's middle by", off, "% of the diagonal", good=0.7, fair=1.5, hint=AREA_HINT
-    )
+    what = "Mean of the points off the surface's middle, % of the diagonal"
+    return relative_verdict(what, off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
 
 
 @check(2, public=False)
@@ -159,8 +161,8 @@ def the_same_row_gives_the_same_point(candidate: Function) -> Verdict:
     u = even(7, GRADERS + 3)
     q, again = candidate(p, faces, u), candidate(p, faces, u[::-1].copy())
     off = float(np.linalg.norm(q - again[::-1], axis=1).max())
-    hint = "Use the rows of u and no numbers of your own."
-    return band("The same rows give points apart by", off, "m", good=1e-6, fair=1e-4, hint=hint)
+    hint = "Use the rows of u, in their order, and no numbers of your own."
+    return nothing("The same rows give points apart by, m", off, hint)
 
 
 @check(1, public=False)
@@ -172,9 +174,7 @@ def numbers_at_the_ends(candidate: Function) -> Verdict:
     u = np.array([[a, b, c] for a in (0.0, 1 - 1e-16) for b in (0.0, 1 - 1e-16) for c in (0.0, 1 - 1e-16)])
     weights = weights_of(candidate(triangle, one, u), triangle)
     off = float(-weights.min())
-    return band(
-        "Farthest off the triangle", off, "of an edge", good=1e-6, fair=1e-3, hint="Look at rows of 0 and of 1."
-    )
+    return nothing("Farthest off the triangle, in edges", off, "Look at rows of 0 and of nearly 1.")
 
 
 def _placed(p: np.ndarray, faces: np.ndarray, k: np.ndarray, weights: np.ndarray) -> np.ndarray:
@@ -225,15 +225,6 @@ def middles(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
 
 
 @alternative
-def folded(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """Folds the parallelogram back onto the triangle."""
-    s, t = u[:, 1].copy(), u[:, 2].copy()
-    beyond = s + t > 1
-    s[beyond], t[beyond] = 1 - s[beyond], 1 - t[beyond]
-    return _placed(p, faces, _by_area(p, faces, u), np.column_stack([1 - s - t, s, t]))
-
-
-@alternative
 def row_by_row(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """A loop over rows, with Heron's formula."""
     areas = []
@@ -248,5 +239,5 @@ def row_by_row(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
             left -= areas[k]
             k += 1
         a, b, c = p[faces[k]]
-        q[row] = a + (1 - np.sqrt(1 - s)) * (b - a) + np.sqrt(1 - s) * t * (c - a)
+        q[row] = a + np.sqrt(s) * (b - a) + np.sqrt(s) * t * (c - b)
     return q
