@@ -14,7 +14,7 @@ from jaxtyping import Float, Int
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
 
-_BLOCK = 8192  # faces at once
+_BLOCK = 2048  # faces at once
 
 
 def surface_area(p: Points, faces: Faces) -> float:
@@ -24,16 +24,16 @@ def surface_area(p: Points, faces: Faces) -> float:
         >>> surface_area(np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
         1.0
     """
-    return float(sum(np.sqrt(np.einsum("xf,xf->f", n, n)).sum() for n in _normals(p, faces)) / 2)
+    return float(sum(areas.sum() for areas in _double_areas(p, faces)) / 2)
 
 
 def signed_volume(p: Points, faces: Faces) -> float:
     """Return the volume inside a closed mesh, m^3, negative where it is turned inside out.
 
-    The sum is about the middle of the vertices, so that no digits are lost far from the origin. Of an open mesh it is the
-    volume of the cone from there.
+    The sum is about the first vertex, so that no digits are lost far from the origin. Of an open mesh it is the volume of
+    the cone from there.
     """
-    return volume_about(p, faces, p.mean(axis=0))
+    return volume_about(p, faces, p[0])
 
 
 def volume_about(p: Points, faces: Faces, origin: Float[np.ndarray, "3"]) -> float:
@@ -47,8 +47,8 @@ def volume_about(p: Points, faces: Faces, origin: Float[np.ndarray, "3"]) -> flo
         origin: The common tip of the tetrahedra, m.
     """
     total = 0.0
-    for (ax, bx, cx), (ay, by, cy), (az, bz, cz) in _blocks(p - origin, faces):
-        total += ax @ (by * cz - bz * cy) + ay @ (bz * cx - bx * cz) + az @ (bx * cy - by * cx)
+    for (ax, ay, az), (bx, by, bz), (cx, cy, cz) in _blocks(p, faces, origin):
+        total += (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)).sum()
     return float(total / 6)
 
 
@@ -72,7 +72,7 @@ def area_centroid(p: Points, faces: Faces) -> Float[np.ndarray, "3"]:
     Raises:
         ValueError: If the faces have no area.
     """
-    areas = np.concatenate([np.empty(0), *(np.sqrt(np.einsum("xf,xf->f", n, n)) for n in _normals(p, faces))])
+    areas = np.concatenate([np.empty(0), *_double_areas(p, faces)])
     if not areas.sum() > 0:
         raise ValueError("the faces have no area")
     return areas @ p[faces].mean(axis=1) / areas.sum()
@@ -105,16 +105,16 @@ def encloses(faces: Faces) -> bool:
     return bool(np.array_equal(np.sort(there), np.sort(back)))
 
 
-def _normals(p: Points, faces: Faces) -> Iterator[Float[np.ndarray, "3 b"]]:
-    """Yield the normals of some faces after the other, each as long as twice its area."""
-    for (ax, bx, cx), (ay, by, cy), (az, bz, cz) in _blocks(p, faces):
+def _double_areas(p: Points, faces: Faces) -> Iterator[Float[np.ndarray, " b"]]:
+    """Yield twice the areas of some faces after the other."""
+    for (ax, ay, az), (bx, by, bz), (cx, cy, cz) in _blocks(p, faces, np.zeros(3)):
         ux, uy, uz, wx, wy, wz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
-        yield np.stack([uy * wz - uz * wy, uz * wx - ux * wz, ux * wy - uy * wx])
+        yield np.sqrt((uy * wz - uz * wy) ** 2 + (uz * wx - ux * wz) ** 2 + (ux * wy - uy * wx) ** 2)
 
 
-def _blocks(p: Points, faces: Faces) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Yield x, y and z, each (3, b), of the corners of some faces after the other."""
-    x, y, z = np.ascontiguousarray(p.T)
+def _blocks(p: Points, faces: Faces, origin: Float[np.ndarray, "3"]) -> Iterator[Float[np.ndarray, "3 3 b"]]:
+    """Yield the corners a, b, c of some faces after the other, seen from the origin."""
+    rows = np.zeros((len(p), 4))  # of four numbers, which are gathered faster than of three
+    np.subtract(p, origin, out=rows[:, :3])
     for start in range(0, len(faces), _BLOCK):
-        corners = np.ascontiguousarray(faces[start : start + _BLOCK].T)
-        yield x.take(corners), y.take(corners), z.take(corners)
+        yield rows.take(faces[start : start + _BLOCK], axis=0).transpose(1, 2, 0)[:, :3]
