@@ -1,4 +1,4 @@
-"""What would tell the answers of the alignment lesson's questions."""
+"""Which sentences would tell the answers of the questions in the alignment lesson, as patterns; case does not matter."""
 
 GIVEAWAYS = {
     "predict-rotations": (r"\b(8|eight) rotations", r"after (8|eight)\b", r"Rotation 8"),

@@ -167,7 +167,7 @@ def who_changes_the_input_is_told_so(subject: Subject, exercise: Exercise) -> Fo
         result = exercise.reference(*args)
         for arg in args:
             if isinstance(arg, np.ndarray):
-                arg += 1
+                np.add(arg, 1, out=arg, casting="unsafe")  # bits too
         return result
 
     report = _graded(subject, exercise, spoiling)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import scipy
-from jaxtyping import Float, Int, UInt8
+from jaxtyping import Float, Int, Shaped, UInt8
 
 from workbench.data.arrays import read_arrays
 from workbench.data.formats import mesh_error, obj_points, pcd_points, ply_points, text_points
@@ -83,6 +83,25 @@ def _one_mesh(scene: Any, name: str) -> Any:
     if n > MOST_POINTS:
         raise InputError(f"{name}: {n:,} vertices; at most {MOST_POINTS:,} are read")
     return scene.to_mesh()
+
+
+def read_voxels(path: Path) -> Shaped[np.ndarray, "x y z"]:
+    """Return bits or labels on a regular grid, (x, y, z) whole numbers: of an npy file, or the only such array of an npz.
+
+    Raises:
+        InputError: If the file is missing, too large, not understood, or has no array of three axes, or several.
+    """
+    path = Path(path)
+    stamp(path)
+    content, kind = _content(path)
+    if kind not in (".npy", ".npz"):
+        raise InputError(f"{path.name}: {kind or 'no ending'}; voxels are read from npy and npz")
+    arrays = read_arrays(content, path.name)
+    found = [values for values in arrays.values() if values.ndim == 3 and values.dtype.kind in "biu" and values.size]
+    if len(found) != 1:
+        what = "no array" if not found else f"{len(found)} arrays"
+        raise InputError(f"{path.name}: {what} of three axes with bits or whole numbers; one is wanted")
+    return found[0]
 
 
 def read_image(path: Path) -> UInt8[np.ndarray, "h w *channels"]:

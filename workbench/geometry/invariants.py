@@ -2,6 +2,8 @@
 
 The mesh is measured before and after, and nothing is concluded from the matrix: which measures survive is what tells a
 rigid motion from a similarity, an affine or a projective map.
+
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., table 3.2: what survives which map of space.
 """
 
 from dataclasses import dataclass
@@ -9,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from workbench.geometry.meshes import boundary_edges, edges, face_angles, face_areas
+from workbench.geometry.measures import signed_volume, surface_area
+from workbench.geometry.meshes import boundary_edges, edges, face_angles
 
 MOST_EDGES = 64  # compared with each other for being parallel
 
@@ -59,16 +62,7 @@ def measure(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Measu
     volume = signed_volume(p, faces) if len(boundary_edges(faces)) == 0 else np.nan
     few = slice(0, MOST_EDGES)
     directions = v[few] / np.where(lengths[few] > 0, lengths[few], 1.0)[:, None]
-    return Measures(lengths, face_angles(p, faces), float(face_areas(p, faces).sum()), volume, directions)
-
-
-def signed_volume(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> float:
-    """Return the volume inside a closed mesh, negative where it is turned inside out.
-
-    Reference: the divergence theorem: one sixth of the sum of triple products of the faces' corners.
-    """
-    a, b, c = (p - p.mean(axis=0))[faces].transpose(1, 0, 2)  # about the middle: no digits are lost far from the origin
-    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
+    return Measures(lengths, face_angles(p, faces), surface_area(p, faces), volume, directions)
 
 
 def changes(before: Measures, after: Measures) -> tuple[Change, ...]:

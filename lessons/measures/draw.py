@@ -1,0 +1,181 @@
+"""What one step looks like: the shape, what was counted of it so far, and the charts of its errors."""
+
+import functools
+
+import numpy as np
+
+from lessons.measures.charts import beside
+from lessons.measures.samples import TRIANGLE
+from lessons.measures.state import State, Subject
+from lessons.measures.words import caption
+from workbench.algorithms.measures import Cells, Sums
+from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
+from workbench.geometry.meshes import edges
+from workbench.geometry.voxels import counted_surface
+from workbench.scene import Classes, Label, Mesh, Points, Primitive, Scene, Segments
+
+MOST_RAYS, MOST_EDGES, MOST_POINTS, MOST_LINES, MOST_SHOWN = 120, 5000, 6000, 120, 96
+CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+RIMS = CUBE[[[a, b] for a in range(8) for b in range(a) if np.abs(CUBE[a] - CUBE[b]).sum() == 1]]
+
+
+def draw(state: State) -> Scene:
+    """Return the picture of one step."""
+    now = state.now
+    scene: dict[str, Primitive] = {"caption": caption(state)}
+    if isinstance(now, Sums):
+        scene |= _faces(state, now)
+    elif isinstance(now, Cells):
+        scene |= _cells(state, now)
+    elif isinstance(now, Throws):
+        scene |= _throws(state, now)
+    elif isinstance(now, Lines):
+        scene |= _lines(state, now)
+    elif isinstance(now, Sampled):
+        scene |= _triangle(now) if state.in_triangle else _samples(state, now)
+    else:
+        scene |= _ball(now)
+    return scene | beside(state)
+
+
+@functools.lru_cache(maxsize=4)
+def _apart(subject: Subject) -> tuple[np.ndarray, np.ndarray]:
+    """Return the faces with corners of their own, so that each can have its colour."""
+    corners = subject.scale * subject.p[subject.faces].reshape(-1, 3)
+    return corners, np.arange(len(corners)).reshape(-1, 3)
+
+
+@functools.lru_cache(maxsize=4)
+def _shown(subject: Subject) -> np.ndarray:
+    return subject.scale * subject.p
+
+
+def _faint(subject: Subject, opacity: float = 0.25) -> Mesh:
+    return Mesh(_shown(subject), subject.faces, "target", opacity=opacity, name=subject.name)
+
+
+def _faces(state: State, now: Sums) -> dict[str, Primitive]:
+    subject, origin = state.subject, np.array(state.params.origin)
+    p, faces = _apart(subject)
+    added = np.zeros(len(faces), dtype=np.uint8)
+    done = now.order[: now.count]
+    added[done] = np.where(now.parts[done] < 0, 2, 1)
+    color = Classes(np.repeat(added, 3), ("neutral", "target", "wrong"), ("not yet", "counts plus", "counts minus"))
+    scene: dict[str, Primitive] = {
+        "surface": Mesh(p, faces, color, flat=True, name=subject.name),
+        "origin": Points(origin[None], "highlight", 0.04, name="origin"),
+    }
+    if len(_edges(subject)) <= MOST_EDGES:
+        scene["edges"] = Segments(_edges(subject), "neutral", 1, opacity=0.5, name="edges")
+    if len(subject.faces) < len(subject.whole):
+        scene["border"] = Segments(_rim(subject), "highlight", 4, name="border of the hole")
+    new = now.order[now.count - now.new : now.count]
+    if len(new) and now.count < len(faces):
+        few = new[:: -(-3 * len(new) // MOST_RAYS)]
+        corners = p.reshape(-1, 3, 3)[few].reshape(-1, 3)
+        sign = Classes(
+            np.repeat(added[few] == 2, 3).astype(np.uint8), ("target", "wrong"), ("counts plus", "counts minus")
+        )
+        rays = np.stack([np.broadcast_to(origin, corners.shape), corners], axis=1)
+        scene["tetrahedra"] = Segments(rays, sign, 1.5, name="tetrahedra")
+    return scene
+
+
+@functools.lru_cache(maxsize=4)
+def _edges(subject: Subject) -> np.ndarray:
+    return _shown(subject)[edges(subject.faces)]
+
+
+@functools.lru_cache(maxsize=4)
+def _rim(subject: Subject) -> np.ndarray:
+    """Return the edges of the whole mesh that have a face on one side only here."""
+    ends = np.sort(subject.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, times = np.unique(ends, axis=0, return_counts=True)
+    return subject.scale * subject.p[edges[times == 1]]
+
+
+def _cells(state: State, now: Cells) -> dict[str, Primitive]:
+    subject = state.subject
+    bits, grid = now.bits, now.grid
+    every = -(-max(bits.shape) // MOST_SHOWN)
+    if every > 1:
+        bits = bits[every // 2 :: every, every // 2 :: every, every // 2 :: every]
+        grid = type(grid)(grid.low, every * grid.spacing, bits.shape)
+    scene: dict[str, Primitive] = {"surface": _faint(subject, 0.3)}
+    if bits.any():
+        p, faces = counted_surface(bits, grid)
+        scene["cells"] = Mesh(subject.scale * p, faces, "source", flat=True, name="full cells")
+    return scene
+
+
+def _throws(state: State, now: Throws) -> dict[str, Primitive]:
+    subject = state.subject
+    low, high = subject.scale * subject.low, subject.scale * subject.high
+    return {
+        "surface": _faint(subject),
+        "box": Segments(low + (high - low) * RIMS, "neutral", 2, name="box"),
+        "throws": _thrown(subject.scale * now.q, now.inside),
+    }
+
+
+def _thrown(q: np.ndarray, inside: np.ndarray) -> Points:
+    radius = 0.03 if len(q) < 300 else 0.02 if len(q) < 1200 else 0.014
+    return Points(
+        q, Classes(inside.astype(np.uint8), ("correspondence", "source"), ("miss", "hit")), radius, name="throws"
+    )
+
+
+def _lines(state: State, now: Lines) -> dict[str, Primitive]:
+    subject = state.subject
+    few = now.ends[:MOST_LINES]
+    met = subject.scale * now.crossings
+    scene: dict[str, Primitive] = {
+        "surface": _faint(subject, 0.5),
+        "lines": Segments(subject.scale * few, "correspondence", 1.5, name="the last lines"),
+    }
+    if len(met):
+        scene["crossings"] = Points(met, "wrong", 0.018, name="crossings")
+    return scene
+
+
+def _triangle(now: Sampled) -> dict[str, Primitive]:
+    a, b, c = TRIANGLE
+    inner = np.array([a + b, b + c, c + a]) / 2
+    weights = np.linalg.lstsq(np.stack([b - a, c - a], axis=1), (now.q - a).T)[0].T
+    corner = np.column_stack([1 - weights.sum(axis=1), weights]) > 0.5
+    which = np.where(corner.any(axis=1), corner.argmax(axis=1), 3).astype(np.uint8)
+    color = Classes(which, ("source", "other", "highlight", "neutral"), ("at a", "at b", "at c", "in the middle"))
+    back, middle = np.array([0.0, 0.01, 0.0]), TRIANGLE.mean(axis=0)
+    names = {
+        f"corner {name}": Label(name, middle + 1.1 * (p - middle)) for name, p in zip("abc", TRIANGLE, strict=True)
+    }
+    return names | {
+        "surface": Mesh(TRIANGLE + back, np.array([[0, 1, 2]]), "target", opacity=0.25, name="one triangle"),
+        "quarters": Segments(np.stack([inner, np.roll(inner, 1, axis=0)], axis=1), "target", 2, name="its quarters"),
+        "points": Points(
+            now.q, color, 0.035 if len(now.q) < 300 else 0.02 if len(now.q) < 1000 else 0.011, name="points"
+        ),
+    }
+
+
+def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
+    subject = state.subject
+    q = now.q[-MOST_POINTS:]
+    half = Classes(
+        (subject.p[:, 0] > 0).astype(np.uint8), ("neutral", "other"), ("faces as they are", "faces cut in four")
+    )
+    two = subject.scale * np.stack([now.mean, state.middle])
+    return {
+        "surface": Mesh(_shown(subject), subject.faces, half, opacity=0.3, name=subject.name),
+        "points": Points(subject.scale * q, "source", 0.022 if len(q) < 1200 else 0.012, name="points"),
+        "mean": Points(two[:1], "wrong", 0.06, name="mean of the points"),
+        "middle": Points(two[1:], "truth", 0.06, name="middle of the surface"),
+        "miss": Segments(two[None], "wrong", 3, name="how far apart"),
+    }
+
+
+def _ball(now: Balls) -> dict[str, Primitive]:
+    return {
+        "box": Segments(2.0 * RIMS - 1.0, "neutral", 2, name="the cube's first three sides"),
+        "throws": _thrown(now.q, now.inside),
+    }

@@ -1,0 +1,40 @@
+"""What a finer mesh does to the sums over its faces."""
+
+import functools
+
+import numpy as np
+
+from lessons.measures.state import Params, Study
+from lessons.measures.subjects import built_in
+from workbench.geometry.measures import signed_volume, surface_area
+
+SECTORS = (4, 6, 8, 11, 16)
+POWERS = {"rings = sectors": 1, "rings = sectors²": 2, "rings = sectors³": 3}
+
+
+def study_of(params: Params) -> Study | None:
+    """Return the errors on ever finer meshes of a smooth shape; None where a shape has none, or was spoilt."""
+    spoilt = params.method != "faces" or params.hole or params.flipped
+    if spoilt or params.mesh is not None or params.voxels is not None:
+        return None
+    if params.shape == "lantern":
+        return _lanterns()
+    return _halved(params.shape) if params.shape in ("sphere", "torus") else None
+
+
+@functools.lru_cache(maxsize=2)
+def _halved(shape: str) -> Study:
+    meshes = [built_in(shape, subdivisions, 4, 4) for subdivisions in range(6)]
+    area = [abs(surface_area(one.p, one.faces) / one.area - 1) for one in meshes]
+    volume = [abs(signed_volume(one.p, one.faces) / one.volume - 1) for one in meshes]
+    counts = np.array([len(one.faces) for one in meshes], dtype=float)
+    return Study(faces=counts, errors={"area": np.array(area), "volume": np.array(volume)})
+
+
+@functools.cache
+def _lanterns() -> Study:
+    shares = {}
+    for name, power in POWERS.items():
+        made = [built_in("lantern", 0, sectors, sectors**power) for sectors in SECTORS]
+        shares[name] = np.array([surface_area(one.p, one.faces) / one.area for one in made])
+    return Study(faces=np.array(SECTORS, dtype=float), errors=shares)
