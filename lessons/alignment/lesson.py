@@ -72,6 +72,7 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=800,
+    needs=("transforms",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,
