@@ -1,5 +1,7 @@
 """Attacks on the grader: each is tried, costs its own call only, and the next honest call still works."""
 
+import subprocess
+import sys
 import textwrap
 import time
 
@@ -10,6 +12,8 @@ from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
 from workbench.exercise.grading import grade_file
 from workbench.exercise.sandbox import CallBudget, Student, StudentError
+from workbench.exercise.sandbox.pipe import _Deadline
+from workbench.exercise.sandbox.waiting import waited
 
 POINTS = np.arange(12.0).reshape(4, 3)
 
@@ -213,3 +217,32 @@ def test_all_calls_together_have_a_bound():
     for _ in range(30):
         patience.took(0.4, "")
     assert "together" in patience.over
+
+
+def test_waiting_for_a_processor_is_not_the_function_s_time():
+    now, lost = [0.0], [0.0]
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("workbench.exercise.sandbox.pipe.time.monotonic", lambda: now[0])
+        deadline = _Deadline(5.0, lambda: lost[0])
+        now[0] = 6.0
+        assert deadline.left() == pytest.approx(-1)
+        lost[0] = 4.0
+        assert deadline.left() == pytest.approx(3)
+        now[0], lost[0] = 51.0, 50.0
+        assert deadline.left() == pytest.approx(-1)  # ten times as long at most
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux counts it")
+def test_a_process_that_shares_one_processor_has_waited_for_it():
+    busy = "import os; os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})\nwhile True: pass"
+    pair = [subprocess.Popen([sys.executable, "-c", busy]) for _ in range(2)]
+    try:
+        end = time.monotonic() + 60
+        while min(waited(one.pid) for one in pair) < 0.3 and time.monotonic() < end:
+            time.sleep(0.05)
+        assert min(waited(one.pid) for one in pair) >= 0.3
+        assert waited(1 << 30) == 0.0
+    finally:
+        for one in pair:
+            one.kill()
+            one.wait()

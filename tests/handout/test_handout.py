@@ -4,9 +4,11 @@ import base64
 import io
 import json
 import os
+import signal
 import stat
 import subprocess
 import sys
+import time
 import tomllib
 import zipfile
 from pathlib import Path
@@ -56,7 +58,7 @@ def gradescope(tmp_path_factory):
     return out
 
 
-def scored(gradescope: Path, python: str, root: Path, submitted: dict[str, str] | Path, **environment: str) -> dict:
+def scored(gradescope: Path, python: str, root: Path, submitted: dict[str, str] | Path) -> dict:
     """Return what a submission's results.json says; it is there, and is what Gradescope documents."""
     if not isinstance(submitted, Path):
         folder = root / "handed in"
@@ -65,10 +67,7 @@ def scored(gradescope: Path, python: str, root: Path, submitted: dict[str, str] 
             (folder / name).write_text(text)
         submitted = folder
     root = lay_out_gradescope(root / "autograder", gradescope, submitted)
-    with pytest.MonkeyPatch.context() as patched:
-        for name, value in environment.items():
-            patched.setenv(name, value)
-        found = run(root / "run_autograder", root, python)
+    found = run(root / "run_autograder", root, python)
     jsonschema.validate(found, GRADESCOPE)
     assert sum(test["max_score"] for test in found["tests"]) == pytest.approx(43)
     return found
@@ -119,8 +118,22 @@ def test_gradescope_has_results_for_what_cannot_be_graded(gradescope, bare, tmp_
     assert said in found["output"]
 
 
-def test_gradescope_has_results_where_the_grader_runs_out_of_time(gradescope, bare, tmp_path):
-    found = scored(gradescope, bare, tmp_path, {"a.py": HANGS}, GRADER_SECONDS="4")
+def test_gradescope_has_results_where_the_grader_is_ended(gradescope, bare, tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "a.py").write_text(HANGS)
+    root = lay_out_gradescope(tmp_path / "autograder", gradescope, tmp_path / "in")
+    running = subprocess.Popen(
+        [root / "run_autograder", root], env=os.environ | {"GRADER_PYTHON": bare}, start_new_session=True,
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    results, end = root / "results" / "results.json", time.monotonic() + 120
+    while not (results.exists() and "ran out of time" in results.read_text()):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+    os.killpg(running.pid, signal.SIGKILL)
+    running.wait()
+    found = json.loads(results.read_text())
+    jsonschema.validate(found, GRADESCOPE)
     assert found["score"] == 0
     assert "ran out of time" in found["output"]
 

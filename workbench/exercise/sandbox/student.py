@@ -15,6 +15,7 @@ from workbench.errors import InputError
 from workbench.exercise.inside.wire import WireError
 from workbench.exercise.sandbox.budget import CallBudget
 from workbench.exercise.sandbox.pipe import Pipe
+from workbench.exercise.sandbox.waiting import waited
 from workbench.exercise.sandbox.walls import START_SECONDS, Wall, anonymous, best
 from workbench.exercise.submission import Submission, read_submission
 
@@ -96,7 +97,8 @@ class Student:
         return self.submission.source
 
     def _called(self, request: dict[str, Any]) -> dict[str, Any]:
-        seconds, began, how = self._budget.seconds if self._budget else self._seconds, time.monotonic(), ""
+        seconds, how = self._budget.seconds if self._budget else self._seconds, ""
+        began, before = time.monotonic(), self._lost()
         try:
             return self._ask(request, seconds)
         except StudentError as error:
@@ -104,7 +106,7 @@ class Student:
             raise
         finally:
             if self._budget is not None:
-                self._budget.took(time.monotonic() - began, how)
+                self._budget.took(time.monotonic() - began - max(0.0, self._lost() - before), how)
 
     def start(self) -> None:
         """Start the process and load the student's file.
@@ -176,7 +178,7 @@ class Student:
         assert self._pipe is not None
         nonce = secrets.token_hex(8)
         try:
-            reply = self._pipe.ask(request | {"nonce": nonce, "file": self.submission.file}, seconds)
+            reply = self._pipe.ask(request | {"nonce": nonce, "file": self.submission.file}, seconds, self._lost)
         except WireError as error:
             self._end()
             raise StudentError(f"{self.name}: what came back is no result ({error})", "result") from None
@@ -191,6 +193,10 @@ class Student:
         if "error" in reply:
             raise self._raised(reply, loading=request["do"] == "load")
         return reply
+
+    def _lost(self) -> float:
+        """Return how long the student's process has waited for a processor: a busy machine is not the function's fault."""
+        return 0.0 if self._process is None else waited(self._process.pid)
 
     def _raised(self, reply: dict[str, Any], loading: bool) -> StudentError:
         error, said, line = str(reply["error"])[:80], str(reply.get("message", ""))[:500], reply.get("line")
