@@ -46,6 +46,32 @@ def test_showing_one_scene_after_others_leaves_exactly_it(tmp_path_factory, orde
         assert shown_at(history, k) == shown_at(alone, 0)
 
 
+class Heard:
+    """A stream that keeps where something was logged, in order."""
+
+    def __init__(self):
+        self.where: list[str] = []
+
+    def set_time(self, *_args, **_kwargs) -> None:
+        pass
+
+    def log(self, where: str, *_said, **_kwargs) -> None:
+        self.where.append(where)
+
+
+def test_what_is_gone_is_said_in_the_order_in_which_it_came():
+    stream = Heard()
+    sink = RerunSink(stream)
+    sink.show(0, {path: one for path, one in SCENES[2].items() if not isinstance(one, Table)})
+    came = [where for where in dict.fromkeys(stream.where) if not where.startswith("/legend") and where != "/world"]
+    assert any(where.endswith("/frame") for where in came)
+    stream.where.clear()
+    sink.show(1, {"caption": SCENES[2]["caption"]})
+    gone = [where for where in stream.where if where in came]
+    assert gone == [where for where in came if where in gone]
+    assert {where for where in came if where.startswith("/charts")} <= set(gone)
+
+
 def test_everything_in_a_scene_is_shown(tmp_path):
     scene = SCENES[2]
     shown = shown_at(recorded([scene], tmp_path / "a.rrd"), 0)

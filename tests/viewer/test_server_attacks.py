@@ -10,7 +10,7 @@ import sys
 import threading
 import time
 import weakref
-from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
+from collections.abc import Iterator
 
 import msgspec
 import pytest
@@ -19,17 +19,15 @@ import websockets
 from tests import fake
 from tests.fake_page import CAMERA, FakePage
 from tests.loops import run_apart
+from tests.viewer.attacked import HERE, goes_on, meanwhile, until
 from workbench import links
 from workbench.knobs import fields_of
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
 from workbench.viewer import patience, scene_proxy
 from workbench.viewer import server as server_module
 from workbench.viewer.runs import Runs
 from workbench.viewer.server import Server
 from workbench.viewer.student import Student
-
-HERE = "?lesson=fake"
 
 
 @pytest.fixture(scope="module")
@@ -37,42 +35,6 @@ def server() -> Iterator[Server]:
     server = Server(links.Place(fake.lesson, fake.Params()))
     yield server
     server.stop()
-
-
-@contextlib.asynccontextmanager
-async def visiting(server: Server, query: str = HERE) -> AsyncIterator[FakePage]:
-    page = await FakePage(f"{server.address}/", query).open()
-    try:
-        await page.until(lambda page: page.run.get("finished"))
-        yield page
-    finally:
-        await page.close()
-
-
-async def goes_on(page: FakePage) -> None:
-    """See a page make a few steps."""
-    for k in (1, 4, 2, 0):
-        await page.seek(k)
-        assert page.step["step"]["caption"] == Timeline(fake.lesson, fake.Params()).complete()[k].caption.text
-
-
-async def until(holds: Callable[[], bool]) -> None:
-    async with asyncio.timeout(60):
-        while not holds():
-            await asyncio.sleep(0.02)
-
-
-def meanwhile(server: Server, attack: Callable[[FakePage], Awaitable[None]]) -> None:
-    """Attack a server while somebody works there; then see that nothing is left of anybody."""
-
-    async def all_of_it() -> None:
-        async with visiting(server) as page:
-            await attack(page)
-            await goes_on(page)
-        await until(lambda: not server.students and not server._scenes and not server.scenes.open)
-
-    run_apart(all_of_it())
-    assert len(server.runs.scheduler) == 0
 
 
 def test_silent_sockets_delay_nobody_and_are_closed_after_a_while(server, monkeypatch):

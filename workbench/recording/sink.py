@@ -67,7 +67,7 @@ class RerunSink:
         wanted = {entity: {aspect.name: aspect for aspect in said} for entity, said in self._entities(k, scene)}
         for entity, said in self._said.items():
             if not said.keys() <= wanted.get(entity, {}).keys():  # it, or a part of it, is gone
-                for suffix in {aspect.suffix for aspect in said.values()}:
+                for suffix in dict.fromkeys(aspect.suffix for aspect in said.values()):  # in the same order every time
                     self._stream.log(entity + suffix, gone(suffix))
         for entity, aspects_now in wanted.items():
             before = self._said.get(entity, {})
