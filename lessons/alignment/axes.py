@@ -26,7 +26,7 @@ FindAxes = Callable[[np.ndarray], np.ndarray]
 Sign = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """canonical_signs(axes, p) -> the axes with their signs."""
 
-TURNS, FRESH_TURNS = 200, 40
+TURNS, FRESH_TURNS = 100, 40
 MOST_ASKED = 2000  # points whose nearest neighbour is looked up
 
 

@@ -71,8 +71,7 @@ def _axes_stage(state: AxesState) -> dict[str, Primitive]:
 
 def _pairs_stage(state: PairsState) -> dict[str, Primitive]:
     scans, now = state.scans, state.now
-    apart = now.stage in ("pairs",)
-    T_world_source = np.eye(4) if apart else scans.T_world_target @ now.T_target_source
+    T_world_source = np.eye(4) if now.stage == "pairs" else scans.T_world_target @ now.T_target_source
     mirrored = np.linalg.det(now.T_target_source[:3, :3]) < 0
     scene = _scans(scans, T_world_source, "wrong" if mirrored else "source", " as a mirror image" if mirrored else "")
     rows = np.arange(0, len(scans.p_source), -(-len(scans.p_source) // MOST_PAIRS))
@@ -81,9 +80,9 @@ def _pairs_stage(state: PairsState) -> dict[str, Primitive]:
     if now.U is not None and now.V is not None and now.D is not None:
         reach = BEYOND * SIGMAS * np.sqrt(np.maximum(now.D, 1e-4))
         scene |= _lines("frame", scans.p_source.mean(axis=0), now.V * reach, "direction {}", "123", T_world_source)
-        scene |= _lines(
-            "target frame", scans.p_target.mean(axis=0), now.U * reach, "", "123", scans.T_world_target, opacity=0.4
-        )
+        if now.stage in ("cross", "in"):  # later they lie on each other
+            here = scans.p_target.mean(axis=0)
+            scene |= _lines("target frame", here, now.U * reach, "", "123", scans.T_world_target, opacity=0.4)
     if now.stage in ("flip", "scale"):
         scene |= _missed(scans, state.outcome, T_world_source)
     return scene

@@ -211,7 +211,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "predict-signs",
-        "Signs by the largest entry, as many libraries do. The same scan is turned at random, 200 times: how many percent"
+        "Signs by the largest entry, as many libraries do. The same scan is turned at random, 100 times: how many percent"
         " come home?",
         answer=lambda states: 100.0 * float(turns_of(states).home.mean()),
         why=lambda states: (

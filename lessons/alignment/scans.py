@@ -80,19 +80,17 @@ def _defective(p: np.ndarray, sample: Sample, params: Params, rng: np.random.Gen
         middle = p[:, 2].min() / 2 + p[:, 2].max() / 2
         more = (params.density - 1) * int(np.count_nonzero(p[:, 2] > middle))
         again = sample(params.density * len(p), rng)
-        p = np.concatenate([p, again[again[:, 2] > middle][:more]])
+        p = np.concatenate([p, np.resize(again[again[:, 2] > middle], (more, 3))])
     if params.seen < 1:
         p = p[np.argsort(p[:, 0], kind="stable")[: max(4, round(params.seen * len(p)))]]
     return p
 
 
 def _sampler(params: Params) -> Sample:
-    """Return what draws points of the shape; of an own cloud its points, again where more are wanted."""
+    """Return what draws points of the shape; of an own cloud some of its points, or all that it has."""
     if params.source is not None:
         p, _, _ = _framed(params.source, params.up)
-        return lambda count, rng: (
-            some_points(p, count, rng) if count <= len(p) else p[rng.integers(0, len(p), min(count, 5 * len(p)))]
-        )
+        return lambda count, rng: some_points(p, count, rng)
     if params.shape in ("rabbit", "vase"):
         return rabbit if params.shape == "rabbit" else vase
     size = {"box": (1.0, params.side, LOW), "plate": (1.0, params.side, 0.0), "cube": (1.0, 1.0, 1.0)}[params.shape]
