@@ -12,7 +12,7 @@ from lessons.measures.state import Params
 from workbench.data.files import read_mesh, read_voxels
 from workbench.errors import InputError
 from workbench.geometry.measures import area_centroid
-from workbench.scene import caption_of
+from workbench.scene import Mesh, caption_of
 
 
 def last_of(params: Params) -> Any:
@@ -37,7 +37,9 @@ def test_numbers_are_in_the_unit_of_the_file(cow):
     caption = caption_of(lesson.draw(last))
     assert caption.tone == "good"
     assert " mm³ (exact)" in caption.text
-    shown = lesson.draw(last)["surface"].p
+    surface = lesson.draw(last)["surface"]
+    assert isinstance(surface, Mesh)
+    shown = surface.p
     assert np.ptp(shown, axis=0).max() == pytest.approx(2.0)
     assert np.abs(shown.min(axis=0) + shown.max(axis=0)).max() < 1e-9
 
