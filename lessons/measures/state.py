@@ -83,7 +83,7 @@ class Subject:
         faces: Counterclockwise seen from outside.
         whole: The faces before a hole was cut or faces were turned round.
         low, high: The corners of its box.
-        smooth: Whether area and volume are those of a smooth shape, not of the mesh.
+        smooth: Whether area and volume are those of a smooth shape or of voxels, not of the mesh.
         area: The true area.
         volume: The true volume; NaN where nothing is enclosed.
         inside: Which points lie inside; None where nothing is enclosed.

@@ -164,9 +164,11 @@ def _voxels(
         return _every(bits, low, edges, round(float(grid.spacing[0] / edges[0])))[0]
 
     subject = _of_mesh(path.name, p, faces, unit, OWN_SIZE / float((edges * bits.shape).max()))
-    every = "" if finest == 1 else f" Its surface is made of every {finest}th voxel."
+    every = "" if finest == 1 else f" Its picture is made of one voxel in {finest} along each axis."
     return replace(
         subject,
+        smooth=True,
+        area=surface_area(*marched_surface(*_every(bits, low, edges, 1))) if finest > 1 else subject.area,
         volume=counted_volume(bits, edges),
         full=full,
         grids=tuple((max(grid.shape), grid) for grid in grids),

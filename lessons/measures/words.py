@@ -111,9 +111,10 @@ def _origin(subject: Subject) -> str:
 def _cells(state: State, now: Cells) -> Caption:
     subject, n = state.subject, now.across[-1]
     full = int(np.count_nonzero(now.bits))
+    whole = "the true area" if state.params.voxels is None else "the area by marching through all voxels"
     text = f"{n} cells across, {full:,} full: volume {volume(subject, now.volumes[-1])} ({off(state.volume_error)})."
     text += f" The walls between full and empty: {area(subject, now.areas[-1])}"
-    text += f", {fixed(now.areas[-1] / subject.area, 2)} times the true area"
+    text += f", {fixed(now.areas[-1] / subject.area, 2)} times {whole}"
     if np.isfinite(now.marched[-1]):
         text += f"; marching cubes: {fixed(now.marched[-1] / subject.area, 2)} times"
     return Caption(f"{text}.{subject.note if len(now.across) == 1 else ''}")
