@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.data.clouds import SHAPES, _rabbit_distance, pair, rabbit, vase
+from workbench.data.clouds import SHAPES, pair, vase
+from workbench.data.rabbit import rabbit
 from workbench.geometry.motions import apply, exp_so3, motion
 
 
@@ -20,22 +21,6 @@ def test_as_many_finite_points_as_asked_for_and_the_same_again(shape, count):
     assert np.isfinite(p).all()
     assert np.abs(p).max() <= 1.0
     np.testing.assert_array_equal(p, SHAPES[shape](count, np.random.default_rng(3)))
-
-
-def test_the_rabbit_lies_on_one_smooth_surface_with_few_holes():
-    p = rabbit(4000, np.random.default_rng(0))
-    assert np.abs(_rabbit_distance(p)[0]).max() < 1e-3
-    gaps = np.asarray(scipy.spatial.KDTree(p).query(p, k=2)[0])[:, 1]
-    assert gaps.max() < 6 * np.median(gaps)
-
-
-def test_the_gradient_is_that_of_the_distance():
-    p, h = rabbit(50, np.random.default_rng(1)) + 0.02, 1e-6
-    _, gradient = _rabbit_distance(p)
-    for axis in range(3):
-        step = h * np.eye(3)[axis]
-        difference = (_rabbit_distance(p + step)[0] - _rabbit_distance(p - step)[0]) / (2 * h)
-        np.testing.assert_allclose(gradient[:, axis], difference, atol=1e-6)
 
 
 def test_no_turn_takes_the_rabbit_to_itself_and_any_turn_the_vase():

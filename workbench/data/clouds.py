@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-from workbench.geometry.motions import apply, exp_so3, inverse
+from workbench.data.rabbit import rabbit
+from workbench.geometry.motions import apply, inverse
 
 Cloud = Float[np.ndarray, "n 3"]
 
@@ -28,42 +29,6 @@ class Pair:
     p_source: Float[np.ndarray, "n 3"]
     T_target_source: Float[np.ndarray, "4 4"]
     is_outlier: Bool[np.ndarray, "n"]
-
-
-# centre, radii, rotation vector (radians)
-_RABBIT = (
-    ((0.0, 0.0, -0.05), (0.36, 0.25, 0.27), (0.0, -0.25, 0.0)),  # body
-    ((0.27, 0.02, 0.24), (0.18, 0.14, 0.15), (0.0, 0.3, 0.0)),  # head
-    ((0.20, 0.09, 0.50), (0.05, 0.075, 0.23), (-0.2, -0.25, 0.1)),  # left ear, upright
-    ((0.10, -0.10, 0.42), (0.05, 0.075, 0.21), (0.45, -0.9, 0.0)),  # right ear, lying back
-    ((-0.36, 0.03, -0.02), (0.09, 0.09, 0.09), (0.0, 0.0, 0.0)),  # tail
-    ((0.25, 0.12, -0.24), (0.15, 0.065, 0.06), (0.0, 0.1, 0.15)),  # left front paw
-    ((0.21, -0.14, -0.25), (0.12, 0.065, 0.06), (0.0, 0.1, -0.3)),  # right front paw
-    ((-0.10, -0.21, -0.22), (0.19, 0.08, 0.09), (0.0, 0.0, -0.2)),  # right hind foot
-    ((-0.14, 0.20, -0.19), (0.17, 0.08, 0.12), (0.0, 0.0, 0.3)),  # left hind foot
-)
-_BLEND = 60.0  # 1/m: how sharply the blobs meet
-
-
-def rabbit(count: int, rng: np.random.Generator) -> Cloud:
-    """Return points on a rabbit: a smooth closed surface of blended ellipsoids that no motion takes to itself.
-
-    The points of each ellipsoid that lie inside another are left out, and the rest is projected onto the surface where
-    the smooth minimum of all ellipsoid distances is zero.
-    """
-    areas = np.array([_mean_product(radii) for _, radii, _ in _RABBIT])
-    pieces = []
-    for i, (centre, radii, turn) in enumerate(_RABBIT):
-        p = _ellipsoid(int(3 * count * areas[i] / areas.sum()) + 8, np.array(radii), rng)
-        p = p @ exp_so3(np.array(turn)).T + np.array(centre)
-        others = [_blob_distance(p, *blob)[0] for j, blob in enumerate(_RABBIT) if j != i]
-        pieces.append(p[np.min(others, axis=0) > 0])
-    p = np.concatenate(pieces)
-    p = p[rng.choice(len(p), count, replace=len(p) < count)]
-    for _ in range(4):  # Newton along the gradient
-        value, gradient = _rabbit_distance(p)
-        p = p - (value / np.einsum("ij,ij->i", gradient, gradient))[:, None] * gradient
-    return p
 
 
 def vase(count: int, rng: np.random.Generator) -> Cloud:
@@ -127,36 +92,3 @@ def pair(
 
 def _vase_radius(z: np.ndarray) -> np.ndarray:
     return 0.24 + 0.10 * np.sin(6.0 * z + 0.6) - 0.08 * z
-
-
-def _ellipsoid(count: int, radii: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """Return about half as many points as asked for, uniform on an ellipsoid: sphere points kept by their area."""
-    u = rng.standard_normal((count, 3))
-    u /= np.linalg.norm(u, axis=1, keepdims=True)
-    stretch = np.linalg.norm(u / radii, axis=1) * radii.min()
-    return (u * radii)[rng.random(count) < stretch]
-
-
-def _blob_distance(p: np.ndarray, centre: tuple, radii: tuple, turn: tuple) -> tuple[np.ndarray, np.ndarray]:
-    """Return roughly the signed distance to an ellipsoid, and its gradient."""
-    R = exp_so3(np.array(turn))
-    q = (p - np.array(centre)) @ R / np.array(radii)
-    norm = np.maximum(np.linalg.norm(q, axis=1), 1e-9)
-    scale = min(radii)
-    return scale * (norm - 1.0), scale * (q / norm[:, None] / np.array(radii)) @ R.T
-
-
-def _rabbit_distance(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the smooth minimum of the blobs' distances, and its gradient."""
-    found = [_blob_distance(p, *blob) for blob in _RABBIT]
-    values, gradients = np.stack([v for v, _ in found]), np.stack([g for _, g in found])
-    least = values.min(axis=0)
-    weights = np.exp(-_BLEND * (values - least))
-    total = weights.sum(axis=0)
-    return least - np.log(total) / _BLEND, np.einsum("bi,bij->ij", weights / total, gradients)
-
-
-def _mean_product(radii: tuple[float, float, float]) -> float:
-    """Return a number in proportion to an ellipsoid's area, roughly (Thomsen)."""
-    a, b, c = radii
-    return (((a * b) ** 1.6 + (a * c) ** 1.6 + (b * c) ** 1.6) / 3) ** (1 / 1.6)
