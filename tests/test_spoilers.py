@@ -82,6 +82,14 @@ GIVEAWAYS: dict[tuple[str, str], tuple[str, ...]] = {
     ("disparity", "nearer"): (r"20 m by", r"\b[45](\.0+)? m nearer", r"80 / 5", r"quadratic, not linear"),
     ("disparity", "averages"): (r"mean (of the depths|depth) is (further|larger|greater)", r"depths? averages? (too )?far"),
     ("disparity", "baseline"): (r"twice as (much|many)[^.]*hidden", r"half as (much|many)[^.]*hidden"),
+    ("graphs", "mutual"): (
+        r"\b2\d\d (components|pieces)", r"mutual[^.]*(falls apart|hundreds|many (pieces|components))",
+        r"both (ends|must)[^.]*(hundreds|many (pieces|components))",
+    ),
+    ("graphs", "club-right"): (r"(sign|vector|Fiedler)[^.]*3[0-4] of 34", r"all but two\b", r"not 2, 8"),
+    ("graphs", "longer"): (r"explode", r"grows without", r"blows? up[^-]", r"grows? at every step"),
+    ("graphs", "volume"): (r"\b6\d(\.\d)? %", r"a third of (its|the) volume", r"two thirds"),
+    ("graphs", "sixty-four"): (r"64[^.]*\b17\b", r"by chance alone", r"no better than", r"all (nodes|members) alike"),
     ("disparity", "window"): (r"fattened edges", r"balls have grown", r"window across an edge", r"swallows? edges"),
 }  # fmt: skip
 """For each question the sentences that tell its answer, as patterns; case does not matter."""
@@ -93,6 +101,7 @@ INNOCENT: dict[tuple[str, str], str] = {
     ): r"H is half the normal's length",  # a letter that is a choice stands in every sentence
     ("pinhole", "predict-rails"): r"rails stay 1\.5 m apart",  # of the rails, not of where they seem to meet
     ("ransac", "predict-two-planes"): r"beside a wall",  # the question's own words
+    ("graphs", "volume"): r"half way to the mean of its neighbours",  # how far a vertex goes
     ("disparity", "nearer"): r"A board 5 m away",  # where another question's board stands
     ("disparity", "baseline"): r"twice the baseline",  # the question's own words, and a choice's
 }
