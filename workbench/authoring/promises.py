@@ -177,6 +177,7 @@ def every_knob_goes_to_its_ends(subject: Subject) -> Found:
 def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
     """Where a knob says what it needs to have an effect, it has none while another knob is set otherwise."""
     fields = {field.name: field for field in fields_of(subject.lesson.params)}
+    plain: dict[Any, Timeline] = {}  # many knobs need the same
     for field in fields.values():
         for name, wanted in field.knob.needs.items():
             if name not in fields or fields[name].kind not in ("choice", "bool"):
@@ -184,12 +185,14 @@ def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
                 continue
             met = {other: values[0] for other, values in field.knob.needs.items()}
             for other in [value for value in ends(fields[name]) if value not in wanted]:
-                yield from _has_no_effect(subject, field, replace(subject.lesson.params(), **{**met, name: other}))
+                base = replace(subject.lesson.params(), **{**met, name: other})
+                if base not in plain:
+                    plain[base] = subject.fresh(base, "a run", MOST_STEPS)
+                yield from _has_no_effect(subject, field, base, plain[base])
 
 
-def _has_no_effect(subject: Subject, field: Field, base: Any) -> Found:
-    plain = subject.fresh(base, "a run", MOST_STEPS)
-    for value in ends(field):
+def _has_no_effect(subject: Subject, field: Field, base: Any, plain: Timeline) -> Found:
+    for value in [value for value in ends(field) if value != getattr(base, field.name)]:
         turned = subject.fresh(replace(base, **{field.name: value}), f"a run at {field.name} = {value}", MOST_STEPS)
         found = next(
             (path for one, two in zip(plain.known(), turned.known(), strict=False)

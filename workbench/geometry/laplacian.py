@@ -5,6 +5,7 @@ import scipy
 from jaxtyping import Float, Int
 
 from workbench.geometry.meshes import Corners, corners
+from workbench.geometry.spectra import Laplacian, smallest_eigenpairs
 
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
@@ -121,17 +122,8 @@ def eigenpairs(
     """
     if not 0 < count < len(p):
         raise ValueError(f"asked for {count} eigenpairs of a mesh with {len(p)} vertices")
-    root = np.sqrt(mixed_areas(p, faces))
-    scale = scipy.sparse.diags_array(1 / root)
-    # D L D with D = M^(-1/2) is symmetric, so that an ordinary symmetric factorisation and solver serve.
-    matrix = (scale @ cotangent_laplacian(p, faces) @ scale).tocsc()
-    shift = -1e-2 * 4 * np.pi / float(root @ root)
-    shifted = (matrix - shift * scipy.sparse.eye_array(len(p))).tocsc()
-    factor = scipy.sparse.linalg.splu(
-        shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    areas = mixed_areas(p, faces)
+    values, vectors = smallest_eigenpairs(
+        Laplacian(cotangent_laplacian(p, faces), areas).symmetric(), count, shift=-1e-2 * 4 * np.pi / float(areas.sum())
     )
-    inverse = scipy.sparse.linalg.LinearOperator(matrix.shape, matvec=factor.solve, dtype=float)
-    start = np.sin(np.arange(len(p)) ** 2.0)  # any start that is nowhere near a few eigenvectors
-    values, vectors = scipy.sparse.linalg.eigsh(matrix, count, sigma=shift, OPinv=inverse, v0=start)
-    order = np.argsort(values)
-    return values[order], vectors[:, order] / root[:, None]
+    return values, vectors / np.sqrt(areas)[:, None]

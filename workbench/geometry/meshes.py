@@ -12,6 +12,7 @@ import scipy
 from jaxtyping import Bool, Float, Int
 
 from workbench.errors import InputError
+from workbench.geometry.graphs import graph_of
 
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
@@ -139,9 +140,7 @@ def on_boundary(faces: Faces, count: int) -> Bool[np.ndarray, " {count}"]:
 
 def adjacency(faces: Faces, count: int) -> "scipy.sparse.csr_array":
     """Return the `count` x `count` matrix with a 1 where an edge joins two vertices."""
-    a, b = edges(faces).T
-    ones = np.ones(2 * len(a))
-    return scipy.sparse.csr_array((ones, (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(count, count))
+    return graph_of(edges(faces), count)
 
 
 def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.ndarray, " n"]]:

@@ -1,0 +1,190 @@
+"""What stands beside the picture: the matrix, the spectrum, cuts, error to the truth, and one node in numbers."""
+
+import numpy as np
+
+from lessons.graphs.measures import apart, from_clean, reached, right, volume_share
+from lessons.graphs.state import Grown, Matrix, Mode, State
+from workbench.algorithms.diffusion import Heat, Smoothed
+from workbench.algorithms.graph_network import Layer, Trained
+from workbench.algorithms.spectral_cut import Cut
+from workbench.geometry.graphs import Sparse, degrees
+from workbench.numerals import brief
+from workbench.scene import Curve, Field, Picture, Primitive, Scalar, Table
+
+LARGEST = 120  # pixels of a picture of a matrix
+FLOOR = 1e-16
+ROWS = 12
+
+
+def beside(state: State) -> dict[str, Primitive]:
+    """Return the charts, pictures and tables of a step."""
+    now = state.now
+    match now:
+        case Grown():
+            return _grown(state, now)
+        case Matrix():
+            return {"matrix": _picture(now), "node table": _node_table(state, now)}
+        case Mode():
+            return _spectrum(state, now)
+        case Cut():
+            return _cut(state, now)
+        case Heat():
+            return {
+                "error": Scalar(max(now.error, FLOOR), "error to the exact heat", "Heat", color="truth", log=True),
+                "hottest": Scalar(max(float(np.abs(now.u).max()), FLOOR), "largest heat", "Heat", log=True),
+            }
+        case Smoothed():
+            return _smoothed(state, now)
+        case Layer():
+            return _layer(state, now)
+        case Trained():
+            return _right(state) | {"loss": Scalar(now.loss, "loss of the two labels", "Loss", color="source")}
+
+
+def _grown(state: State, now: Grown) -> dict[str, Primitive]:
+    d = degrees(now.adjacency.astype(bool).astype(float))
+    counts = np.bincount(d.astype(int))
+    scene: dict[str, Primitive] = {
+        "components": Scalar(float(now.count), "components", "Components", color="wrong", log=True),
+        "degrees": Curve(np.arange(len(counts), dtype=float), counts.astype(float), "nodes", "Degrees",
+                         "neighbours", "nodes", "target", "bars"),
+    }  # fmt: skip
+    if now.k:
+        scene["one-way"] = Scalar(100 * now.one_way, "neighbours not returned", "One-way", "%", "source")
+    return scene
+
+
+def _picture(now: Matrix) -> Picture:
+    """Return a matrix as a picture, of a large one the entry of largest size in every block."""
+    values = _blocks(now.shown)
+    reach = max(float(np.abs(values).max()), 1e-9)
+    title = {
+        "adjacency": "A",
+        "degrees": "D",
+        "laplacian": "L = D − A",
+        "applied": "L = D − A",
+        "ordered": "L, reordered",
+    }
+    return Picture(Field(values, -reach, reach, "entries", map="diverging"), title[now.part])
+
+
+def _blocks(matrix: Sparse) -> np.ndarray:
+    n, entries = matrix.shape[0], matrix.tocoo()
+    size = -(-n // LARGEST)
+    side = -(-n // size)
+    values = np.zeros(side * side)
+    order = np.argsort(np.abs(entries.data), kind="stable")  # the largest of a block is written last, and stays
+    values[((entries.row // size) * side + entries.col // size)[order]] = entries.data[order]
+    return values.reshape(side, side)
+
+
+def _node_table(state: State, now: Matrix) -> Table:
+    """Return the row of L of the node that is looked at, applied to the places along x."""
+    node, x = state.vertex, state.subject.p[:, 0]
+    row = now.laplacian.matrix[[node]].tocoo()
+    others = [(int(j), -float(w)) for j, w in zip(row.col, row.data, strict=True) if j != node and w != 0]
+    rows = [
+        (f"to node {state.subject.called(j)}", brief(w), brief(x[node] - x[j]), brief(w * (x[node] - x[j])))
+        for j, w in others[:ROWS]
+    ]
+    if len(others) > ROWS:
+        rows.append((f"and {len(others) - ROWS} more", "", "", ""))
+    total = float((now.laplacian.matrix @ x)[node])
+    rows.append(("sum", brief(sum(w for _, w in others)), "", brief(total)))
+    return Table(f"Row {state.subject.called(node)} of L x", ("", "weight", "x − x′ (m)", "product"), tuple(rows))
+
+
+def _spectrum(state: State, now: Mode) -> dict[str, Primitive]:
+    scene: dict[str, Primitive] = {}
+    if now.spectra:
+        for k, chart in enumerate(("Eigenvalues of A", "Eigenvalues of L")):
+            for which, (spectrum, role) in enumerate(zip(now.spectra, ("target", "source"), strict=True)):
+                values = np.round(spectrum[k], 9) + 0.0
+                x = np.arange(len(values)) + 1.0 + 0.15 * which
+                name = f"{'left' if which == 0 else 'right'} graph"
+                scene[f"{chart} {name}"] = Curve(x, values, name, chart, "number", "", role, "dots")
+        return scene
+    number, count = np.arange(len(now.values)) + 1.0, len(now.values)
+    chart = "Eigenvalues"
+    scene["eigenvalues"] = Curve(number, np.round(now.values, 9) + 0.0, "of the graph", chart, "number", "λ",
+                                 "source", "dots", marks=(now.index + 1.0,))  # fmt: skip
+    true = state.subject.eigenvalues[:count]
+    if len(true) == count and state.params.laplacian in (
+        ("plain", "cotangent") if state.subject.of_surface else ("plain",)
+    ):
+        name = "of the surface" if state.subject.of_surface else "in closed form"
+        scene["true eigenvalues"] = Curve(number, np.round(true, 9) + 0.0, name, chart, "number", "λ", "truth", "line")
+        here = float(true[now.index])
+        error = 100 * abs(now.values[now.index] - here) / here if here > 1e-9 else np.nan
+        scene["error"] = Scalar(round(float(error), 6), "error of this eigenvalue", "Error to the truth", "%", "truth")
+    return scene
+
+
+def _cut(state: State, now: Cut) -> dict[str, Primitive]:
+    scene = _right(state)
+    if np.isfinite(now.conductance):
+        scene["conductance"] = Scalar(now.conductance, "conductance", "Conductance", color="source")
+    if len(now.fiedler):
+        values = np.sort(now.fiedler)
+        x = np.arange(len(values)) + 1.0
+        zero = float(np.count_nonzero(values <= 0)) + 0.5
+        scene["sorted"] = Curve(x, np.round(values, 9) + 0.0, "Fiedler vector", "Fiedler vector, sorted",
+                                "node in its order", "", "highlight", marks=(zero,))  # fmt: skip
+    if len(now.conductances):
+        x = np.arange(len(now.conductances)) + 1.0
+        mark = () if now.k < 0 else (now.k + 1.0,)
+        scene["cuts"] = Curve(x, now.conductances, "cut edges over the smaller side's degrees", "Conductance of the cuts",
+                              "nodes on the near side", "", "source", marks=mark)  # fmt: skip
+    return scene
+
+
+def _right(state: State) -> dict[str, Primitive]:
+    correct = right(state)
+    if correct is None:
+        return {}
+    share = 100 * correct / len(state.subject.p)
+    return {"right": Scalar(share, "nodes on their true side", "Right", "%", "truth")}
+
+
+def _smoothed(state: State, now: Smoothed) -> dict[str, Primitive]:
+    scene: dict[str, Primitive] = {
+        "error": Scalar(
+            from_clean(state, now.p), "RMS distance to the clean places", "Error to the truth", "edges", "truth"
+        )
+    }
+    share = volume_share(state)
+    if np.isfinite(share):
+        scene["volume"] = Scalar(100 * share, "volume", "Volume", "%", "source")
+    return scene
+
+
+def _layer(state: State, now: Layer) -> dict[str, Primitive]:
+    scene = _right(state)
+    if now.features.shape[1] == 2:
+        share = 100 * np.mean(reached(state))
+        scene["reached"] = Scalar(float(share), "nodes that a label has reached", "Right", "%", "correspondence")
+    scene["apart"] = Scalar(100 * apart(state), "what still differs between nodes", "Over-smoothing", "%", "highlight")
+    if len(state.subject.classes) and now.features.shape[1] != 2:
+        sums = [now.features[state.subject.classes == which].sum(axis=0) for which in (0, 1)]
+        rows = tuple((f"feature {k + 1}", brief(a), brief(b)) for k, (a, b) in enumerate(zip(*sums, strict=True)))
+        scene["readout"] = Table("Sum over the nodes", ("", "left graph", "right graph"), rows)
+    else:
+        scene["sum table"] = _sum_table(state, now)
+    return scene
+
+
+def _sum_table(state: State, now: Layer) -> Table:
+    """Return what a node gathers in the first layer, or what it has after a later one."""
+    node, row = state.vertex, now.matrix[state.vertex]
+    near = np.flatnonzero(row)
+    header = ("from", "weight", "feature 1", "feature 2")
+    if now.layer <= 1 and now.part != "layer":
+        source = state.first.features if isinstance(state.first, Layer) else now.features
+        rows = [(f"node {state.subject.called(j)}", brief(row[j]), *(brief(v) for v in source[j])) for j in near[:ROWS]]
+        if len(near) > ROWS:
+            rows.append((f"and {len(near) - ROWS} more", "", "", ""))
+        if now.part == "gathered":
+            rows.append(("sum", "", *(brief(v) for v in now.features[node])))
+        return Table(f"What node {state.subject.called(node)} gathers", header, tuple(rows))
+    rows = [(f"node {state.subject.called(node)}", "", *(brief(v) for v in now.features[node]))]
+    return Table(f"What node {state.subject.called(node)} gathers", header, tuple(rows))

@@ -1,0 +1,133 @@
+"""What one step looks like: nodes in the colours of what was computed, edges, and those that are cut."""
+
+import numpy as np
+
+from lessons.graphs.charts import beside
+from lessons.graphs.measures import predicted, reached
+from lessons.graphs.state import Grown, Matrix, Mode, State
+from lessons.graphs.words import caption
+from workbench.algorithms.diffusion import Heat, Smoothed
+from workbench.algorithms.graph_network import Layer, Trained
+from workbench.algorithms.spectral_cut import Cut
+from workbench.geometry.graphs import edges_of
+from workbench.scene import Classes, Color, Field, Mesh, Points, Primitive, Role, Scene, Segments
+
+MOST_EDGES = 12_000
+PARTS: tuple[tuple[Role, ...], tuple[str, ...]] = (
+    ("target", "other", "highlight", "wrong"),
+    ("largest component", "second largest", "third", "smaller ones"),
+)
+SIDES: tuple[tuple[Role, ...], tuple[str, ...]] = (("target", "source"), ("one side", "other side"))
+TOLD: tuple[tuple[Role, ...], tuple[str, ...]] = (
+    ("target", "source", "neutral"),
+    ("says one group", "says the other", "says nothing"),
+)
+
+
+def draw(state: State) -> Scene:
+    """Return the picture of one step."""
+    subject, now = state.subject, state.now
+    p = now.p if isinstance(now, Smoothed) else subject.p
+    color = _color(state)
+    scene: dict[str, Primitive] = {"nodes": Points(p, color, subject.radius, name="nodes"), "caption": caption(state)}
+    if len(subject.faces):
+        scene["surface"] = Mesh(p, subject.faces, color, name="surface")
+    scene |= _edges(state, p) | _marks(state, p)
+    return scene | beside(state)
+
+
+def _color(state: State) -> Color:
+    now = state.now
+    match now:
+        case Grown():
+            return Classes(np.minimum(now.parts, 3), *PARTS)
+        case Matrix():
+            return _matrix_color(state, now)
+        case Mode():
+            return _signed(now.functions[:, now.index], f"eigenvector {now.index + 1}")
+        case Heat():
+            return _signed(now.u, "heat")
+        case Smoothed():
+            off = np.linalg.norm(now.p - state.subject.p, axis=1)
+            return Field(1000 * off, 0.0, max(float(1000 * off.max()), 1e-6), "distance to the clean place", "mm")
+        case Cut():
+            if now.phase == "graph":
+                return "target"
+            return (
+                _signed(now.fiedler, "Fiedler vector") if now.phase == "fiedler" else Classes(predicted(state), *SIDES)
+            )
+        case Layer() if now.features.shape[1] != 2:
+            value = np.round(now.features[:, 0], 9)
+            return Field(value, 0.0, max(float(value.max()), 1e-6), "first feature")
+        case Layer() | Trained():
+            told = predicted(state)
+            return Classes(np.where(told < 0, 2, told), *TOLD)
+
+
+def _signed(values: np.ndarray, title: str) -> Field:
+    reach = max(float(np.abs(values).max(initial=0.0)), 1e-9)
+    return Field(values, -reach, reach, title, map="diverging")
+
+
+def _matrix_color(state: State, now: Matrix) -> Color:
+    if now.part == "applied":
+        return _signed(now.laplacian(state.subject.p[:, 0]), "L applied to x")
+    if now.part == "ordered":
+        place = np.empty(len(now.order))
+        place[now.order] = np.arange(len(now.order))
+        return Field(place, 0.0, max(len(place) - 1.0, 1.0), "place in the new order")
+    if now.part == "degrees":
+        d = now.laplacian.matrix.diagonal()
+        return Field(d, 0.0, max(float(d.max()), 1e-9), "degree")
+    return "target"
+
+
+def _edges(state: State, p: np.ndarray) -> dict[str, Primitive]:
+    """Draw the edges: one-way ones of a growing graph apart, and those that a cut goes through."""
+    now, edges = state.now, edges_of(state.adjacency)
+    p = p + below(state)
+    if len(edges) > MOST_EDGES or (len(state.subject.faces) and not isinstance(now, Cut | Grown)):
+        return {}
+    if isinstance(now, Grown) and now.k:
+        mutual = now.directed.minimum(now.directed.T).tocsr()
+        both = np.isin(edges @ [len(p), 1], edges_of(mutual) @ [len(p), 1])
+        return {
+            "edges": Segments(p[edges[both]], "correspondence", 1.5, name="edges named from both ends"),
+            "one-way edges": Segments(p[edges[~both]], "source", 1.5, name="named from one end"),
+        }
+    if isinstance(now, Cut) and len(now.side):
+        through = now.side[edges[:, 0]] != now.side[edges[:, 1]]
+        return {
+            "edges": Segments(p[edges[~through]], "correspondence", 1.2, opacity=0.6, name="edges"),
+            "cut edges": Segments(p[edges[through]], "wrong", 4.0, name="edges that are cut"),
+        }
+    return {"edges": Segments(p[edges], "correspondence", 1.2, opacity=0.6, name="edges")}
+
+
+def _marks(state: State, p: np.ndarray) -> dict[str, Primitive]:
+    """Draw rims: of the node that is looked at, of labelled nodes, and of nodes that are told wrongly."""
+    now, subject, scene = state.now, state.subject, dict[str, Primitive]()
+    under = below(state)
+    if isinstance(now, Matrix | Heat | Layer):
+        node = state.vertex
+        scene["vertex"] = Points(
+            p[[node]] + under, "highlight", 1.7 * subject.radius, name=f"node {subject.called(node)}"
+        )
+        near = state.adjacency[[node]].indices
+        if isinstance(now, Matrix | Layer) and len(near):
+            ends = np.stack([np.repeat(p[[node]], len(near), axis=0), p[near]], axis=1) + 2 * under
+            scene["its edges"] = Segments(ends, "highlight", 3.0, name="its edges")
+    told, classes = predicted(state), subject.classes
+    if len(told) and len(classes) and not isinstance(now, Cut):
+        misses = (told != classes) & (told >= 0) & reached(state)
+        if misses.any():
+            scene["misses"] = Points(p[misses] + under, "wrong", 1.5 * subject.radius, name="told wrongly")
+    if isinstance(now, Trained) or (isinstance(now, Layer) and now.features.shape[1] == 2):
+        ends = list(subject.labelled)
+        scene["labelled"] = Points(p[ends] + 2 * under, "truth", 1.9 * subject.radius, name="nodes with a label")
+    return scene
+
+
+def below(state: State) -> np.ndarray:
+    """Return how far what lies behind the nodes of a flat graph is drawn below them."""
+    return np.array([0.0, 0.0, -0.5 * state.subject.radius if state.subject.flat else 0.0])

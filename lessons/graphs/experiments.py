@@ -1,0 +1,231 @@
+"""Experiments with graphs, and what to predict before looking."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lessons.graphs.measures import right, volume_share
+from lessons.graphs.state import Grown, Params, State
+from workbench.algorithms.diffusion import Heat, Smoothed
+from workbench.lesson import Preset, Question, View
+from workbench.numerals import counted, fixed_or_power, percent
+
+VIEW = View(eye=(0.0, 0.0, 3.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+RABBIT = View(eye=(0.82, -1.5, 0.75), target=(0.0, 0.0, 0.15), grid=None, axes=False)
+BALL = View(eye=(1.9, -2.2, 1.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+
+SIGN = 2  # the step of a cut that cuts by sign
+ONE_WAY = Params(graph="rabbit", stage="graph", points=1500)
+MUTUAL = Params(graph="rabbit", stage="graph", points=1500, k=3, join="mutual")
+MATRIX = Params(graph="karate", stage="matrix")
+NECK = Params(graph="rabbit mesh")
+UNBALANCED = Params(share=0.9)
+SPLIT = Params(points=200, bridge=0, numbering=2)
+SQUARE = Params(graph="grid", columns=10, numbering=2)
+CLUB = Params(graph="karate")
+PLAIN_SPHERE = Params(graph="sphere", points=1000, stage="spectrum", modes=16)
+COTANGENT_SPHERE = Params(graph="sphere", points=1000, stage="spectrum", modes=16, laplacian="cotangent")
+UNEVEN = Params(graph="uneven sphere", points=1500, k=10, stage="spectrum", modes=16)
+TWINS = Params(graph="star and square", stage="spectrum", modes=2)
+WARM = Params(graph="rabbit mesh", stage="heat", steps=100)
+BLOW_UP = Params(graph="rabbit mesh", stage="heat", steps=100, step_size=2.5)
+SHRINK = Params(graph="rabbit mesh", stage="smooth")
+TAUBIN = Params(graph="rabbit mesh", stage="smooth", filter="taubin")
+LAYER = Params(graph="karate", stage="network")
+DEEP = Params(graph="karate", stage="network", layers=64)
+TRAINED = Params(graph="karate", stage="training")
+DEEPER = Params(graph="karate", stage="training", layers=8, seed=4)
+SAME = Params(graph="hexagon and triangles", stage="network", layers=3)
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "one-way", "Neighbour is not mutual",
+        "The nearest neighbour of 1,500 points often has another one nearer to itself: orange edges are named from one end.",
+        ONE_WAY, 0, RABBIT,
+    ),
+    Preset(
+        "matrix", "A club as a matrix",
+        "34 members, 78 friendships. Go to the last step: the same matrix, numbered by the second eigenvector of L.",
+        MATRIX, 2,
+    ),
+    Preset(
+        "neck", "Where is a rabbit thin?",
+        "The second eigenvector of its mesh runs along its longest way. The best cut along it is where few edges hold.",
+        NECK, -1, RABBIT,
+    ),
+    Preset(
+        "unbalanced", "The sign is not the best cut",
+        "Nine in ten points are on the left. The vector's sign cuts through the big half; its best cut finds the bridge.",
+        UNBALANCED, SIGN, breaks=True,
+    ),
+    Preset(
+        "split", "Two pieces, no cut",
+        "Without a bridge 0 is an eigenvalue twice. Any mixture of the two constants is a second eigenvector: turn"
+        " `numbering`.",
+        SPLIT, SIGN, breaks=True,
+    ),
+    Preset(
+        "square", "Equal eigenvalues",
+        "On a square grid two eigenvectors share λ₂, and any mixture is one too: turn `numbering`, and the cut turns.",
+        SQUARE, SIGN, breaks=True,
+    ),
+    Preset(
+        "club", "Zachary's karate club",
+        "Before the club broke in two, who met whom? The second eigenvector knows nothing but the friendships.",
+        CLUB, 1,
+    ),
+    Preset(
+        "sphere", "A graph is not the surface",
+        "L = D − A knows edges, not lengths. Where a sphere has λ = 12 seven times, this graph has 11 to 12.6: two groups.",
+        PLAIN_SPHERE, 9, BALL, breaks=True,
+    ),
+    Preset(
+        "cotangent", "Cotangents know the surface",
+        "The same sphere with weights from its angles: all seven are within 1.5 % of 12, and a vertex may stray.",
+        COTANGENT_SPHERE, 9, BALL,
+    ),
+    Preset(
+        "uneven", "Where the points are dense",
+        "Four times as many points on the upper half: the three slowest should be alike and are not. A graph sees samples.",
+        UNEVEN, 3, BALL, breaks=True,
+    ),
+    Preset(
+        "twins", "Two graphs, one spectrum",
+        "A star, and a square with a lone node: both adjacency matrices have the same eigenvalues. L tells them apart.",
+        TWINS, 0, breaks=True,
+    ),
+    Preset(
+        "warm", "Heat from an ear",
+        "Each step is u ← u − dt L u. The error to the exact heat falls as the fast parts die out.",
+        WARM, 30, RABBIT,
+    ),
+    Preset(
+        "blow-up", "A longer step",
+        "dt = 2.5 / λmax, two and a half times as long as in the run before. What becomes of the heat? Play it.",
+        BLOW_UP, 0, RABBIT, breaks=True,
+    ),
+    Preset(
+        "shrink", "Smoothing eats volume",
+        "Half way to the neighbours' mean, again and again: noise goes in a few rounds, then ears and feet go.",
+        SHRINK, 5, RABBIT, breaks=True,
+    ),
+    Preset(
+        "taubin", "Two steps in, two back",
+        "Taubin's filter follows each step inwards by a slightly longer one outwards: noise goes, the volume stays.",
+        TAUBIN, -1, RABBIT,
+    ),
+    Preset(
+        "layer", "One layer, in parts",
+        "Two members of the karate club have a label. See in the table what the one you click gathers from its friends.",
+        LAYER, 3,
+    ),
+    Preset(
+        "deep", "Sixty-four layers",
+        "More layers hear from farther away. Everybody has heard after two: what do the other 62 add? Play it.",
+        DEEP, 4, breaks=True,
+    ),
+    Preset(
+        "trained", "Two labels, trained",
+        "Two layers, eight hidden features, 200 steps of Adam on two labelled nodes: most of the others follow.",
+        TRAINED, 0,
+    ),
+    Preset(
+        "deeper", "Eight layers, trained",
+        "The same with eight layers, by other first weights. The loss is what training lowers: watch what is right.",
+        DEEPER, 0, breaks=True,
+    ),
+    Preset(
+        "same", "A hexagon or two triangles?",
+        "Every node has two neighbours and the same features, so every message is the same too, whatever the weights.",
+        SAME, 0, breaks=True,
+    ),
+)  # fmt: skip
+
+
+def _components(states: Sequence[State]) -> int:
+    now = states[-1].now
+    assert isinstance(now, Grown)
+    return now.count
+
+
+def _hottest(states: Sequence[State]) -> float:
+    now = states[-1].now
+    assert isinstance(now, Heat)
+    return float(np.abs(now.u).max())
+
+
+def _right(states: Sequence[State], step: int = -1) -> int:
+    correct = right(states[step])
+    assert correct is not None
+    return correct
+
+
+def _volume(states: Sequence[State]) -> float:
+    assert isinstance(states[-1].now, Smoothed)
+    return volume_share(states[-1])
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        "mutual",
+        "1,500 points on a rabbit name their 3 nearest neighbours. With an edge where either end names the other, all hang"
+        " together. And where both must?",
+        lambda states: int(np.searchsorted([2, 100], _components(states), side="right")),
+        lambda states: (
+            f"{counted(_components(states), 'component')}: a quarter of the namings are not returned, and a point on its own"
+            " needs only three that are not."
+        ),
+        MUTUAL,
+        choices=("They still do", "They fall into a few dozen components", "They fall into hundreds"),
+    ),
+    Question(
+        "club-right",
+        "The sign of the second eigenvector of L puts the 34 members of a karate club on two sides, from friendships"
+        " alone. How many members does it put with the club that they later joined?",
+        lambda states: float(_right(states, SIGN)),
+        lambda states: (
+            f"{_right(states, SIGN)} of 34. With friendships weighted by how often friends met, it is one more: only"
+            " node 8 is left over, who sided with the officers and joined the instructor."
+        ),
+        CLUB,
+        unit="members",
+        tolerance=1.5,
+        step=SIGN,
+    ),
+    Question(
+        "longer",
+        "Heat on the rabbit's mesh is stepped with dt = 2.5 / λmax instead of 1 / λmax. What happens in 100 steps?",
+        lambda states: 2 if _hottest(states) > 10 else 1 if _hottest(states) > 0.1 else 0,
+        lambda states: (
+            f"The largest heat is {fixed_or_power(_hottest(states), 0)} in the end. A step multiplies each eigenvector by"
+            " 1 − dt λ, and for the largest λ that is −1.5."
+        ),
+        BLOW_UP,
+        choices=("It settles sooner", "It swings and settles later", "It grows without bound"),
+    ),
+    Question(
+        "volume",
+        "The rabbit's mesh with noise is smoothed 50 times, each vertex going half way to the mean of its neighbours. How"
+        " much of its volume is left?",
+        lambda states: 100 * _volume(states),
+        lambda states: (
+            f"{percent(_volume(states), 0)}. The mean of the neighbours lies inwards wherever the surface bulges, so every"
+            " round takes from all bulges, and most from thin ones."
+        ),
+        SHRINK,
+        unit="%",
+        tolerance=12.0,
+    ),
+    Question(
+        "sixty-four",
+        "Two labels of the karate club spread by layers of a graph network. After 4 layers all but one are on their own"
+        " club's side. And after 64?",
+        lambda states: int(np.argmin([abs(_right(states) - few) for few in (34, 30, 17)])),
+        lambda states: (
+            f"{_right(states)}: as many as if all were given one label. Every layer makes neighbours more alike, until a"
+            " node's features tell nothing but how many neighbours it has."
+        ),
+        DEEP,
+        choices=("All", "Some 30", "17, as many as by chance"),
+    ),
+)

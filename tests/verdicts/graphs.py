@@ -1,0 +1,419 @@
+"""What the graphs lesson says of its runs, decided from edges and nodes with dense matrices, apart from its core."""
+
+import functools
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from lessons.graphs.state import Grown, Mode, State
+from lessons.graphs.words import caption
+from tests.readings import NUMBER, POWER, near, number, says_percent
+from tests.verdicts import Claim, Run
+from workbench.algorithms.diffusion import Heat, Smoothed
+from workbench.algorithms.graph_network import Layer, Trained
+from workbench.algorithms.spectral_cut import Cut
+
+__all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
+
+VALUE = rf"(?P<value>{POWER})"
+
+
+def kept(work: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """Keep what was made of the last matrix: the steps of a run share it, and often the runs of other seeds."""
+    last: list[Any] = [None, None]
+
+    def found(adjacency: Any) -> Any:
+        content = adjacency.shape, adjacency.indices.tobytes(), adjacency.data.tobytes()
+        if last[0] != content:
+            last[:] = content, work(adjacency)
+        return last[1]
+
+    return found
+
+
+dense = kept(lambda adjacency: adjacency.toarray())
+
+
+def A(state: State) -> np.ndarray:
+    return dense(state.adjacency)
+
+
+def told(state: State) -> np.ndarray:
+    """The class that each node is given, of a cut the better way round; -1 where none is."""
+    now, classes = state.now, state.subject.classes
+    if isinstance(now, Cut):
+        side = now.side.astype(int)
+        return side if not len(classes) or np.sum(side == classes) >= np.sum(side != classes) else 1 - side
+    if isinstance(now, Trained):
+        return np.argmax(now.scores, axis=1)
+    assert isinstance(now, Layer)
+    a, b = now.features.T
+    return np.where(np.isclose(a, b, rtol=0, atol=1e-9 * np.abs(now.features).max()), -1, np.where(b > a, 1, 0))
+
+
+def correct(state: State) -> int:
+    return int(np.sum(told(state) == state.subject.classes))
+
+
+def off(state: State, p: np.ndarray) -> float:
+    """RMS distance from the clean places, in mean edges."""
+    i, j = np.nonzero(np.triu(A(state), 1))
+    clean = state.subject.p
+    return float(
+        np.sqrt(np.mean(np.sum((p - clean) ** 2, axis=1))) / np.mean(np.linalg.norm(clean[i] - clean[j], axis=1))
+    )
+
+
+def volume(p: np.ndarray, faces: np.ndarray) -> float:
+    return float(np.linalg.det(p[faces]).sum() / 6)
+
+
+def right(run: Run, k: int) -> bool | None:
+    state = run.states[k]
+    now, last = state.now, k == len(run.states) - 1
+    if isinstance(now, Heat):
+        if np.abs(now.u).max() > 1 + 1e-9:
+            return False
+        return True if last and exact_error(run, k) < 0.01 else None
+    if isinstance(now, Smoothed) and last:
+        first, end = off(state, run.states[0].now.p), off(state, now.p)
+        return False if end > first else True if end < 0.9 * first else None
+    if not len(state.subject.classes) or not (last or (isinstance(now, Cut) and now.phase == "sign")):
+        return None
+    if isinstance(now, Cut | Trained) or (isinstance(now, Layer) and now.features.shape[1] == 2):
+        share = correct(state) / len(state.subject.classes)
+        return True if share >= 0.9 else False if share < 0.75 else None
+    return None
+
+
+@kept
+def _modes(adjacency):
+    a = adjacency.toarray()
+    return np.linalg.eigh(np.diag(a.sum(axis=1)) - a)
+
+
+def exact_error(run: Run, k: int) -> float:
+    """The largest error of the heat at a step, beside exp(-t L) by all eigenvectors."""
+    state = run.states[k]
+    values, vectors = _modes(state.adjacency)
+    t = k * run.params.step_size / values[-1]
+    exact = vectors @ (np.exp(-t * values) * (vectors.T @ run.states[0].now.u))
+    return float(np.abs(state.now.u - exact).max())
+
+
+# captions ---------------------------------------------------------------------------------------------------------------
+
+
+def _true_sides(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    misses = np.flatnonzero(told(state) != state.subject.classes)
+    named = [] if not m["nodes"] else [int(number(one)) for one in re.split(r", (?=\d)", m["nodes"])]
+    good = number(m["n"]) == correct(state) and number(m["all"]) == len(state.subject.p)
+    return good and (named == misses.tolist() if named else not 0 < len(misses) <= 3)
+
+
+def _cut(run: Run, k: int, m: re.Match[str]) -> bool:
+    now, a = run.states[k].now, A(run.states[k])
+    assert isinstance(now, Cut)
+    cut = a[np.ix_(now.side, ~now.side)].sum()
+    smaller = min(a[now.side].sum(), a[~now.side].sum())
+    phi = cut / smaller if smaller else 1.0
+    sizes = number(m["near"]) == now.side.sum() and number(m["far"]) == (~now.side).sum()
+    return bool(sizes and near(m["cut"], cut) and near(m["phi"], phi, 2))
+
+
+def _least(run: Run, k: int, m: re.Match[str]) -> bool:
+    """No cut along the vector is better."""
+    now, a = run.states[k].now, A(run.states[k])
+    assert isinstance(now, Cut)
+    order = np.argsort(now.fiedler, kind="stable")
+    a, d = a[np.ix_(order, order)], a.sum(axis=1)[order]
+    best = np.inf
+    for i in range(1, len(order)):
+        smaller = min(d[:i].sum(), d[i:].sum())
+        best = min(best, a[:i, i:].sum() / smaller if smaller else 1.0)
+    return abs(best - now.conductance) < 1e-9
+
+
+def _parts(adjacency: np.ndarray) -> list[int]:
+    """The sizes of the components, by walking."""
+    a, b = np.nonzero(adjacency)
+    friends = [set(some.tolist()) for some in np.split(b, np.searchsorted(a, np.arange(1, len(adjacency))))]
+    left, sizes = set(range(len(adjacency))), []
+    while left:
+        front, seen = {left.pop()}, 1
+        while front:
+            node = front.pop()
+            near_by = friends[node] & left
+            left -= near_by
+            front |= near_by
+            seen += len(near_by)
+        sizes.append(seen)
+    return sorted(sizes, reverse=True)
+
+
+def _pieces(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    a = state.adjacency.toarray()
+    return number(m["edges"]) == np.triu(a, 1).astype(bool).sum() and number(m["parts"]) == len(
+        _parts(np.maximum(a, a.T))
+    )
+
+
+def _one_way(run: Run, k: int, m: re.Match[str]) -> bool:
+    now = run.states[k].now
+    assert isinstance(now, Grown)
+    apart = np.linalg.norm(run.states[k].subject.p[:, None] - run.states[k].subject.p, axis=2)
+    np.fill_diagonal(apart, np.inf)
+    names = apart <= np.partition(apart, now.k - 1, axis=1)[:, now.k - 1 : now.k]
+    return says_percent(m["share"], 1 - (names & names.T).sum() / names.sum())
+
+
+def _mode(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    now = state.now
+    assert isinstance(now, Mode)
+    if run.params.laplacian != "plain":
+        return True  # of the mesh: beside the truth, which is claimed apart
+    values = _modes(state.adjacency)[0]
+    scale = 2 / values[1:4].mean() if state.subject.of_surface and len(now.values) > 3 else 1.0
+    return near(m["value"], values[now.index] * scale)
+
+
+def _reached(run: Run, k: int, m: re.Match[str]) -> bool:
+    """So many nodes are at most so many edges from a label, and so many are right."""
+    state = run.states[k]
+    now, a = state.now, A(state) > 0
+    assert isinstance(now, Layer)
+    have = np.isin(np.arange(len(a)), state.subject.labelled)
+    for _ in range(now.layer):
+        have = have | a[have].any(axis=0)
+    there = have.sum() == (len(a) if m["every"] else number(m["heard"]))
+    return bool(there and (m["right"] is None or number(m["right"]) == correct(state)))
+
+
+def _apart(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    assert isinstance(state.now, Layer)
+    x, along = state.now.features, np.sqrt(A(state).sum(axis=1) + 1)
+    along = along / np.linalg.norm(along)
+    return says_percent(m["share"], float(np.linalg.norm(x - along[:, None] * (along @ x)) / np.linalg.norm(x)))
+
+
+def _smooth(run: Run, k: int, m: re.Match[str]) -> bool:
+    return near(m["off"], off(run.states[k], run.states[k].now.p), 2)
+
+
+def _volume(run: Run, k: int, m: re.Match[str]) -> bool:
+    s = run.states[k].subject
+    return says_percent(m["share"], volume(run.states[k].now.p, s.faces) / volume(s.p, s.faces))
+
+
+def _same(run: Run, k: int) -> bool:
+    state = run.states[k]
+    sums = [state.now.features[state.subject.classes == one].sum(axis=0) for one in (0, 1)]
+    return bool(np.allclose(*sums, rtol=1e-9))
+
+
+def _applied(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    x, a, v = state.subject.p[:, 0], A(state), state.vertex
+    energy = (np.triu(a) * (x[:, None] - x) ** 2).sum()
+    return near(m["here"], (a[v] * (x[v] - x)).sum()) and near(m["energy"], energy)
+
+
+def last_cut(run: Run) -> Cut:
+    now = run.states[-1].now
+    assert isinstance(now, Cut)
+    return now
+
+
+def middle(run: Run) -> float:
+    """Where the cut edges of the last step are, along x."""
+    side, p = last_cut(run).side, run.states[-1].subject.p
+    i, j = np.nonzero(np.triu(A(run.states[-1]), 1))
+    through = side[i] != side[j]
+    return float(np.abs((p[i] + p[j])[through, 0] / 2).max())
+
+
+CAPTIONS = [
+    Claim(
+        r"(?P<n>[\d,]+) of (?P<all>[\d,]+) nodes are on their true side(?: \(not (?P<nodes>[\d, ]+)\))?", _true_sides
+    ),
+    Claim(
+        rf"(?P<near>[\d,]+) nodes? against (?P<far>[\d,]+), (?:edges of weight )?(?P<cut>{NUMBER})"
+        rf"(?: edges? (?:is|are)| are) cut, conductance (?P<phi>{NUMBER})",
+        _cut,
+    ),
+    Claim(r"The cut of least conductance along the vector", _least),
+    Claim(r"(?P<edges>[\d,]+) edges?, (?P<parts>[\d,]+) components?", _pieces),
+    Claim(r"(?P<share>[\d.]+ %) of the namings are not returned", _one_way),
+    Claim(r"0 twice: the graph has no path", lambda run, k, m: len(_parts(A(run.states[k]))) > 1),
+    Claim(rf"Eigenvector \d+: λ = {VALUE}(?=[,.:])", _mode),
+    Claim(rf"off the exact heat by {VALUE}", lambda run, k, m: near(m["value"], exact_error(run, k), 2)),
+    Claim(r"off the exact heat by less than 0\.00001", lambda run, k, m: exact_error(run, k) < 1.05e-5),
+    Claim(
+        r"dt is above 2 / λmax", lambda run, k, m: run.params.step_size > 2 and np.abs(run.states[k].now.u).max() > 1
+    ),
+    Claim(rf"(?P<off>{NUMBER}) mean edges \(RMS\)", _smooth),
+    Claim(r"(?P<share>[\d.,]+ %) of the volume", _volume),
+    Claim(r"reached (?:(?P<every>all)|(?P<heard>[\d,]+) of) [\d,]+ nodes(?:; (?P<right>[\d,]+) are right)?", _reached),
+    Claim(r"(?P<share>(?:less than )?[\d.]+ %) of the features still tell nodes apart", _apart),
+    Claim(r"are the same: these messages cannot tell", lambda run, k, m: _same(run, k)),
+    Claim(r"differ by up to", lambda run, k, m: not _same(run, k)),
+    Claim(
+        r"on the two labels, (?P<n>[\d,]+) of [\d,]+ nodes right",
+        lambda run, k, m: number(m["n"]) == correct(run.states[k]),
+    ),
+    Claim(rf"(?P<here>{NUMBER}) at node .*? xᵀ L x = (?P<energy>{NUMBER})", _applied),
+    Claim(
+        r"the eigenvalues of A are the same for both, those of L = D − A are different",
+        lambda run, k, m: bool(
+            np.allclose(*(pair[0] for pair in run.states[k].now.spectra), atol=1e-9)
+            and not np.allclose(*(pair[1] for pair in run.states[k].now.spectra), atol=1e-3)
+        ),
+    ),
+]
+
+# preset lines -----------------------------------------------------------------------------------------------------------
+
+
+def _of_twelve(run: Run) -> np.ndarray:
+    return run.states[0].now.values[9:16]
+
+
+def _uneven(run: Run, k: int, m: re.Match[str]) -> bool:
+    z, values = run.states[0].subject.p[:, 2], run.states[0].now.values
+    return 3 < np.mean(z > 0) / np.mean(z < 0) < 5 and values[3] / values[1] > 1.2
+
+
+def _bridge(run: Run, k: int, m: re.Match[str]) -> bool:
+    """By sign a fifth of the edges of the big half or more; the best cut few, between the halves."""
+    sign = run.states[2].now
+    assert isinstance(sign, Cut)
+    return sign.cut > 2 * last_cut(run).cut and middle(run) < 0.9 and correct(run.states[-1]) >= 412
+
+
+LINES = {
+    "one-way": [
+        Claim(r"1,500 points", lambda run, k, m: len(run.states[0].subject.p) == 1500),
+    ],
+    "matrix": [
+        Claim(
+            r"34 members, 78 friendships",
+            lambda run, k, m: A(run.states[0]).shape == (34, 34) and A(run.states[0]).sum() == 156,
+        ),
+    ],
+    "neck": [Claim(r"The best cut along it", lambda run, k, m: _least(run, k, m))],
+    "unbalanced": [
+        Claim(r"The sign is not the best cut", _bridge),
+        Claim(r"its best cut finds the bridge", _bridge),
+    ],
+    "split": [
+        Claim(r"0 is an eigenvalue twice", lambda run, k, m: len(_parts(A(run.states[0]))) == 2),
+    ],
+    "square": [
+        Claim(
+            r"two eigenvectors share λ₂",
+            lambda run, k, m: bool(np.isclose(*_modes(run.states[0].adjacency)[0][1:3], atol=1e-12)),
+        ),
+    ],
+    "sphere": [
+        Claim(
+            r"Where a sphere has λ = 12 seven times, this graph has 11 to 12\.6: two groups",
+            lambda run, k, m: bool(
+                np.allclose(_of_twelve(run)[:3], 11.0, atol=0.05) and np.allclose(_of_twelve(run)[3:], 12.6, atol=0.05)
+            ),
+        ),
+    ],
+    "cotangent": [
+        Claim(
+            r"all seven are within 1\.5 % of 12",
+            lambda run, k, m: bool(np.abs(_of_twelve(run) / 12 - 1).max() < 0.015),
+        ),
+    ],
+    "uneven": [Claim(r"the three slowest should be alike and are not", _uneven)],
+    "twins": [
+        Claim(
+            r"both adjacency matrices have the same eigenvalues\. L tells them apart",
+            lambda run, k, m: bool(np.allclose(*(pair[0] for pair in run.states[0].now.spectra), atol=1e-9)),
+        ),
+    ],
+    "warm": [
+        Claim(
+            r"The error to the exact heat falls as the fast parts die out",
+            lambda run, k, m: exact_error(run, 100) < exact_error(run, 30) < exact_error(run, 5),
+        ),
+    ],
+    "shrink": [
+        Claim(
+            r"noise goes in a few rounds",
+            lambda run, k, m: off(run.states[5], run.states[5].now.p) < 0.6 * off(run.states[0], run.states[0].now.p),
+        ),
+    ],
+    "taubin": [
+        Claim(
+            r"the volume stays",
+            lambda run, k, m: abs(volume(run.states[-1].now.p, run.states[-1].subject.faces)
+                                  / volume(run.states[-1].subject.p, run.states[-1].subject.faces) - 1) < 0.02,
+        ),
+    ],
+    "deep": [
+        Claim(
+            r"Everybody has heard after two",
+            lambda run, k, m: all(
+                (np.abs(s.now.features).sum(axis=1) > 0).all() for s in run.states if s.now.layer == 2
+            ),
+        ),
+    ],
+    "trained": [Claim(r"most of the others follow", lambda run, k, m: correct(run.states[-1]) >= 30)],
+    "deeper": [Claim(r"watch what is right", None)],
+    "same": [
+        Claim(r"every message is the same too", lambda run, k, m: _same(run, k)),
+    ],
+}  # fmt: skip
+
+WHYS = {
+    "mutual": [
+        Claim(
+            r"(?P<n>[\d,]+) components: a quarter of the namings are not returned",
+            lambda run, k, m: (
+                number(m["n"]) == len(_parts(run.states[-1].adjacency.toarray()))
+                and 0.22 < run.states[-1].now.one_way < 0.27
+            ),
+        ),
+    ],
+    "club-right": [
+        Claim(r"(?P<n>\d+) of 34\.", lambda run, k, m: int(m["n"]) == correct(run.states[2])),
+        Claim(r"it is one more: only node 8 is left over", lambda run, k, m: _weighted_club()),
+    ],
+    "longer": [
+        Claim(
+            rf"The largest heat is {VALUE} in the end",
+            lambda run, k, m: near(m["value"], float(np.abs(run.states[-1].now.u).max())),
+        ),
+        Claim(r"for the largest λ that is −1\.5", lambda run, k, m: 1 - run.params.step_size == -1.5),
+    ],
+    "volume": [Claim(r"(?P<share>[\d.]+ %)\. The mean of the neighbours lies inwards", _volume)],
+    "sixty-four": [
+        Claim(
+            r"(?P<n>\d+): as many as if all were given one label",
+            lambda run, k, m: int(m["n"]) == correct(run.states[-1]) == 17 == run.states[-1].subject.classes.sum(),
+        ),
+    ],
+}
+
+
+@functools.cache
+def _weighted_club() -> bool:
+    """The sign of the weighted club's second eigenvector leaves node 8 alone on the wrong side."""
+    from lessons.graphs.lesson import run
+    from lessons.graphs.state import Params
+
+    states = list(run(Params(graph="karate", weighted=True)))
+    vector = _modes(states[0].adjacency)[1][:, 1] > 0
+    classes = states[0].subject.classes
+    wrong = [np.flatnonzero(side != classes) for side in (vector, ~vector)]
+    return min(wrong, key=len).tolist() == [8]
