@@ -2,6 +2,9 @@ import base64
 import html
 import io
 import re
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 from fontTools.ttLib import TTFont
@@ -107,3 +110,32 @@ def test_a_picture_that_is_not_the_page_s_own_is_one_line(page, name, line):
     assert line in str(raised.value)
     assert str(page) in str(raised.value)
     assert "\n" not in str(raised.value)
+
+
+FIRST = """
+import sys, threading
+from workbench import typeset
+
+sys.setswitchinterval(1e-6)
+typeset._parser()
+wrong, gate = [], threading.Barrier(8)
+
+def first():
+    gate.wait()
+    try:
+        typeset.page_html("[far](run:far@-1) [there](http://a/b c)" * 20)
+    except Exception as error:
+        wrong.append(error)
+
+threads = [threading.Thread(target=first) for _ in range(8)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+sys.exit(repr(wrong) if wrong else 0)
+"""
+
+
+def test_several_threads_may_typeset_their_first_page_at_once():
+    for _ in range(3):
+        subprocess.run([sys.executable, "-c", FIRST], cwd=Path(__file__).parents[1], check=True)

@@ -11,6 +11,7 @@ import html
 import importlib.util
 import io
 import re
+import threading
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
 from pathlib import Path
@@ -48,7 +49,7 @@ def page_html(markdown: str, picture: Callable[[str], str] | None = None) -> str
 
     `picture` returns the address of a picture by the name that the page gives it; without it pictures are their words.
     """
-    with _pictures_by(picture):
+    with _one_at_a_time, _pictures_by(picture):
         return _sections(markdown)
 
 
@@ -64,7 +65,12 @@ def _sections(markdown: str) -> str:
 
 def inline_html(markdown: str) -> str:
     """Return the HTML of one line of text with maths."""
-    return _parser().renderInline(markdown)
+    with _one_at_a_time:
+        return _parser().renderInline(markdown)
+
+
+_one_at_a_time = threading.RLock()
+"""The parser's tables of addresses (mdurl) are filled at first use, and not safe while they are."""
 
 
 @functools.cache

@@ -1,8 +1,10 @@
 """The commands' side of the live page: listens on the one port that is printed, until interrupted."""
 
+import contextlib
 import signal
 import threading
 import webbrowser
+from collections.abc import Iterator
 from typing import Any
 
 from workbench import links
@@ -42,19 +44,21 @@ def serve(
         InputError: If the port is taken or may not be used, or several processes cannot serve this.
     """
     start = None if lesson is None else links.Place(lesson, params if params is not None else lesson.params(), step)
-    _end_as_by_ctrl_c()
-    if workers > 1:
-        if watched is not None or edited is not None:
-            raise InputError("--workers: files that are looked at while they are edited are served by one process")
-        return _serve_by_several(start, workers, host, port, browser, open_to_all, behind)
-    server = Server(start, host=host, port=port, open_to_all=open_to_all, behind=behind, watched=watched, edited=edited)
-    try:
-        _announce(server.doors, browser)
-        until_interrupted()
-    except KeyboardInterrupt:
-        pass
-    finally:
-        server.stop()
+    if workers > 1 and (watched is not None or edited is not None):
+        raise InputError("--workers: files that are looked at while they are edited are served by one process")
+    with _ended_as_by_ctrl_c():
+        if workers > 1:
+            return _serve_by_several(start, workers, host, port, browser, open_to_all, behind)
+        server = Server(
+            start, host=host, port=port, open_to_all=open_to_all, behind=behind, watched=watched, edited=edited
+        )
+        try:
+            _announce(server.doors, browser)
+            until_interrupted()
+        except KeyboardInterrupt:
+            pass
+        finally:
+            server.stop()
 
 
 def _serve_by_several(
@@ -91,7 +95,14 @@ def until_interrupted() -> None:
     threading.Event().wait()
 
 
-def _end_as_by_ctrl_c() -> None:
+@contextlib.contextmanager
+def _ended_as_by_ctrl_c() -> Iterator[None]:
     """Let whoever stops a service, or a container, end it as gently as Ctrl+C does."""
-    if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)

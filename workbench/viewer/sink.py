@@ -33,9 +33,9 @@ from workbench.scene import (
     is_rigid,
     same,
 )
-from workbench.viewer.lean import make_lean, wxyz_of
+from workbench.viewer.mended import mend_viser, wxyz_of
 
-make_lean()
+mend_viser()
 ROOT = "/scene/"
 
 

@@ -1,5 +1,6 @@
-"""What viser is spared changes nothing that it sends."""
+"""What is mended of viser changes nothing that it sends, and its loop is woken only by itself."""
 
+import asyncio
 import subprocess
 import sys
 from pathlib import Path
@@ -11,8 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 from viser import _assignable_props_api, _scene_handles
+from viser.infra import _async_message_buffer
 
-from workbench.viewer.lean import make_lean, wxyz_of
+from tests.loops import run_apart
+from workbench.viewer.mended import LoopEvent, mend_viser, wxyz_of
 
 TURN = st.floats(-np.pi, np.pi)
 
@@ -34,9 +37,9 @@ SEND = """
 import sys
 import numpy as np, viser
 from workbench import scene
-if sys.argv[1] == "lean":
-    from workbench.viewer.lean import make_lean
-    make_lean()
+if sys.argv[1] == "mended":
+    from workbench.viewer.mended import mend_viser
+    mend_viser()
 server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
 said = []
 server.scene._queue_scene_message = said.append
@@ -66,11 +69,30 @@ def test_viser_sends_the_same():
         root = Path(__file__).parents[2]
         return subprocess.run(command, cwd=root, capture_output=True, text=True, check=True).stderr
 
-    assert sent("lean") == sent("plain") != ""
+    assert sent("mended") == sent("plain") != ""
+
+
+def test_only_its_own_loop_sets_an_event():
+    async def waited() -> None:
+        loop = asyncio.get_running_loop()
+        event = LoopEvent(loop)
+        waiting = [asyncio.create_task(event.wait()) for _ in range(3)]
+        await asyncio.sleep(0)
+        await asyncio.to_thread(event.set)
+        assert not event.is_set()
+        await asyncio.to_thread(loop.call_soon_threadsafe, event.set)
+        async with asyncio.timeout(60):
+            await asyncio.gather(*waiting)
+        assert event.is_set()
+
+    run_apart(waited())
 
 
 def test_viser_is_built_as_expected():
-    """Where this fails, viser has changed: see whether `make_lean` is still needed."""
-    make_lean()
+    """Where this fails, viser has changed: see whether `mend_viser` is still needed."""
+    mend_viser()
     assert isinstance(_assignable_props_api.AssignablePropsBase._prop_hints, property), viser.__version__
-    assert _scene_handles._set_pose_vector.__module__ == make_lean.__module__, viser.__version__
+    buffer = _async_message_buffer.AsyncMessageBuffer(asyncio.new_event_loop(), True)
+    buffer.event_loop.close()
+    assert isinstance(buffer.message_event, LoopEvent), viser.__version__
+    assert _scene_handles._set_pose_vector.__module__ == mend_viser.__module__, viser.__version__

@@ -1,5 +1,6 @@
-"""What viser does anew for every node of a scene, done once or in plain numbers: half of what a moved knob cost."""
+"""What viser 1.1 does too dearly or not safely enough for a class: done once, in plain numbers, on its own event loop."""
 
+import asyncio
 import functools
 import math
 from collections.abc import Callable
@@ -7,14 +8,15 @@ from typing import Any, get_type_hints
 
 import numpy as np
 from viser import _assignable_props_api, _scene_handles
+from viser.infra import _async_message_buffer
 
 _hints = functools.cache(get_type_hints)
 
 
-def make_lean() -> None:
-    """Let viser read the types of a kind of node once, and compare equal poses without numpy; what it sends is the same.
+def mend_viser() -> None:
+    """Let viser read the types of a kind of node once, compare equal poses without numpy, and wake its loop on its loop.
 
-    A version of viser that is built otherwise is left as it is.
+    What it sends is the same. A version of viser that is built otherwise is left as it is.
     """
     base, pose = getattr(_assignable_props_api, "AssignablePropsBase", None), "_set_pose_vector"
     if isinstance(getattr(base, "_prop_hints", None), functools.cached_property):
@@ -22,6 +24,39 @@ def make_lean() -> None:
     before = getattr(_scene_handles, pose, None)
     if before is not None and before.__module__ == _scene_handles.__name__:
         setattr(_scene_handles, pose, _unless_equal(before))
+    buffer = getattr(_async_message_buffer, "AsyncMessageBuffer", None)
+    made = getattr(buffer, "__init__", None)
+    if made is not None and "message_event" in getattr(buffer, "__dataclass_fields__", {}) and not _is_ours(made):
+        buffer.__init__ = _with_event_of_its_loop(made)  # type: ignore[union-attr]
+
+
+class LoopEvent(asyncio.Event):
+    """An event that only its own loop sets.
+
+    viser sets it from whatever thread sends something, and then once more from its loop. The first of the two breaks into
+    the loop's list of those who wait ("deque mutated during iteration"), or keeps the second from waking anybody.
+    """
+
+    def __init__(self, loop: asyncio.AbstractEventLoop):
+        super().__init__()
+        self._owner = loop
+
+    def set(self) -> None:
+        """Set it, where that is safe; elsewhere nothing happens."""
+        if asyncio._get_running_loop() is self._owner:
+            super().set()
+
+
+def _is_ours(function: Any) -> bool:
+    return getattr(function, "__module__", "") == __name__
+
+
+def _with_event_of_its_loop(made: Callable[..., None]) -> Callable[..., None]:
+    def make(buffer: Any, *args: Any, **more: Any) -> None:
+        made(buffer, *args, **more)
+        buffer.message_event = LoopEvent(buffer.event_loop)
+
+    return make
 
 
 def _unless_equal(set_pose: Callable[..., None]) -> Callable[..., None]:
