@@ -24,6 +24,7 @@ Kind = Literal["plain", "normalised", "cotangent"]
 CLOUDS = ("dumbbell", "uneven sphere", "rabbit")
 PAIRS = ("star and square", "hexagon and triangles")
 MOST_OWN = 20_000
+LONGEST_NAME = 24  # letters of a node's name in sentences
 OF_CLOUDS = {"graph": CLOUDS}
 OF_L = {"stage": ("matrix", "spectrum", "cut", "heat")}
 
@@ -106,7 +107,10 @@ class Subject:
 
     def called(self, node: int) -> str:
         """Return what sentences call a node."""
-        return self.names[node] if self.names else f"{node:,}"
+        if not self.names:
+            return f"{node:,}"
+        name = self.names[node]
+        return name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}…"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -139,12 +139,14 @@ def _least(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _parts(adjacency: np.ndarray) -> list[int]:
     """The sizes of the components, by walking."""
+    a, b = np.nonzero(adjacency)
+    friends = [set(some.tolist()) for some in np.split(b, np.searchsorted(a, np.arange(1, len(adjacency))))]
     left, sizes = set(range(len(adjacency))), []
     while left:
         front, seen = {left.pop()}, 1
         while front:
             node = front.pop()
-            near_by = set(np.flatnonzero(adjacency[node]).tolist()) & left
+            near_by = friends[node] & left
             left -= near_by
             front |= near_by
             seen += len(near_by)
@@ -175,7 +177,7 @@ def _mode(run: Run, k: int, m: re.Match[str]) -> bool:
     assert isinstance(now, Mode)
     if run.params.laplacian != "plain":
         return True  # of the mesh: beside the truth, which is claimed apart
-    values = np.linalg.eigvalsh(np.diag(A(state).sum(axis=1)) - A(state))
+    values = _modes(state.adjacency)[0]
     scale = 2 / values[1:4].mean() if state.subject.of_surface and len(now.values) > 3 else 1.0
     return near(m["value"], values[now.index] * scale)
 
