@@ -72,6 +72,7 @@ def right_edge_by_edge(adjacency):
     return L
 
 
+
 class Graph:
     def __init__(self, adjacency):
         self.A = adjacency
