@@ -87,8 +87,8 @@ def _faces(state: State, now: Sums) -> Caption:
 def _area_alone(subject: Subject, now: Sums) -> Caption:
     if now.count == 0:
         return Caption(
-            f"{_capital(subject.name)}: {len(subject.p):,} vertices, {len(subject.faces):,} triangles.{subject.note} Its area"
-            " is added up, triangle by triangle."
+            f"{_capital(subject.name)}: {len(subject.p):,} vertices, {len(subject.faces):,} triangles.{subject.note} Its"
+            " area is added up, triangle by triangle."
         )
     return Caption(
         f"{now.count:,} of {len(subject.faces):,} triangles, near ones first: area {area(subject, now.area)} so far."
