@@ -14,7 +14,7 @@ from workbench.geometry.meshes import edges
 from workbench.geometry.voxels import counted_surface
 from workbench.scene import Classes, Label, Mesh, Points, Primitive, Scene, Segments
 
-MOST_RAYS, MOST_EDGES, MOST_POINTS, MOST_LINES, MOST_SHOWN = 120, 5000, 6000, 120, 96
+MOST_RAYS, MOST_EDGES, MOST_POINTS, MOST_LINES, MOST_SHOWN = 120, 4500, 6000, 120, 96
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 RIMS = CUBE[[[a, b] for a in range(8) for b in range(a) if np.abs(CUBE[a] - CUBE[b]).sum() == 1]]
 

@@ -18,7 +18,7 @@ from workbench.geometry.measures import encloses, signed_volume, surface_area
 from workbench.geometry.meshes import welded
 from workbench.geometry.voxels import Grid, counted_volume, grid_over, marched_surface, occupied
 
-RABBIT = 2.0  # times as large as it is made
+RABBIT, SPACING = 2.0, 0.04  # times as large as it is made, with edges of so many metres before
 OWN_SIZE = 2.0  # metres of the picture that an own shape is long
 MOST_OWN = 400_000  # faces
 MOST_VOXELS = 40_000_000
@@ -82,7 +82,7 @@ def _smooth(name: str, made: Measurable) -> Subject:
 
 @functools.cache
 def _rabbit() -> Subject:
-    p, faces = rabbit_mesh()
+    p, faces = rabbit_mesh(SPACING)
     return _of_mesh("the rabbit", RABBIT * (p - (p.min(axis=0) + p.max(axis=0)) / 2), faces)
 
 

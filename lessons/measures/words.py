@@ -57,6 +57,8 @@ def _number(value: float) -> str:
 
 def _faces(state: State, now: Sums) -> Caption:
     subject = state.subject
+    if not np.isfinite(subject.volume) and now.count < len(subject.faces):
+        return _area_alone(subject, now)
     if now.count == 0:
         gone = len(subject.whole) - len(subject.faces)
         hole = f" {counted(gone, 'triangle')} cut out." if gone else ""
@@ -79,6 +81,17 @@ def _faces(state: State, now: Sums) -> Caption:
     return Caption(
         f"{now.count:,} of {len(subject.faces):,} triangles, near ones first: {volume(subject, now.volume)} so far. New ones"
         f" that count plus: {now.new - minus:,}; that count minus: {minus:,}."
+    )
+
+
+def _area_alone(subject: Subject, now: Sums) -> Caption:
+    if now.count == 0:
+        return Caption(
+            f"{_capital(subject.name)}: {len(subject.p):,} vertices, {len(subject.faces):,} triangles.{subject.note} Its"
+            " area is added up, triangle by triangle."
+        )
+    return Caption(
+        f"{now.count:,} of {len(subject.faces):,} triangles, near ones first: area {area(subject, now.area)} so far."
     )
 
 

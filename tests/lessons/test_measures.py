@@ -57,7 +57,7 @@ def test_the_sum_falls_below_zero_and_comes_back():
     assert volumes[8] < 0  # where the page says that near ones are mostly minus
     state, now = whole(found)
     assert state.volume_error == pytest.approx(0, abs=1e-12)
-    assert now.area == pytest.approx(6.9303, abs=1e-3)
+    assert now.area == pytest.approx(6.888, abs=1e-3)
     assert caption_of(lesson.draw(state)).tone == "good"
     minus = found[8].now.parts[found[8].now.order[: found[8].now.count]] < 0
     assert minus.mean() > 0.6
@@ -72,20 +72,20 @@ def test_far_away_the_sum_is_the_same():
 
 def test_a_hole_makes_the_volume_depend_on_the_origin():
     params = lesson.preset("hole").params
-    assert whole(of("hole"))[0].volume_error == pytest.approx(-0.0705, abs=1e-3)
+    assert whole(of("hole"))[0].volume_error == pytest.approx(-0.0665, abs=1e-3)
     assert whole(of("hole"))[0].area_error == pytest.approx(-0.01, abs=1e-3)
     errors = []
     for origin in ((0.0, 0.0, 0.0), (0.0, -2.8, -0.9), (10.0, 20.0, -6.0)):
         last = last_of(replace(params, origin=origin))
         errors.append(round(last.volume_error, 3))
-    assert errors == [-0.011, 0.043, pytest.approx(-0.44, abs=0.03)]
+    assert errors == [-0.011, 0.041, pytest.approx(-0.44, abs=0.03)]
     assert tone("hole") == "wrong"
 
 
 def test_turned_faces_cost_twice_their_volume_and_no_area():
     state, now = whole(of("flipped"))
     assert state.area_error == pytest.approx(0, abs=1e-12)
-    assert state.volume_error == pytest.approx(-0.111, abs=2e-3)
+    assert state.volume_error == pytest.approx(-0.101, abs=2e-3)
     unsigned = np.abs(now.parts).sum() / state.subject.volume - 1
     assert unsigned > 1  # what absolute values would give
     assert tone("flipped") == "wrong"
@@ -174,7 +174,7 @@ def test_in_many_dimensions_nothing_hits():
 
 def test_faces_alike_pull_the_mean_to_the_small_faces():
     last = of("alike")[-1]
-    assert last.half_share == pytest.approx(0.599, abs=1e-3)
+    assert last.half_share == pytest.approx(0.598, abs=1e-3)
     assert last.half_hits == pytest.approx(4 * 0.6 / (4 * 0.6 + 0.4), abs=0.03)
     assert isinstance(last.now, Sampled)
     gap = np.linalg.norm(last.now.mean - last.middle) / last.subject.diagonal

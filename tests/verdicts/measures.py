@@ -179,6 +179,8 @@ CAPTIONS = [
           number(m[1]) == len(run.states[k].subject.whole) - len(run.states[k].subject.faces)),
     Claim(rf"its area, {VALUE} m²; a · \(b × c\) / 6 is its tetrahedron, {VALUE} m³: (plus|minus)", _one),
     Claim(rf"^([\d,]+) of [\d,]+ triangles, near ones first: {VALUE} m³ so far", _so_far),
+    Claim(rf"^([\d,]+) of [\d,]+ triangles, near ones first: area {VALUE} m² so far", lambda run, k, m:
+          near(m[2], sums(run.states[k], near_first(run.states[k], int(number(m[1]))))[0], 3)),
     Claim(r"count plus: ([\d,]+); that count minus: ([\d,]+)", _new),
     Claim(rf"triangles: area {VALUE} m² \({ERROR}\)", _all_area),
     Claim(rf", volume {VALUE} m³ \({ERROR}\)\. (?=E)", _all_volume),
