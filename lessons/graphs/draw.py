@@ -29,7 +29,9 @@ def draw(state: State) -> Scene:
     subject, now = state.subject, state.now
     p = now.p if isinstance(now, Smoothed) else subject.p
     color = _color(state)
-    scene: dict[str, Primitive] = {"nodes": Points(p, color, subject.radius, name="nodes"), "caption": caption(state)}
+    scene: dict[str, Primitive] = {"caption": caption(state)}
+    if not (len(subject.faces) and isinstance(now, Smoothed)):  # a surface that moves is enough to send
+        scene["nodes"] = Points(p, color, subject.radius, name="nodes")
     if len(subject.faces):
         scene["surface"] = Mesh(p, subject.faces, color, name="surface")
     scene |= _edges(state, p) | _marks(state, p)
@@ -49,7 +51,7 @@ def _color(state: State) -> Color:
             return _signed(now.u, "heat")
         case Smoothed():
             off = np.linalg.norm(now.p - state.subject.p, axis=1)
-            return Field(1000 * off, 0.0, max(float(1000 * off.max()), 1e-6), "distance to the clean place", "mm")
+            return Field(1000 * off, 0.0, float(1000 * off.max()) or 1.0, "distance to the clean place", "mm")
         case Cut():
             if now.phase == "graph":
                 return "target"
@@ -57,8 +59,8 @@ def _color(state: State) -> Color:
                 _signed(now.fiedler, "Fiedler vector") if now.phase == "fiedler" else Classes(predicted(state), *SIDES)
             )
         case Layer() if now.features.shape[1] != 2:
-            value = np.round(now.features[:, 0], 9)
-            return Field(value, 0.0, max(float(value.max()), 1e-6), "first feature")
+            total = np.round(now.features.sum(axis=1), 9)
+            return Field(total, 0.0, float(total.max()) or 1.0, "sum of a node's features")
         case Layer() | Trained():
             told = predicted(state)
             return Classes(np.where(told < 0, 2, told), *TOLD)

@@ -150,7 +150,7 @@ def compare(
     medians = {name: statistics.median(spent) for name, spent in times.items()}
     ours = next(iter(medians.values()))
     print(f"\n{title}" + (f"   (floor, ours to the best peer: {floor})" if floor else ""))
-    heads = ("K error %", "H error %") if surface else ("sum of eigenvalues", "")
+    heads = ("K error %", "H error %") if surface else ("what must agree", "")
     print(f"  {'':24}{'ms':>9}{'ours / it':>11}{heads[0]:>20}{heads[1]:>12}")
     for name, answer in answers.items():
         print(f"  {name:24}{medians[name]:9.1f}{ours / medians[name]:11.2f}{describe(answer, surface)}")

@@ -9,6 +9,7 @@ import trimesh
 from lessons.graphs import measures
 from lessons.graphs.lesson import lesson
 from lessons.graphs.state import Grown, Mode, Params, State
+from workbench.algorithms.diffusion import Heat
 from workbench.algorithms.spectral_cut import Cut
 from workbench.data.networks import karate
 from workbench.errors import InputError
@@ -111,6 +112,7 @@ def test_a_scanned_mesh_is_cut_and_smoothed(shared_data):
     assert shrunk == pytest.approx(0.66, abs=0.03)
     assert kept == pytest.approx(1.01, abs=0.02)
     blown = last(Params(mesh=mesh, stage="heat", steps=100, step_size=2.5))
+    assert isinstance(blown.now, Heat)
     assert np.abs(blown.now.u).max() > 1e8
 
 
