@@ -72,7 +72,6 @@ def right_edge_by_edge(adjacency):
     return L
 
 
-
 class Graph:
     def __init__(self, adjacency):
         self.A = adjacency
