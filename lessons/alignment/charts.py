@@ -10,7 +10,6 @@ from workbench.scene import Curve, Primitive, Scalar, Table
 CM2 = 1e4  # square centimetres in a square metre
 ROUNDING = 1e-16  # below this share nothing is left off the diagonal
 BINS = np.arange(0.0, 181.0, 10.0)
-UNITS = {"largest-entry": "largest entry", "third-moment": "skewness", "none": "sign"}
 
 
 def beside_axes(state: AxesState) -> dict[str, Primitive]:

@@ -14,7 +14,7 @@ from workbench.scene import Classes, Label, Mesh, Points, Primitive, Role, Scene
 COLORS: tuple[Role, Role, Role] = ("x", "y", "z")
 SIGMAS = 2.0  # standard deviations to the ellipsoid
 BEYOND = 1.25  # of the ellipsoid: how far an axis reaches
-MOST_PAIRS, MOST_MISSES, MOST_POINTS = 80, 40, 5000
+MOST_PAIRS, MOST_MISSES = 80, 40
 TIPS = 0.8  # metres from the centroid to the tips of many turns
 BALL = sphere(400)
 EDGES = np.array([(a, a ^ bit) for a in range(8) for bit in (1, 2, 4) if a < a ^ bit])
