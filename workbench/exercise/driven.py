@@ -54,16 +54,13 @@ class _Beside:
     """
 
     def __init__(self, function: Function, exercise: Exercise):
-        self._candidate, self._either = (
-            Candidate(function, exercise.reference, remember=False),
-            exercise.contract.either,
-        )
+        self._candidate, self._contract = Candidate(function, exercise.reference, remember=False), exercise.contract
         self.differed = False
 
     def __call__(self, *args: Any) -> Any:
         value = self._candidate(*args)
         right = self._candidate.expected
-        alike = values_alike(value, right) or (self._either is not None and values_alike(value, self._either(right)))
+        alike = any(values_alike(value, form) for form in (right, *self._contract.others(right)))
         self.differed = self.differed or not alike
         return value
 

@@ -120,6 +120,14 @@ class Contract:
         """Return what our function returns."""
         return self.function(*args)
 
+    def others(self, value: Any) -> list[Any]:
+        """Return the answers that are as right as this one; none where it is not of the kind that the contract asks for."""
+        try:
+            made = [] if self.either is None else self.either(value)
+        except (TypeError, ValueError):
+            return []
+        return made if isinstance(made, list) else [made]
+
 
 def contract(
     *,
@@ -134,8 +142,8 @@ def contract(
         slot: The keyword of the lesson's run that the student's function replaces.
         examples: Calls with their results for the starter, as `(call in Python, result in Python)` text.
         seconds: How long one call may take.
-        either: Where the contract leaves open which of two answers is given (a plane's normal may point to either side):
-            makes the other of the one.
+        either: Where the contract leaves open which of some answers is given (a plane's normal may point to either side):
+            makes the other of the one, or a list of the others.
     """
     return lambda function: Contract(function=function, slot=slot, examples=examples, seconds=seconds, either=either)
 

@@ -162,13 +162,7 @@ def _wrong_entries(mistaken: Any, right: Any, numbers: set[float]) -> int:
 def _alike(a: Answer, b: Answer, exercise: Exercise) -> bool:
     if a.error or b.error:
         return a.error == b.error
-    either = exercise.contract.either
-    if values_alike(a.value, b.value):
-        return True
-    try:
-        return either is not None and values_alike(a.value, either(b.value))
-    except (TypeError, ValueError):
-        return False
+    return any(values_alike(a.value, form) for form in (b.value, *exercise.contract.others(b.value)))
 
 
 def values_alike(a: Any, b: Any) -> bool:

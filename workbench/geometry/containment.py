@@ -137,6 +137,12 @@ def winding_numbers(p: Points, faces: Faces, q: Queries) -> Float[np.ndarray, " 
         p: Vertices, m.
         faces: Counterclockwise seen from outside.
         q: Points, m, not on the surface.
+
+    Examples:
+        >>> tetrahedron = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        >>> faces, q = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]), np.array([[0.2, 0.2, 0.2], [1.0, 1.0, 1.0]])
+        >>> winding_numbers(tetrahedron, faces, q).round(9).tolist()
+        [1.0, 0.0]
     """
     total = np.empty(len(q))
     block = max(1, _PAIRS // 4 // max(len(faces), 1))

@@ -83,6 +83,11 @@ def volume_centroid(p: Points, faces: Faces) -> Float[np.ndarray, "3"]:
 
     Raises:
         ValueError: If it encloses nothing.
+
+    Examples:
+        >>> tetrahedron = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        >>> volume_centroid(tetrahedron, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])).tolist()
+        [0.25, 0.25, 0.25]
     """
     middle = p.mean(axis=0)
     parts = tetrahedra(p, faces, middle)
