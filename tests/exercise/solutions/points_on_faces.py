@@ -66,6 +66,54 @@ def right_loop(p, faces, u):
     return np.array(out).reshape(-1, 3)
 
 
+def right_not_normalised(p, faces, u):
+    """The number is stretched to the whole area; the running sums stay what they are."""
+    sums = _areas(p, faces).cumsum()
+    k = np.minimum(np.searchsorted(sums, u[:, 0] * sums[-1], "right"), len(faces) - 1)
+    s, t = np.sqrt(u[:, 1]), u[:, 2]
+    weights = np.column_stack([1 - s, s * (1 - t), s * t])
+    return np.einsum("nc,ncx->nx", weights, p[faces[k]])
+
+
+def right_counting_smaller(p, faces, u):
+    share = np.cumsum(_areas(p, faces)) / _areas(p, faces).sum()
+    k = (share[None, :] <= u[:, :1]).sum(axis=1)
+    k[k == len(faces)] = len(faces) - 1
+    a, b, c = p[faces[k]].transpose(1, 0, 2)
+    along = a + np.sqrt(u[:, [1]]) * (b - a)
+    return along + np.sqrt(u[:, [1]]) * u[:, [2]] * (c - b)
+
+
+def right_digitized(p, faces, u):
+    edges = np.append(0.0, np.cumsum(_areas(p, faces)))
+    k = np.clip(np.digitize(u[:, 0], edges / edges[-1]) - 1, 0, len(faces) - 1)
+    s, t = u[:, 1] ** 0.5, u[:, 2]
+    return np.stack(
+        [(1 - s) * p[faces[k, 0], x] + s * (1 - t) * p[faces[k, 1], x] + s * t * p[faces[k, 2], x] for x in range(3)],
+        axis=1,
+    )
+
+
+def right_other_corner_first(p, faces, u):
+    """The root from above: 1 - sqrt(1 - x) is as even."""
+    k = _by_area(p, faces, u)
+    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
+    s, t = 1 - np.sqrt(1 - u[:, 1:2]), u[:, 2:3]
+    return s * a + (1 - s) * (t * b + (1 - t) * c)
+
+
+def right_bisect(p, faces, u):
+    from bisect import bisect_right
+    from itertools import accumulate
+
+    sums = list(accumulate(_areas(p, faces).tolist()))
+    found = np.empty((len(u), 3))
+    for row, (pick, s, t) in enumerate(u):
+        a, b, c = p[faces[min(bisect_right(sums, pick * sums[-1]), len(sums) - 1)]]
+        found[row] = a * (1 - s**0.5) + s**0.5 * (b * (1 - t) + c * t)
+    return found
+
+
 def wrong_uniform_over_faces(p, faces, u):
     k = (u[:, 0] * len(faces)).astype(int).clip(0, len(faces) - 1)
     a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]

@@ -54,6 +54,34 @@ def right_edges_from_a(p, faces):
     return np.sum(a * np.cross(b - a, c - a)) / 6
 
 
+def right_determinants(p, faces):
+    return np.linalg.det(p[faces]).sum() / 6
+
+
+def wrong_prisms(p, faces):
+    """Each face with its shadow on the ground: signed shadow times mean height."""
+    a, b, c = (p[faces[:, i]] for i in range(3))
+    u, v = b - a, c - a
+    shadow = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
+    return np.dot(shadow, (a[:, 2] + b[:, 2] + c[:, 2]) / 3)
+
+
+def right_sarrus(p, faces):
+    total = 0.0
+    for i, j, k in faces.tolist():
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = p[i].tolist(), p[j].tolist(), p[k].tolist()
+        total += ax * by * cz + ay * bz * cx + az * bx * cy - az * by * cx - ay * bx * cz - ax * bz * cy
+    return total / 6
+
+
+def right_chunks(p, faces):
+    def tetrahedra(some):
+        a, b, c = np.moveaxis(p[some], 1, 0)
+        return (np.cross(b, c) * a).sum(1) / 6.0
+
+    return sum(float(tetrahedra(faces[i : i + 7]).sum()) for i in range(0, len(faces), 7))
+
+
 def wrong_abs_of_each(p, faces):
     a, b, c = p[faces].transpose(1, 0, 2)
     return np.abs(np.einsum("ij,ij->i", a, np.cross(b, c))).sum() / 6

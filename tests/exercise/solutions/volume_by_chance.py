@@ -57,6 +57,38 @@ def right_scipy_sem(inside, box_volume):
     return values.mean(), np.sqrt(((values - values.mean()) ** 2).sum() / (len(values) - 1) / len(values))
 
 
+def right_pure_python(inside, box_volume):
+    hits = [bool(one) for one in inside]
+    if not hits:
+        raise ValueError("there are no points")
+    share = sum(hits) / len(hits)
+    return share * box_volume, box_volume * (share * (1 - share) / len(hits)) ** 0.5
+
+
+def right_statistics(inside, box_volume):
+    import statistics
+
+    values = [box_volume if one else 0.0 for one in inside.tolist()]
+    if len(values) == 0:
+        raise ValueError("no throws, no volume")
+    return statistics.fmean(values), statistics.pstdev(values) / math.sqrt(len(values))
+
+
+def right_variance_first(inside, box_volume):
+    if not inside.size:
+        raise ValueError("inside is empty")
+    values = inside * float(box_volume)
+    return values.mean(), np.sqrt(np.var(values) / values.size)
+
+
+def right_array(inside, box_volume):
+    n = inside.shape[0]
+    if n == 0:
+        raise ValueError
+    share = inside.sum() / n
+    return tuple(np.array([share, math.sqrt(share - share**2) / math.sqrt(n)]) * box_volume)
+
+
 def wrong_no_root_n(inside, box_volume):
     p = _checked(inside)
     return box_volume * p, box_volume * np.sqrt(p * (1 - p))
