@@ -2,14 +2,13 @@
 
 import functools
 import re
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
-from lessons.graphs.state import Grown, Mode, State
+from lessons.graphs.state import Grown, Mode
 from lessons.graphs.words import caption
 from tests.readings import NUMBER, POWER, near, number, says_percent
+from tests.truths.graphs import A, correct, modes, off, parts, told, volume
 from tests.verdicts import Claim, Run
 from workbench.algorithms.diffusion import Heat, Smoothed
 from workbench.algorithms.graph_network import Layer, Trained
@@ -18,56 +17,6 @@ from workbench.algorithms.spectral_cut import Cut
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 
 VALUE = rf"(?P<value>{POWER})"
-
-
-def kept(work: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """Keep what was made of the last matrix: the steps of a run share it, and often the runs of other seeds."""
-    last: list[Any] = [None, None]
-
-    def found(adjacency: Any) -> Any:
-        content = adjacency.shape, adjacency.indices.tobytes(), adjacency.data.tobytes()
-        if last[0] != content:
-            last[:] = content, work(adjacency)
-        return last[1]
-
-    return found
-
-
-dense = kept(lambda adjacency: adjacency.toarray())
-
-
-def A(state: State) -> np.ndarray:
-    return dense(state.adjacency)
-
-
-def told(state: State) -> np.ndarray:
-    """The class that each node is given, of a cut the better way round; -1 where none is."""
-    now, classes = state.now, state.subject.classes
-    if isinstance(now, Cut):
-        side = now.side.astype(int)
-        return side if not len(classes) or np.sum(side == classes) >= np.sum(side != classes) else 1 - side
-    if isinstance(now, Trained):
-        return np.argmax(now.scores, axis=1)
-    assert isinstance(now, Layer)
-    a, b = now.features.T
-    return np.where(np.isclose(a, b, rtol=0, atol=1e-9 * np.abs(now.features).max()), -1, np.where(b > a, 1, 0))
-
-
-def correct(state: State) -> int:
-    return int(np.sum(told(state) == state.subject.classes))
-
-
-def off(state: State, p: np.ndarray) -> float:
-    """RMS distance from the clean places, in mean edges."""
-    i, j = np.nonzero(np.triu(A(state), 1))
-    clean = state.subject.p
-    return float(
-        np.sqrt(np.mean(np.sum((p - clean) ** 2, axis=1))) / np.mean(np.linalg.norm(clean[i] - clean[j], axis=1))
-    )
-
-
-def volume(p: np.ndarray, faces: np.ndarray) -> float:
-    return float(np.linalg.det(p[faces]).sum() / 6)
 
 
 def right(run: Run, k: int) -> bool | None:
@@ -88,16 +37,10 @@ def right(run: Run, k: int) -> bool | None:
     return None
 
 
-@kept
-def _modes(adjacency):
-    a = adjacency.toarray()
-    return np.linalg.eigh(np.diag(a.sum(axis=1)) - a)
-
-
 def exact_error(run: Run, k: int) -> float:
     """The largest error of the heat at a step, beside exp(-t L) by all eigenvectors."""
     state = run.states[k]
-    values, vectors = _modes(state.adjacency)
+    values, vectors = modes(state.adjacency)
     t = k * run.params.step_size / values[-1]
     exact = vectors @ (np.exp(-t * values) * (vectors.T @ run.states[0].now.u))
     return float(np.abs(state.now.u - exact).max())
@@ -137,28 +80,11 @@ def _least(run: Run, k: int, m: re.Match[str]) -> bool:
     return abs(best - now.conductance) < 1e-9
 
 
-def _parts(adjacency: np.ndarray) -> list[int]:
-    """The sizes of the components, by walking."""
-    a, b = np.nonzero(adjacency)
-    friends = [set(some.tolist()) for some in np.split(b, np.searchsorted(a, np.arange(1, len(adjacency))))]
-    left, sizes = set(range(len(adjacency))), []
-    while left:
-        front, seen = {left.pop()}, 1
-        while front:
-            node = front.pop()
-            near_by = friends[node] & left
-            left -= near_by
-            front |= near_by
-            seen += len(near_by)
-        sizes.append(seen)
-    return sorted(sizes, reverse=True)
-
-
 def _pieces(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     a = state.adjacency.toarray()
     return number(m["edges"]) == np.triu(a, 1).astype(bool).sum() and number(m["parts"]) == len(
-        _parts(np.maximum(a, a.T))
+        parts(np.maximum(a, a.T))
     )
 
 
@@ -177,7 +103,7 @@ def _mode(run: Run, k: int, m: re.Match[str]) -> bool:
     assert isinstance(now, Mode)
     if run.params.laplacian != "plain":
         return True  # of the mesh: beside the truth, which is claimed apart
-    values = _modes(state.adjacency)[0]
+    values = modes(state.adjacency)[0]
     scale = 2 / values[1:4].mean() if state.subject.of_surface and len(now.values) > 3 else 1.0
     return near(m["value"], values[now.index] * scale)
 
@@ -250,7 +176,7 @@ CAPTIONS = [
     Claim(r"The cut of least conductance along the vector", _least),
     Claim(r"(?P<edges>[\d,]+) edges?, (?P<parts>[\d,]+) components?", _pieces),
     Claim(r"(?P<share>[\d.]+ %) of the namings are not returned", _one_way),
-    Claim(r"0 twice: the graph has no path", lambda run, k, m: len(_parts(A(run.states[k]))) > 1),
+    Claim(r"0 twice: the graph has no path", lambda run, k, m: len(parts(A(run.states[k]))) > 1),
     Claim(rf"Eigenvector \d+: λ = {VALUE}(?=[,.:])", _mode),
     Claim(rf"off the exact heat by {VALUE}", lambda run, k, m: near(m["value"], exact_error(run, k), 2)),
     Claim(r"off the exact heat by less than 0\.00001", lambda run, k, m: exact_error(run, k) < 1.05e-5),
@@ -312,12 +238,12 @@ LINES = {
         Claim(r"its best cut finds the bridge", _bridge),
     ],
     "split": [
-        Claim(r"0 is an eigenvalue twice", lambda run, k, m: len(_parts(A(run.states[0]))) == 2),
+        Claim(r"0 is an eigenvalue twice", lambda run, k, m: len(parts(A(run.states[0]))) == 2),
     ],
     "square": [
         Claim(
             r"two eigenvectors share λ₂",
-            lambda run, k, m: bool(np.isclose(*_modes(run.states[0].adjacency)[0][1:3], atol=1e-12)),
+            lambda run, k, m: bool(np.isclose(*modes(run.states[0].adjacency)[0][1:3], atol=1e-12)),
         ),
     ],
     "sphere": [
@@ -380,7 +306,7 @@ WHYS = {
         Claim(
             r"(?P<n>[\d,]+) components: a quarter of the namings are not returned",
             lambda run, k, m: (
-                number(m["n"]) == len(_parts(run.states[-1].adjacency.toarray()))
+                number(m["n"]) == len(parts(run.states[-1].adjacency.toarray()))
                 and 0.22 < run.states[-1].now.one_way < 0.27
             ),
         ),
@@ -413,7 +339,7 @@ def _weighted_club() -> bool:
     from lessons.graphs.state import Params
 
     states = list(run(Params(graph="karate", weighted=True)))
-    vector = _modes(states[0].adjacency)[1][:, 1] > 0
+    vector = modes(states[0].adjacency)[1][:, 1] > 0
     classes = states[0].subject.classes
     wrong = [np.flatnonzero(side != classes) for side in (vector, ~vector)]
     return min(wrong, key=len).tolist() == [8]
