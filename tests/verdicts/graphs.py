@@ -283,7 +283,7 @@ LINES = {
         Claim(
             r"the volume stays",
             lambda run, k, m: abs(volume(run.states[-1].now.p, run.states[-1].subject.faces)
-                                  / volume(run.states[-1].subject.p, run.states[-1].subject.faces) - 1) < 0.02,
+                                  / volume(run.states[0].now.p, run.states[0].subject.faces) - 1) < 0.02,
         ),
     ],
     "deep": [
