@@ -48,8 +48,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "flipped", "Faces turned round",
-        "5 % of the triangles are turned round, and each counts with the other sign: about 10 % of the volume are gone, of"
-        " the area nothing.",
+        "5 % of the triangles are turned round, and each counts with the other sign: 6 to 13 % of the volume are gone, by"
+        " the luck of the draw, and of the area nothing.",
         FLIPPED, -1, breaks=True,
     ),
     Preset(
