@@ -80,6 +80,8 @@ def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
         me.page.locator("li[data-card=transforms] a").click()
         me.page.locator("#exercise").get_by_text("workbench exercise").first.wait_for()
         assert me.page.locator("#exercise .report").count() == 0
+        me.page.close()  # a page whose server is gone says so in its console
+        late.page.close()
     finally:
         server.stop()
 
