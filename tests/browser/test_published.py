@@ -27,7 +27,10 @@ FAKE = replace(
     ),
     sweeps=(Sweep("angle", (0.0, 90.0, 180.0)),),
 )
-SCENE_IS_THERE = "typeof source !== 'undefined' && source.open_ !== null && !document.querySelector('#scene').hasAttribute('aria-busy')"
+SCENE_IS_THERE = (
+    "typeof source !== 'undefined' && source.open_ !== null"
+    " && !document.querySelector('#scene').hasAttribute('aria-busy')"
+)
 
 
 @pytest.fixture(scope="module")
