@@ -333,7 +333,7 @@ def test_the_course_has_pictures_ticks_and_leads_from_lesson_to_lesson(opened, o
     first, second = page.evaluate("COURSE.slice(0, 2).map((one) => one.name)")
     assert first == "fake"
     page.locator("#around a[rel=next]").click()
-    page.wait_for_function("name => LESSON.name === name", arg=second)
+    page.wait_for_function("name => typeof LESSON !== 'undefined' && LESSON.name === name", arg=second)
     page.locator("#around a[rel=prev]").wait_for()
     page.locator("nav.top a").click()
     page.locator("[data-card=fake].all", has_text="✓ done, 2 of 2 questions answered").wait_for()
