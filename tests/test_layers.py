@@ -50,7 +50,7 @@ ALLOWED = {
                                      "workbench.images", "workbench.progress", "workbench.atomic"},
     "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic",
                            "workbench.workers"},
-    "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset"},
+    "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset", "workbench.numerals"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.page", "workbench.exercise",

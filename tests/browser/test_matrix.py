@@ -102,6 +102,8 @@ def is_stepped_and_played_by_keys(home: Home) -> None:
     home.until("!transport.playing")
     home.press("?")
     home.find("#large").get_by_text("play or pause").wait_for()
+    home.ask("page.draw()")  # such as when more of the run comes
+    assert home.find("#large").is_visible()
     home.press("Escape")
     home.find("#large").wait_for(state="hidden")
 
@@ -152,7 +154,7 @@ def agrees_with_its_params(home: Home) -> None:
 
 def a_handle_and_a_point_are_moved_by_hand(home: Home) -> None:
     by = {kind: [f for f in fields_of(home.lesson.params) if isinstance(f.knob.by, kind)] for kind in (Gizmo, Pick)}
-    home.ask("void (secondsBetweenPictures = 0.4)")
+    home.ask("void (secondsBetweenPictures = 1)")
     for field in by[Gizmo][:1]:
         assert isinstance(field.knob.by, Gizmo)
         home.press("h")

@@ -171,7 +171,7 @@ def test_what_only_moves_glides_unless_that_is_unwanted(opened, out, motion):
 
 
 def test_the_scene_is_really_drawn_and_follows_the_theme(opened, out):
-    page = opened((out / "icp" / "index.html").as_uri(), drawn=True, color_scheme="dark")
+    page = opened((out / "icp" / "index.html").as_uri(), width=1280, drawn=True, color_scheme="dark")
     target = Timeline(catalog()["icp"], catalog()["icp"].params())
     target.extend()
     assert any(isinstance(one, Points) for one in target[0].scene.values())

@@ -9,7 +9,7 @@ SELDOM = """if (parent !== self && (location.pathname.includes("/scene/") || par
   let last = 0;
   window.requestAnimationFrame = (draw) => waiting.push(draw);
   setInterval(() => {
-    if (!waiting.length || performance.now() - last < (parent.secondsBetweenPictures ?? 0.2) * 1000) return;
+    if (!waiting.length || performance.now() - last < (parent.secondsBetweenPictures ?? 0.5) * 1000) return;
     last = performance.now();
     for (const draw of waiting.splice(0)) draw(last);
   }, 50);
