@@ -11,6 +11,7 @@ SELDOM = """if (parent !== self && (location.pathname.includes("/scene/") || par
   setInterval(() => {
     if (!waiting.length || performance.now() - last < (parent.secondsBetweenPictures ?? 0.5) * 1000) return;
     last = performance.now();
+    parent.pictures = (parent.pictures ?? 0) + 1;
     for (const draw of waiting.splice(0)) draw(last);
   }, 50);
 }"""
