@@ -52,7 +52,7 @@ ALLOWED = {
                            "workbench.workers", "workbench.numerals"},
     "workbench.handout": LESSON | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail",
                                    "workbench.atomic"},
-    "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset"},
+    "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset", "workbench.numerals"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.page", "workbench.exercise",

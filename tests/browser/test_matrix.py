@@ -7,7 +7,7 @@ a laptop at first, then in a dark one of a phone.
 import contextlib
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -15,21 +15,31 @@ import numpy as np
 import pytest
 from playwright.sync_api import TimeoutError as TookTooLong
 
-from tests.browser.homes import HOMES, PHONE, Home, asked, barriers, linked, opened
-from workbench.knobs import Gizmo, Pick, fields_of, text_of
+from tests.browser.homes import HOMES, PHONE, Home, Windows, asked, barriers, linked
+from workbench.knobs import Field, Gizmo, Pick, fields_of, text_of
 from workbench.lesson import catalog
 from workbench.page.code import moment_data
 from workbench.questions import answer
 from workbench.scene import Picture
 from workbench.timeline import Timeline
+from workbench.viewer.student import Student
 
 pytestmark = pytest.mark.browser
+AGREES = """(captions) => page.run.finished && page.known() === captions.length &&
+  $("#caption").textContent === captions[page.k]"""
+
+
+@pytest.fixture(scope="module")
+def windows(chromium, server) -> Iterator[Windows]:
+    windows = Windows(chromium, server)
+    yield windows
+    windows.close()
 
 
 @pytest.mark.parametrize("kind", HOMES)
 @pytest.mark.parametrize("name", catalog())
-def test_a_lesson_does_everything_in_its_home(chromium, server, tmp_path, name, kind):
-    with opened(kind, catalog()[name], chromium, server, tmp_path) as home:
+def test_a_lesson_does_everything_in_its_home(windows, tmp_path, name, kind):
+    with windows.opened(kind, catalog()[name], tmp_path) as home:
         says_what_the_timeline_says(home)
         is_stepped_and_played_by_keys(home)
         shows_the_line_of_code(home)
@@ -102,6 +112,8 @@ def is_stepped_and_played_by_keys(home: Home) -> None:
     home.until("!transport.playing")
     home.press("?")
     home.find("#large").get_by_text("play or pause").wait_for()
+    home.ask("page.draw()")  # such as when more of the run comes
+    assert home.find("#large").is_visible()
     home.press("Escape")
     home.find("#large").wait_for(state="hidden")
 
@@ -142,25 +154,22 @@ def a_knob_leads_to_another_run(home: Home) -> None:
 
 def agrees_with_its_params(home: Home) -> None:
     """See to it that what is said is what the run with these params says."""
-    session = next(iter(home.server.students.values())).session
+    session = student(home).session
     assert session is not None
     run = complete(home, session.params)
-    home.until("n => page.run.finished && page.known() === n", len(run))
-    k = home.ask("page.k")
-    home.says(run[k].caption.text, k)
+    home.until(AGREES, [step.caption.text for step in run.known()])
 
 
 def a_handle_and_a_point_are_moved_by_hand(home: Home) -> None:
     by = {kind: [f for f in fields_of(home.lesson.params) if isinstance(f.knob.by, kind)] for kind in (Gizmo, Pick)}
-    home.ask("void (secondsBetweenPictures = 0.4)")
+    home.ask("void (secondsBetweenPictures = 0.2)")
     for field in by[Gizmo][:1]:
-        assert isinstance(field.knob.by, Gizmo)
         home.press("h")
         home.find("#move[aria-pressed=true]").wait_for()
-        place = np.array(home.ask("name => page.run.params[name]", field.name)[:3])
-        start = on_screen(home, place)
-        ways = [on_screen(home, place + 0.6 * field.knob.by.size * axis) - start for axis in np.eye(3)]
-        moved(home, field.name, functools.partial(drag, home, start, max(ways, key=np.linalg.norm)))
+        while student(home)._scene._handles is None:
+            home.page.wait_for_timeout(50)
+        home.until("before => pictures > before + 1", home.ask("pictures"))  # it is drawn
+        moved(home, field.name, functools.partial(drag, home, field))
         home.press("h")
     for field in by[Pick][:1]:
         assert isinstance(field.knob.by, Pick)
@@ -183,13 +192,22 @@ def moved(home: Home, name: str, act: Callable[[int], None]) -> None:
     raise AssertionError(f"{name} stays {before}")
 
 
-def drag(home: Home, start: np.ndarray, way: np.ndarray, turn: int) -> None:
-    """Draw at the end of a handle's longest arrow."""
+def drag(home: Home, field: Field, turn: int) -> None:
+    """Draw at the end of a handle's longest arrow; where it is missed, the camera turns, and it is elsewhere."""
+    assert isinstance(field.knob.by, Gizmo)
+    place = np.array(home.ask("name => page.run.params[name]", field.name)[:3])
+    start = on_screen(home, place)
+    ways = on_screen(home, place + 0.6 * field.knob.by.size * np.eye(3)) - start
+    way = sorted(ways, key=np.linalg.norm)[-1 - turn % 2]
     home.page.mouse.move(*(start + way))
     home.page.mouse.down()
     for far in (10, 20, 30):
         home.page.mouse.move(*(start + (1 + far / np.linalg.norm(way)) * way))
     home.page.mouse.up()
+
+
+def student(home: Home) -> Student:
+    return next(iter(home.server.students.values()))
 
 
 def click(home: Home, path: str, turn: int) -> None:
@@ -198,14 +216,13 @@ def click(home: Home, path: str, turn: int) -> None:
 
 def another_point(home: Home, path: str, turn: int) -> np.ndarray:
     """Return where, on the screen, a part of what is at a path is that a click may mean: one off its middle."""
-    student = next(iter(home.server.students.values()))
-    assert student.session is not None
-    look = student.session.look()
+    session = student(home).session
+    look = None if session is None else session.look()
     assert look is not None
     one: Any = look.scene[path]
     T = np.eye(4) if one.T_world_object is None else one.T_world_object
     p = np.array([[0.23, 0.1, 0.0]]) * (one.width or 1.0) if isinstance(one, Picture) else one.p
-    places = np.array([on_screen(home, p_world) for p_world in (p @ T[:3, :3].T + T[:3, 3])[:200]])
+    places = on_screen(home, p[:200] @ T[:3, :3].T + T[:3, 3])
     box = home.find("#view").bounding_box()
     middle = np.array([box["x"] + 0.5 * box["width"], box["y"] + 0.55 * box["height"]])
     order = np.argsort(np.linalg.norm(places - middle, axis=1))
@@ -213,16 +230,18 @@ def another_point(home: Home, path: str, turn: int) -> np.ndarray:
 
 
 def on_screen(home: Home, p_world: np.ndarray) -> np.ndarray:
-    """Return where a point of the scene is in the window, by the camera of viser's client."""
+    """Return where points of the scene (..., 3) are in the window, by the camera of viser's client."""
     (client,) = home.server._viser.get_clients().values()
     camera, box = client.camera, home.find("#view").bounding_box()
     ahead = camera.look_at - camera.position
     ahead = ahead / np.linalg.norm(ahead)
     right = np.cross(ahead, camera.up_direction)
     right = right / np.linalg.norm(right)
-    x, y, z = (axis @ (p_world - camera.position) for axis in (right, np.cross(right, ahead), ahead))
+    axes = np.column_stack([right, np.cross(ahead, right), ahead])  # right, down, ahead
+    xyz = (p_world - camera.position) @ axes
     scale = 0.5 * box["height"] / np.tan(0.5 * camera.fov)
-    return np.array([box["x"] + 0.5 * box["width"] + scale * x / z, box["y"] + 0.5 * box["height"] - scale * y / z])
+    middle = np.array([box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]])
+    return middle + scale * xyz[..., :2] / xyz[..., 2:]
 
 
 def links_run_things(home: Home) -> None:
@@ -231,7 +250,7 @@ def links_run_things(home: Home) -> None:
         run, step = here(home), int(moment.get_attribute("data-step"))
         moment.press("Enter")
         home.says(run[opens_at(run, step)].caption.text, opens_at(run, step))
-        assert moment.get_attribute("aria-current") == "true"
+        home.find("a.run[data-step][aria-current=true]").first.wait_for()
     name = linked(home.lesson)
     if name is not None:
         preset = home.lesson.preset(name)
@@ -241,7 +260,7 @@ def links_run_things(home: Home) -> None:
         at = int(step) if step is not None else home.lesson.first_step if preset.step is None else preset.step
         link.press("Enter")
         home.says(run[opens_at(run, at)].caption.text, opens_at(run, at))
-        assert home.find(f"button[data-run='{name}']").get_attribute("aria-pressed") == "true"
+        home.find(f"button[data-run='{name}'][aria-pressed=true]").wait_for()
 
 
 def a_question_is_answered_wrong_and_right(home: Home) -> None:
@@ -277,9 +296,8 @@ def a_sweep_leads_to_another_run(home: Home) -> None:
         dial.press(key)
         value = values[home.ask("at => RECORDED.sweeps[0].values.at(at)", 0 if key == "Home" else -1)]
         run = complete(home, lesson.validated(replace(lesson.params(), **{knob: value})))
-        home.until("n => page.known() === n && source.open_.name === page.run.name", len(run))
-        k = home.ask("page.k")
-        home.says(run[k].caption.text, k)
+        home.until("() => source.open_.name === page.run.name")
+        home.until(AGREES, [step.caption.text for step in run.known()])
         assert dial.get_attribute("aria-valuetext").startswith(text_of(value))
     home.press("s")
 

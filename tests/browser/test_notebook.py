@@ -92,6 +92,11 @@ def test_a_cell_plays_in_jupyterlab(chromium, notebook):
             page.locator(".jp-Notebook .jp-CodeCell").first.wait_for()
             shown = page.locator(".jp-OutputArea-output iframe")
             for _ in range(10):  # a kernel that is still coming up may let go of what it is asked
+                asked = page.locator(
+                    "dialog.jp-Dialog .jp-mod-accept"
+                )  # JupyterLab's own, such as which kernel is meant
+                if asked.count():
+                    asked.first.click()
                 page.locator(".jp-Notebook .jp-CodeCell .cm-content").first.click()
                 page.keyboard.press("Control+Enter")
                 with contextlib.suppress(TookTooLong):

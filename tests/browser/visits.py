@@ -9,8 +9,9 @@ SELDOM = """if (parent !== self && (location.pathname.includes("/scene/") || par
   let last = 0;
   window.requestAnimationFrame = (draw) => waiting.push(draw);
   setInterval(() => {
-    if (!waiting.length || performance.now() - last < (parent.secondsBetweenPictures ?? 0.2) * 1000) return;
+    if (!waiting.length || performance.now() - last < (parent.secondsBetweenPictures ?? 0.5) * 1000) return;
     last = performance.now();
+    parent.pictures = (parent.pictures ?? 0) + 1;
     for (const draw of waiting.splice(0)) draw(last);
   }, 50);
 }"""

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -42,6 +43,8 @@ def client() -> Iterator[viser.ViserServer]:
 def live(client, monkeypatch) -> tuple[LiveScene, list[Scene]]:
     """A scene, and what it showed."""
     monkeypatch.setattr("workbench.viewer.stage.set_stage", lambda client, view: None)
+    camera = SimpleNamespace(on_update=lambda act: act, image_width=4, image_height=3)
+    monkeypatch.setattr(client, "camera", camera, raising=False)
     scene, shown = LiveScene(lambda **values: None, lambda p_origin, v_ray: None), []
     scene.take(client)
     assert scene._sink is not None

@@ -1,10 +1,14 @@
+import contextlib
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 import viser
 
 from workbench.lesson import View, catalog
 from workbench.recording.layout import scene_view
-from workbench.viewer.stage import NARROWEST, add_floor, eye_of
+from workbench.viewer.stage import NARROWEST, Aim, add_floor, eye_of
 
 
 @pytest.mark.parametrize("name", list(catalog()))
@@ -17,6 +21,25 @@ def test_a_narrow_picture_shows_as_much_in_its_width_as_a_wide_one(name):
     assert np.linalg.norm(narrow) * 0.6 == pytest.approx(np.linalg.norm(away) * NARROWEST)
     np.testing.assert_allclose(np.cross(narrow, away), 0, atol=1e-9)
     assert np.isfinite(eye_of(view, 0.0)).all()  # a picture that has no size yet
+
+
+def test_the_camera_is_fitted_to_another_width_unless_somebody_has_moved_it(monkeypatch):
+    camera = SimpleNamespace(image_width=860, image_height=530, up_direction=None, position=None, look_at=None, fov=0.0)
+    client: Any = SimpleNamespace(camera=camera, atomic=contextlib.nullcontext, scene=None)
+    monkeypatch.setattr("workbench.viewer.stage.add_floor", lambda scene, view: None)
+    lesson, aim = catalog()["icp"], Aim()
+    aim.fit(client)  # nothing is wanted yet
+    aim.open(lesson, lesson.params())
+    aim.show(client, lesson, lesson.params())
+    for width in (430, 860, 300):
+        camera.image_width = width
+        aim.fit(client)
+        np.testing.assert_allclose(camera.position, eye_of(lesson.view, width / 530))
+        np.testing.assert_allclose(camera.look_at, lesson.view.target)
+    camera.position = moved = np.array([5.0, 5.0, 5.0])
+    camera.image_width = 860
+    aim.fit(client)
+    assert camera.position is moved
 
 
 DOWN = View(eye=(0.0, 0.0, 4.0))

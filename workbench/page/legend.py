@@ -3,6 +3,7 @@
 import html
 from typing import Any, cast
 
+from workbench.numerals import brief
 from workbench.scene import PALETTE, Classes, Field, Primitive, Role, Scene, color_map, in_space
 
 
@@ -47,11 +48,11 @@ def _legend_rows(primitive: Primitive) -> list[str]:
 def bar_html(field: Field) -> str:
     """Return the colour bar of a field: its title, ends and unit."""
     stops = ",".join(css_color(tuple(color_map(field.map, i / 8).tolist())) for i in range(9))  # type: ignore[arg-type]
-    unit = f" {escape(field.unit)}" if field.unit else ""
-    return (
-        f'{escape(field.title)}: {field.low:.3g}<b style="background:linear-gradient(90deg,{stops})"></b>'
-        f"{field.high:.3g}{unit}"
-    )
+    small = field.unit == "m" and max(abs(field.low), abs(field.high)) < 0.1
+    scale, unit = (1e3, "mm") if small else (1.0, field.unit)
+    low, high = (brief(scale * value) for value in (field.low, field.high))
+    bar = f'<b style="background:linear-gradient(90deg,{stops})"></b>'
+    return f"{escape(field.title)}: {low}{bar}{high}{escape(f' {unit}') if unit else ''}"
 
 
 def _dot(rgb: tuple[int, int, int], label: str) -> str:

@@ -53,6 +53,11 @@ class LiveScene:
             self._sink = ViserSink(client.scene, BACKDROPS[self.dark])
             self._theme(client)
 
+            @client.camera.on_update
+            async def _(_: viser.CameraHandle) -> None:
+                if self.client is client:
+                    self.aim.fit(client)
+
     def wear(self, *, dark: bool, still: bool) -> None:
         """Draw for a dark or a light page from the next picture on."""
         self.dark, self.still = dark, still

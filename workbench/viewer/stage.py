@@ -20,10 +20,11 @@ class Aim:
     def __init__(self) -> None:
         self._wanted: View | None = None
         self._set: tuple[str, View] | None = None
+        self._put: tuple[View, float, np.ndarray] | None = None  # for a picture of this aspect, the eye was put there
 
     def lost(self) -> None:
         """Note that the client is another one."""
-        self._set = None
+        self._set = self._put = None
 
     def open(self, lesson: Lesson, params: Any) -> None:
         """Want the view of a run that was opened."""
@@ -37,15 +38,33 @@ class Aim:
         if self._set != (lesson.name, self._wanted):
             set_stage(client, self._wanted)
             self._set = (lesson.name, self._wanted)
+            self._put = self._wanted, aspect_of(client), eye_of(self._wanted, aspect_of(client))
+
+    def fit(self, client: viser.ClientHandle) -> None:
+        """Fit the camera to a picture that has become wider or narrower, unless a person has moved it since."""
+        if self._put is None:
+            return
+        (view, before, eye), aspect = self._put, aspect_of(client)
+        away = np.linalg.norm(eye - np.array(view.target))
+        if abs(aspect - before) < 0.02 or np.linalg.norm(client.camera.position - eye) > 1e-3 * away:
+            return
+        self._put = view, aspect, eye_of(view, aspect)
+        with client.atomic():
+            client.camera.position = self._put[2]
+            client.camera.look_at = np.array(view.target)
+
+
+def aspect_of(client: viser.ClientHandle) -> float:
+    """Return the width of a client's picture by its height."""
+    return client.camera.image_width / max(client.camera.image_height, 1)
 
 
 def set_stage(client: viser.ClientHandle, view: View) -> None:
     """Put a client's camera, grid and axes where a lesson wants them, fitted to the width of its picture."""
     add_floor(client.scene, view)
-    aspect = client.camera.image_width / max(client.camera.image_height, 1)
     with client.atomic():
         client.camera.up_direction = np.array(view.up)
-        client.camera.position = eye_of(view, aspect)
+        client.camera.position = eye_of(view, aspect_of(client))
         client.camera.look_at = np.array(view.target)
         client.camera.fov = float(np.radians(view.fov_degrees))
 

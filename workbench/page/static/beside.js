@@ -3,13 +3,14 @@
 
 const beside = {
   large: null,  // the key of what is enlarged
+  laid: false,  // whether something is shown that belongs to no step
 
   show() {
     const tiles = this.of(page.run, page.step());
     $("#tiles").replaceChildren(...tiles.map((tile) => this.tile(tile)));
     const enlarged = tiles.find((tile) => tile.key === this.large);
     const box = $("#large");
-    box.hidden = !enlarged;
+    box.hidden = !enlarged && !this.laid;
     if (!enlarged) return;
     const top = $(".body", box) ? $(".body", box).scrollTop : 0;
     const body = this.fill(enlarged.whole());
@@ -90,6 +91,7 @@ const beside = {
   // shows something that belongs to no step, until it is closed
   lay(title, body) {
     this.large = null;
+    this.laid = true;
     this.show();
     this.fill(element("h2", { textContent: title }), body);
     $("#large").hidden = false;
@@ -106,6 +108,7 @@ const beside = {
 
   enlarge(key) {
     this.large = key;
+    this.laid = false;
     this.show();
   },
 };

@@ -3,6 +3,7 @@
 "use strict";
 
 const GLIDE = 250; // milliseconds in which a thing that only moves gets to its new place
+const NARROWEST = 1.2; // width of a picture by its height; in a narrower one a scene is seen from farther away
 const MESHES = new Set(["MeshMessage", "GlbMessage"]);
 const IDENTITY = { wxyz: [1, 0, 0, 0], position: [0, 0, 0], visible: true };
 
@@ -46,6 +47,8 @@ const feed = window.feed = { // viser's page in the frame looks for it
     this.client = client;
     this.say({ type: "connected" });
     this.send(this.waiting.splice(0));
+    for (const kind of ["pointerdown", "wheel"]) stage.frame.contentDocument.addEventListener(kind, () => { this.turned = true; }, { passive: true });
+    new ResizeObserver(() => this.aim()).observe(stage.frame);
   },
 
   send(messages) {
@@ -69,10 +72,21 @@ const feed = window.feed = { // viser's page in the frame looks for it
     const still = first.filter((message) => message.name === undefined && !message.type.startsWith("SetCamera"));
     const root = first.filter((message) => message.name === "" && message.type === "SetOrientationMessage");
     const order = ["SetCameraUpDirectionMessage", "SetCameraPositionMessage", "SetCameraLookAtMessage", "SetCameraFovMessage"];
-    const moved = camera === this.camera ? [] : !this.camera ? cameras
-      : order.flatMap(of).map((message) => ({ ...message, initial: false }));
-    this.send([...root, ...still, ...moved]);
-    this.camera = camera;
+    this.send([...root, ...still]);
+    if (camera === this.camera) return;
+    const isFirst = !this.camera;
+    Object.assign(this, { camera, seen: isFirst ? cameras : order.flatMap(of), turned: false });
+    this.aim(isFirst);
+  },
+
+  // puts the camera where the recording had it, as far away as a narrow picture needs; not where a person has turned it since
+  aim(initial = false) {
+    if (this.turned || !this.seen) return;
+    const { clientWidth: width, clientHeight: height } = stage.frame, far = Math.max(1, NARROWEST / (width / height || NARROWEST));
+    const target = this.seen.find((message) => message.type === "SetCameraLookAtMessage")?.look_at;
+    const eye = (p) => p.map((value, i) => target[i] + far * (value - target[i]));
+    this.send(this.seen.map((message) => ({ ...message, ...(initial ? {} : { initial: false }),
+      ...(message.type === "SetCameraPositionMessage" && target ? { position: eye([...message.position]) } : {}) })));
   },
 
   // shows these nodes; `glide` lets what only moves move, `next` says that they follow what is shown
