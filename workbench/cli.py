@@ -206,19 +206,25 @@ def grade(
     roster: Annotated[
         Path | None, Option("A table of all students: who handed in nothing gets a row.", "FILE.csv")
     ] = None,
+    assignment: Annotated[
+        Path | None, Option("What a handout's assignment.json says its exercises are worth.", "FILE.json")
+    ] = None,
     sandbox: Sandbox = "auto",
 ) -> int:
     """Grade a folder of submissions; goes on where it was interrupted."""
     from workbench.exercise.classroom import Asked, grade_folder
+    from workbench.handout.assignment import read_file
 
     if lesson is not None:
         lesson_given(lesson)  # what is wrong with it is told once, before the first submission
+    worth = None if assignment is None else read_file(assignment).worth
     asked = Asked(only, Path(lesson).resolve() if lesson is not None and is_path(lesson) else None, sandbox)
     return grade_folder(
         folder,
         out or folder / "graded",
         asked=asked,
         roster=roster,
+        worth=worth,
         jobs=jobs,
         dask=dask,
         tell=sys.stderr,

@@ -3,7 +3,7 @@
 import csv
 import io
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from workbench.errors import one_line
@@ -13,27 +13,37 @@ Result = dict[str, Any]
 HOW = {"timeout": "hangs", "died": "crashes", "raised": "raises", "result": "returns no result"}
 
 
-def is_full(result: Result) -> bool:
-    """Whether all that a student handed in was graded, and has full marks."""
+def is_full(result: Result, worth: Mapping[str, float] | None = None) -> bool:
+    """Whether all that a student handed in, and all of an assignment, was graded and has full marks."""
     full = all(report["points"] == report["possible"] for report in result["reports"])
-    return bool(result["reports"]) and not result["ungraded"] and full
+    whole = set(worth or ()) <= {report["exercise"] for report in result["reports"]}
+    return bool(result["reports"]) and not result["ungraded"] and full and whole
 
 
-def class_csv(results: Sequence[Result]) -> str:
+def class_csv(results: Sequence[Result], worth: Mapping[str, float] | None = None) -> str:
     """Return one row per student: points in all and per exercise, and what was wrong but for wrong answers.
 
     What could not be graded counts out of its full points; what was not handed in is empty.
+
+    Args:
+        results: The class.
+        worth: The points of an assignment's exercises, in its order. Every student's points are out of all of them, and
+            other exercises count nothing. None counts the points of the checks, out of what was handed in.
     """
     names = list(dict.fromkeys(item["exercise"] for result in results for item in _items(result) if item["exercise"]))
+    names = names if worth is None else list(worth)
     rows = [["student", "points", "possible", *names, "trouble"]]
     for result in results:
         points: dict[str, float] = {}
         for item in _items(result):
-            if item["exercise"]:
-                points[item["exercise"]] = points.get(item["exercise"], 0.0) + item["points"]
-        possible = sum(item["possible"] for item in _items(result))
+            if item["exercise"] in names:
+                factor = 1.0 if worth is None else worth[item["exercise"]] / item["possible"]
+                points[item["exercise"]] = points.get(item["exercise"], 0.0) + factor * item["points"]
+        possible = sum(item["possible"] for item in _items(result)) if worth is None else sum(worth.values())
         cells = [f"{points[name]:g}" if name in points else "" for name in names]
-        rows.append([result["student"], f"{sum(points.values()):g}", f"{possible:g}", *cells, _trouble(result)])
+        other = dict.fromkeys(item["exercise"] for item in _items(result) if item["exercise"] not in (*names, None))
+        trouble = "; ".join(filter(None, [_trouble(result), *(f"{name} is not asked for" for name in other)]))
+        rows.append([result["student"], f"{sum(points.values()):g}", f"{possible:g}", *cells, trouble])
     return _csv(rows)
 
 
@@ -62,10 +72,10 @@ def matrix_csv(results: Sequence[Result]) -> str:
     return _csv([*rows, ["most frequent mistake", *frequent]])
 
 
-def summary(results: Sequence[Result]) -> str:
-    """Return the class in a few lines of Markdown."""
+def summary(results: Sequence[Result], worth: Mapping[str, float] | None = None) -> str:
+    """Return the class in a few lines of Markdown; of an assignment's exercises, where it is given."""
     graded = [result for result in results if result["reports"]]
-    perfect = sum(map(is_full, results))
+    perfect = sum(is_full(result, worth) for result in results)
     lines = [f"# {len(results)} submissions", ""]
     lines.append(f"{len(graded)} graded, {perfect} with full marks, {len(results) - len(graded)} could not be graded.")
     if any(result["sandbox"] == "none" for result in results):

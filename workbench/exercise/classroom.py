@@ -37,6 +37,7 @@ def grade_class(
     *,
     asked: Asked | None = None,
     roster: Path | None = None,
+    worth: Mapping[str, float] | None = None,
     executor: Executor | None = None,
     jobs: int = 2,
     progress: Progress | None = None,
@@ -48,6 +49,7 @@ def grade_class(
         out: Where the results go; what is there and still fits is not graded again.
         asked: Which exercises, and what shuts submissions in.
         roster: A table of those who should have handed in.
+        worth: The points of an assignment's exercises; None counts the points of the checks.
         executor: Where the work runs; None uses `jobs` processes of this machine.
         jobs: How many students are graded at a time.
         progress: Told of each that is done.
@@ -80,9 +82,9 @@ def grade_class(
             if progress is not None:
                 progress(one_line(name), done, len(found))
     ordered = [results[name] for name in found]
-    _write(out / "class.csv", class_csv(ordered))
+    _write(out / "class.csv", class_csv(ordered, worth))
     _write(out / "matrix.csv", matrix_csv(ordered))
-    _write(out / "summary.md", summary(ordered))
+    _write(out / "summary.md", summary(ordered, worth))
     return ordered
 
 
@@ -146,6 +148,7 @@ def grade_folder(
     *,
     asked: Asked,
     roster: Path | None = None,
+    worth: Mapping[str, float] | None = None,
     jobs: int | None,
     dask: str | None,
     tell: TextIO,
@@ -188,6 +191,7 @@ def grade_folder(
                 out,
                 asked=asked,
                 roster=roster,
+                worth=worth,
                 executor=executor,
                 jobs=jobs or os.cpu_count() or 1,
                 progress=progress,
@@ -195,9 +199,9 @@ def grade_folder(
         except KeyboardInterrupt:
             tell.write(f"\nInterrupted: {done[0]} of {done[1] or '?'} graded; the same command goes on from there.\n")
             return 130
-    result.write(summary(graded) + f"\nResults: {out / 'class.csv'}, {out / 'matrix.csv'}\n")
+    result.write(summary(graded, worth) + f"\nResults: {out / 'class.csv'}, {out / 'matrix.csv'}\n")
     some = [one for one in graded if one["reports"]]
-    return 2 if not some else 0 if all(map(is_full, graded)) else 1
+    return 2 if not some else 0 if all(is_full(one, worth) for one in graded) else 1
 
 
 @contextlib.contextmanager

@@ -5,6 +5,7 @@ import json
 import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of, find_exercise
@@ -12,6 +13,7 @@ from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox.walls import NAMES
 from workbench.lesson import catalog
 
+MOST_POINTS = 1e6
 SERVICES = ("gradescope", "prairielearn", "folder")
 MEGABYTES = {"gradescope": 512}
 """Address space of a student's process, where a service has less than we would give: its smallest machine has 768 MB."""
@@ -55,6 +57,11 @@ class Assignment:
         return sum(self.weights)
 
     @property
+    def worth(self) -> dict[str, float]:
+        """What each exercise is worth, by its name."""
+        return {exercise.name: weight for exercise, weight in zip(self.exercises, self.weights, strict=True)}
+
+    @property
     def megabytes(self) -> int | None:
         """Address space of a student's process there; None is what it has everywhere."""
         return MEGABYTES.get(self.service)
@@ -70,10 +77,8 @@ class Assignment:
     def text(self) -> str:
         """Return it as JSON, for `read`."""
         dates = {name: day and day.isoformat() for name, day in (("release", self.release), ("due", self.due))}
-        weights = {exercise.name: weight for exercise, weight in zip(self.exercises, self.weights, strict=True)}
-        return (
-            json.dumps({"service": self.service, "weights": weights, **dates, "sandbox": self.sandbox}, indent=1) + "\n"
-        )
+        said = {"service": self.service, "weights": self.worth, **dates, "sandbox": self.sandbox}
+        return json.dumps(said, indent=1) + "\n"
 
 
 def read(text: str) -> Assignment:
@@ -91,6 +96,27 @@ def read(text: str) -> Assignment:
         sandbox=said["sandbox"],
         **days,
     )
+
+
+def read_file(path: Path) -> Assignment:
+    """Return the assignment that a file holds.
+
+    Raises:
+        InputError: If there is none, or it names an exercise that there is not; one line.
+    """
+    try:
+        found = read(path.read_text(encoding="utf-8"))
+        if not found.weights or not all(
+            isinstance(weight, int | float) and 0 < weight <= MOST_POINTS for weight in found.weights
+        ):
+            raise ValueError
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror or 'cannot be read'}") from None
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise InputError(f"{path}: is not the assignment.json of a handout") from None
+    return found
 
 
 def assigned(
@@ -150,7 +176,7 @@ def _weight(word: str) -> tuple[str, float]:
         points = float(text)
     except ValueError:
         points = float("nan")
-    if not 0 < points <= 1e6:
+    if not 0 < points <= MOST_POINTS:
         raise InputError(f"--weight {word}: EXERCISE=POINTS with points above 0 is needed")
     return name, points
 

@@ -67,7 +67,7 @@ def tried(assignment: Assignment, out: Path) -> str:
         InputError: If the right sample has not full marks there, or the empty one any.
     """
     if assignment.service == "folder":
-        return "Grade what comes back: workbench grade FOLDER"
+        return f"Grade what comes back: workbench grade FOLDER --assignment {out / 'assignment.json'}"
     shares = {kind: share_of(assignment, out, out / "teacher" / kind) for kind in KINDS}
     if shares != {"full": 1.0, "none": 0.0}:
         raise InputError(f"{out}: on this machine the samples score {shares}, not 1 and 0: see what results say there")
@@ -143,8 +143,9 @@ def readme(assignment: Assignment) -> str:
 def _steps(assignment: Assignment) -> list[str]:
     return [
         "1. Give students what is in `student`.",
-        "2. Put what they hand in into one folder, a folder or a file per student, and grade it: `workbench grade FOLDER`. "
-        "`class.csv` counts points of checks; `assignment.json` says what an exercise is worth.",
+        "2. Put what they hand in into one folder, a folder or a file per student, and grade it: "
+        "`workbench grade FOLDER --assignment assignment.json`. `class.csv` counts the points of this assignment; what was "
+        "not handed in counts nothing out of its points.",
         "3. `workbench check --hidden` on a file of `teacher/full` gives full marks, on one of `teacher/none` none.",
     ]
 
