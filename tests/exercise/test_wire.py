@@ -52,6 +52,13 @@ def test_a_subclass_arrives_as_a_plain_array():
     assert abs(arrived).tolist() == [1, 1, 1]
 
 
+def test_a_picture_as_nested_lists_crosses():
+    rows = np.random.default_rng(0).normal(size=(120, 120)).tolist()
+    colours = np.random.default_rng(0).normal(size=(120, 120, 3)).tolist()
+    arrived = through({"rows": rows, "colours": colours, "numpy's": list(np.arange(3.0))})
+    assert arrived == {"rows": rows, "colours": colours, "numpy's": [0.0, 1.0, 2.0]}
+
+
 @pytest.mark.parametrize("value", [object(), {1: 2}, np.array([object()]), np.array(["a"]), 2**70, 1j, b"x"])
 def test_what_is_no_value_is_refused(value):
     with pytest.raises(WireError):
@@ -68,7 +75,16 @@ def test_any_bytes_are_a_message_or_refused(header, payload):
 
 @pytest.mark.parametrize(
     "header",
-    [b'{"v":{"a":"<f8","s":[-1]}}', b'{"v":{"a":"<f8","s":[9]}}', b'{"v":{"a":"O","s":[1]}}', b'{"v":{"v":{}}}', b"[]"],
+    [
+        b'{"v":{"a":"<f8","s":[-1]}}',
+        b'{"v":{"a":"<f8","s":[9]}}',
+        b'{"v":{"a":"O","s":[1]}}',
+        b'{"v":{"v":{}}}',
+        b"[]",
+        b'{"v":{"n":-1}}',
+        b'{"v":{"n":2}}',
+        b'{"v":{"n":"x"}}',
+    ],
 )
 def test_a_forged_header_is_refused(header):
     with pytest.raises(WireError):
