@@ -43,6 +43,11 @@ def chromium() -> Iterator:
         yield browser
 
 
+def pytest_xdist_auto_num_workers(config):
+    """One more than there are cores: who drives a browser mostly waits for it."""
+    return (os.cpu_count() or 1) + 1
+
+
 def pytest_xdist_make_scheduler(config, log):
     """Keep together what shares something."""
     from tests.workers import Scheduling

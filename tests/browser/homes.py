@@ -10,6 +10,7 @@ from unittest.mock import patch
 
 from axe_playwright_python.sync_playwright import Axe
 
+from tests.browser.chrome import WAIT
 from tests.browser.visits import SELDOM
 from workbench.lesson import Lesson, Question, Sweep
 from workbench.notebook import Replay
@@ -57,6 +58,14 @@ class Home:
     def until(self, expression: str, argument: Any = None) -> None:
         """Wait until something holds of the lesson's page."""
         self.frame.wait_for_function(expression, arg=argument)
+
+    def comes_true(self, holds: Callable[[], Any]) -> None:
+        """Wait until something holds of the server."""
+        for _ in range(WAIT // 50):
+            if holds():
+                return
+            self.page.wait_for_timeout(50)
+        raise AssertionError("it never came true")
 
     def press(self, key: str) -> None:
         """Press a key wherever the focus is."""

@@ -166,8 +166,7 @@ def a_handle_and_a_point_are_moved_by_hand(home: Home) -> None:
     for field in by[Gizmo][:1]:
         home.press("h")
         home.find("#move[aria-pressed=true]").wait_for()
-        while student(home)._scene._handles is None:
-            home.page.wait_for_timeout(50)
+        home.comes_true(lambda: student(home)._scene._handles is not None)
         home.until("before => pictures > before + 1", home.ask("pictures"))  # it is drawn
         moved(home, field.name, functools.partial(drag, home, field))
         home.press("h")
@@ -207,7 +206,7 @@ def drag(home: Home, field: Field, turn: int) -> None:
 
 
 def student(home: Home) -> Student:
-    return next(iter(home.server.students.values()))
+    return home.server.students[home.ask("document.body.dataset.token")]
 
 
 def click(home: Home, path: str, turn: int) -> None:
@@ -231,7 +230,8 @@ def another_point(home: Home, path: str, turn: int) -> np.ndarray:
 
 def on_screen(home: Home, p_world: np.ndarray) -> np.ndarray:
     """Return where points of the scene (..., 3) are in the window, by the camera of viser's client."""
-    (client,) = home.server._viser.get_clients().values()
+    client = student(home)._scene.client
+    assert client is not None
     camera, box = client.camera, home.find("#view").bounding_box()
     ahead = camera.look_at - camera.position
     ahead = ahead / np.linalg.norm(ahead)

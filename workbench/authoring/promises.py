@@ -177,7 +177,7 @@ def every_knob_goes_to_its_ends(subject: Subject) -> Found:
 def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
     """Where a knob says what it needs to have an effect, it has none while another knob is set otherwise."""
     fields = {field.name: field for field in fields_of(subject.lesson.params)}
-    plain: dict[Any, Timeline] = {}  # many knobs need the same
+    idle: dict[Any, list[Field]] = {}  # knobs without effect at some params
     for field in fields.values():
         for name, wanted in field.knob.needs.items():
             if name not in fields or fields[name].kind not in ("choice", "bool"):
@@ -186,21 +186,40 @@ def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
             met = {other: values[0] for other, values in field.knob.needs.items()}
             for other in [value for value in ends(fields[name]) if value not in wanted]:
                 base = replace(subject.lesson.params(), **{**met, name: other})
-                if base not in plain:
-                    plain[base] = subject.fresh(base, "a run", MOST_STEPS)
-                yield from _has_no_effect(subject, field, base, plain[base])
+                idle.setdefault(base, []).append(field)
+    for base, turned in idle.items():
+        plain = subject.fresh(base, "a run", MOST_STEPS)
+        if _all_turned(subject, turned, base, plain):
+            for field in turned:
+                yield from _has_no_effect(subject, field, base, plain)
+        else:
+            yield from [None] * len(turned)
+
+
+def _all_turned(subject: Subject, fields: list[Field], base: Any, plain: Timeline) -> bool:
+    """Whether knobs that are turned together, to each of their ends once, change a run."""
+    values = {field.name: ends(field) for field in fields}
+    for k in range(max(map(len, values.values()))):
+        all_at = {name: several[k % len(several)] for name, several in values.items()}
+        if _effect(plain, subject.fresh(replace(base, **all_at), "a run with idle knobs turned", MOST_STEPS)):
+            return True
+    return False
 
 
 def _has_no_effect(subject: Subject, field: Field, base: Any, plain: Timeline) -> Found:
     for value in [value for value in ends(field) if value != getattr(base, field.name)]:
         turned = subject.fresh(replace(base, **{field.name: value}), f"a run at {field.name} = {value}", MOST_STEPS)
-        found = next(
-            (path for one, two in zip(plain.known(), turned.known(), strict=False)
-             if (path := _differs(one.scene, two.scene))), None
-        )  # fmt: skip
-        same_end = plain.stopped == turned.stopped and len(plain) == len(turned)
-        where = f"{field.name} = {value} changes {found or 'how the run ends'!r} although its needs are not met"
-        yield None if found is None and same_end else f"{subject.who}: {where}, at {changed(base)}"
+        found = _effect(plain, turned)
+        where = f"{field.name} = {value} changes {found!r} although its needs are not met"
+        yield f"{subject.who}: {where}, at {changed(base)}" if found else None
+
+
+def _effect(plain: Timeline, turned: Timeline) -> str | None:
+    """Return what differs between two runs: the path of the first thing, or that they end otherwise."""
+    pairs = zip(plain.known(), turned.known(), strict=False)
+    found = next((path for one, two in pairs if (path := _differs(one.scene, two.scene))), None)
+    same_end = plain.stopped == turned.stopped and len(plain) == len(turned)
+    return found or (None if same_end else "how the run ends")
 
 
 @promise
