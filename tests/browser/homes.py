@@ -89,23 +89,25 @@ def barriers(frame: Any, *rules: str) -> list[str]:
     return frame.evaluate(BARRIERS, options | ({"runOnly": rules} if rules else {}))
 
 
-class Windows:
-    """A browser window for each home, used by one lesson after the other: what they share is loaded and compiled once.
-
-    Somebody who wants no motion sits before them, on a laptop.
-    """
+class Browser:
+    """One browser for all visits, so that what lessons share is loaded once; somebody who wants no motion sits before it."""
 
     def __init__(self, chromium: Any, server: Server):
         self._context = chromium.new_context(viewport={"width": WIDTH, "height": HEIGHT}, reduced_motion="reduce")
         self._server = server
-        self._open: dict[str, tuple[Any, list[str]]] = {}
 
     @contextmanager
     def opened(self, kind: str, lesson: Lesson, folder: Path) -> Iterator[Home]:
-        """Open a lesson in one of its homes, as if for the first time."""
+        """Open a lesson in one of its homes, as if for the first time; its window closes at the end."""
         lesson, address = HOMES[kind](lesson, self._server, folder)
-        page, errors = self._open[kind] if kind in self._open else self._new(kind)
-        errors.clear()
+        page, errors = self._context.new_page(), []
+        page.add_init_script(SELDOM)
+        if kind == "notebook":  # what it draws is looked at in JupyterLab
+            page.add_init_script("secondsBetweenPictures = 3600")
+        ours = ("file:", "data:", "blob:", "about:", self._server.address)
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
+        page.on("request", lambda request: None if request.url.startswith(ours) else errors.append(request.url[:200]))
         try:
             page.goto(address)
             if kind == "notebook":
@@ -114,28 +116,12 @@ class Windows:
             frame.wait_for_function("page.run && page.run.finished && page.step() !== undefined")
             yield Home(kind, lesson, page, frame, self._server, errors)
             frame.evaluate("localStorage.clear()")
-            page.context.new_cdp_session(page).send("Emulation.clearDeviceMetricsOverride")
-            page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
-            page.goto("about:blank")
-        except BaseException:  # the next one has another window
-            del self._open[kind]
+        finally:
             page.close()
-            raise
 
     def close(self) -> None:
-        """Close them all."""
+        """Close it."""
         self._context.close()
-
-    def _new(self, kind: str) -> tuple[Any, list[str]]:
-        page, errors = self._open[kind] = self._context.new_page(), []
-        page.add_init_script(SELDOM)
-        if kind == "notebook":  # what it draws is looked at in JupyterLab
-            page.add_init_script("secondsBetweenPictures = 3600")
-        ours = ("file:", "data:", "blob:", "about:", self._server.address)
-        page.on("pageerror", lambda error: errors.append(str(error)))
-        page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
-        page.on("request", lambda request: None if request.url.startswith(ours) else errors.append(request.url[:200]))
-        return page, errors
 
 
 def _live(lesson: Lesson, server: Server, folder: Path) -> tuple[Lesson, str]:

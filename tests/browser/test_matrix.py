@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import TimeoutError as TookTooLong
 
-from tests.browser.homes import HOMES, PHONE, Home, Windows, asked, barriers, linked
+from tests.browser.homes import HOMES, PHONE, Browser, Home, asked, barriers, linked
 from workbench.knobs import Field, Gizmo, Pick, fields_of, text_of
 from workbench.lesson import catalog
 from workbench.page.code import moment_data
@@ -30,16 +30,16 @@ AGREES = """(captions) => page.run.finished && page.known() === captions.length 
 
 
 @pytest.fixture(scope="module")
-def windows(chromium, server) -> Iterator[Windows]:
-    windows = Windows(chromium, server)
-    yield windows
-    windows.close()
+def browser(chromium, server) -> Iterator[Browser]:
+    browser = Browser(chromium, server)
+    yield browser
+    browser.close()
 
 
 @pytest.mark.parametrize("kind", HOMES)
 @pytest.mark.parametrize("name", catalog())
-def test_a_lesson_does_everything_in_its_home(windows, tmp_path, name, kind):
-    with windows.opened(kind, catalog()[name], tmp_path) as home:
+def test_a_lesson_does_everything_in_its_home(browser, tmp_path, name, kind):
+    with browser.opened(kind, catalog()[name], tmp_path) as home:
         says_what_the_timeline_says(home)
         is_stepped_and_played_by_keys(home)
         shows_the_line_of_code(home)

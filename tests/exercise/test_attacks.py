@@ -205,7 +205,7 @@ def test_a_forged_answer_is_an_answer_or_none(wall, body):
     with Student(submitted(FRAME + body + "\nreturn p[0]"), "centroid", seconds=1.5, wall=wall) as student:
         for _ in range(2):
             got = tried(student, POINTS)
-            assert isinstance(got, (int, float, np.ndarray)) or got is None
+            assert isinstance(got, (int, float, list, np.ndarray)) or got is None
 
 
 def test_who_forges_the_answer_to_this_call_has_answered_it(wall):

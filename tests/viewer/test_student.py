@@ -4,6 +4,7 @@ import asyncio
 import json
 import threading
 from dataclasses import replace
+from types import SimpleNamespace
 
 import viser
 
@@ -157,6 +158,7 @@ def test_the_camera_is_set_when_a_run_with_another_view_is_opened_and_else_left_
             return seen
 
         server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+        server.camera = SimpleNamespace(on_update=lambda told: told)  # type: ignore[attr-defined]
         try:
             me.student.join(server)  # type: ignore[arg-type]
             me.say(verb="open", query="?lesson=fake", lesson="fake")
