@@ -53,3 +53,10 @@ def pytest_xdist_make_scheduler(config, log):
     from tests.workers import Scheduling
 
     return Scheduling(config, log)
+
+
+def pytest_collection_modifyitems(config, items):
+    """Begin with what takes longest."""
+    from tests.workers import rank
+
+    items.sort(key=lambda item: rank(item.nodeid))

@@ -1,4 +1,4 @@
-"""Spreads tests over workers: what shares a server, a site or a lesson's whole runs goes to one of them.
+"""Spreads tests over workers: what shares a server, a site or a lesson's whole runs goes to one of them, the longest first.
 
 xdist's own groups (`--dist loadgroup`) are written into the names of tests, which pytest 9 no longer lets it do.
 """
@@ -10,6 +10,7 @@ from xdist.scheduler import LoadScopeScheduling
 RUN_LESSONS = re.compile(r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers|page/test_article)\.py::\w+\[(\w+)")
 OF_A_LESSON = re.compile(r"tests/lessons/test_(\w+?)(?:_(?:own|slots|drawn|run))?\.py::")
 HOMES_OF_A_LESSON = re.compile(r"(tests/browser/test_matrix\.py::\w+\[\w+)-")
+AUDITS = re.compile(r"tests/test_verdicts\.py::")
 IN_A_BROWSER = re.compile(r"(tests/(?:browser/\w+|recording/test_browser)\.py)::")
 
 
@@ -20,4 +21,10 @@ class Scheduling(LoadScopeScheduling):
         return next((found[1] for pattern in GROUPS if (found := pattern.match(nodeid))), nodeid)
 
 
+def rank(nodeid: str) -> int:
+    """Return when a test is begun: what one worker is long at alone must not be left to the end."""
+    return next((k for k, pattern in enumerate(FIRST) if pattern.match(nodeid)), len(FIRST))
+
+
 GROUPS = (HOMES_OF_A_LESSON, IN_A_BROWSER, OF_A_LESSON, RUN_LESSONS)
+FIRST = (AUDITS, IN_A_BROWSER, OF_A_LESSON, RUN_LESSONS)

@@ -24,6 +24,7 @@ def kept(work: Callable[[Any], Any]) -> Callable[[Any], Any]:
 
 
 dense = kept(lambda adjacency: adjacency.toarray())
+ends = kept(lambda adjacency: np.nonzero(np.triu(adjacency.toarray(), 1)))
 
 
 def A(state: State) -> np.ndarray:
@@ -49,7 +50,7 @@ def correct(state: State) -> int:
 
 def off(state: State, p: np.ndarray) -> float:
     """RMS distance from the clean places, in mean edges."""
-    i, j = np.nonzero(np.triu(A(state), 1))
+    i, j = ends(state.adjacency)
     clean = state.subject.p
     return float(
         np.sqrt(np.mean(np.sum((p - clean) ** 2, axis=1))) / np.mean(np.linalg.norm(clean[i] - clean[j], axis=1))

@@ -73,10 +73,13 @@ def _least(run: Run, k: int, m: re.Match[str]) -> bool:
     assert isinstance(now, Cut)
     order = np.argsort(now.fiedler, kind="stable")
     a, d = a[np.ix_(order, order)], a.sum(axis=1)[order]
-    best = np.inf
-    for i in range(1, len(order)):
+    best, cut = np.inf, 0.0
+    for i in range(
+        1, len(order)
+    ):  # one more node on this side: its edges to the others are cut, those to its own no more
+        cut += d[i - 1] - 2 * a[i - 1, : i - 1].sum()
         smaller = min(d[:i].sum(), d[i:].sum())
-        best = min(best, a[:i, i:].sum() / smaller if smaller else 1.0)
+        best = min(best, cut / smaller if smaller else 1.0)
     return abs(best - now.conductance) < 1e-9
 
 
