@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from workbench.motion import between, moves
+from workbench.motion import eased, moves, way
 from workbench.scene import Caption, Points, Segments, is_rigid
 
 
@@ -28,11 +28,15 @@ AFTER: dict[str, Any] = {
 }
 
 
-def on_its_way(*way) -> np.ndarray:
-    cloud = between(*way)["cloud"]
+def on_its_way(*shares: float) -> np.ndarray:
+    found = way(BEFORE, AFTER, shares)
+    assert found is not None
+    assert set(found.poses) == {"cloud"}
+    cloud = found.scene["cloud"]
     assert isinstance(cloud, Points)
     assert cloud.T_world_object is not None
-    return cloud.T_world_object
+    assert np.array_equal(cloud.T_world_object, found.poses["cloud"][0])
+    return found.poses["cloud"]
 
 
 def test_only_what_has_another_pose_moves():
@@ -45,24 +49,37 @@ def test_only_what_has_another_pose_moves():
 
 
 def test_a_move_starts_and_ends_where_the_steps_say():
-    moving = moves(BEFORE, AFTER)
-    start, end = (on_its_way(BEFORE, AFTER, moving, share) for share in (0.0, 1.0))
+    start, end = on_its_way(0.0, 1.0)
     assert start == pytest.approx(np.eye(4), abs=1e-12)
     assert end == pytest.approx(AFTER["cloud"].T_world_object, abs=1e-12)
 
 
 def test_it_turns_evenly_and_its_middle_goes_straight():
-    moving = moves(BEFORE, AFTER)
     p_start, p_end = np.array([5.0, 0, 0]), pose(80, (1, 2, 3)) @ [5, 0, 0, 1]
-    for share in (0.25, 0.5, 0.9):
-        T = on_its_way(BEFORE, AFTER, moving, share)
+    shares = (0.25, 0.5, 0.9)
+    for share, T in zip(shares, on_its_way(*shares), strict=True):
         assert is_rigid(T)
         assert np.degrees(np.arctan2(T[1, 0], T[0, 0])) == pytest.approx(80 * share)
         assert (T @ [5, 0, 0, 1])[:3] == pytest.approx((1 - share) * p_start + share * p_end[:3])
 
 
 def test_lines_that_change_are_away_meanwhile():
-    seen = between(BEFORE, AFTER, moves(BEFORE, AFTER), 0.5)
-    assert "lines" not in seen
-    assert seen["still"] is BEFORE["still"]
-    assert "lines" in between(BEFORE, AFTER | {"lines": LINES}, moves(BEFORE, AFTER), 0.5)
+    found = way(BEFORE, AFTER, [0.5])
+    assert found is not None
+    assert "lines" not in found.scene
+    assert found.scene["still"] is BEFORE["still"]
+    same_lines = way(BEFORE, AFTER | {"lines": LINES}, [0.5])
+    assert same_lines is not None
+    assert "lines" in same_lines.scene
+
+
+def test_where_nothing_only_moves_there_is_no_way():
+    assert way(BEFORE, BEFORE, [0.5]) is None
+
+
+def test_a_way_starts_and_ends_gently():
+    shares = np.array([0.0, *eased(10), 1.0])
+    assert len(shares) == 11
+    assert (np.diff(shares) > 0).all()
+    assert np.allclose(shares + shares[::-1], 1.0)
+    assert np.diff(shares)[0] < 0.3 * np.diff(shares).max()

@@ -48,8 +48,15 @@ def live(client, monkeypatch) -> tuple[LiveScene, list[Scene]]:
     scene, shown = LiveScene(lambda **values: None, lambda p_origin, v_ray: None), []
     scene.take(client)
     assert scene._sink is not None
-    show = scene._sink.show
+    show, place = scene._sink.show, scene._sink.place
+
+    def placed(poses) -> None:
+        there = {path: replace(shown[-1][path], T_world_object=T) for path, T in poses.items()}  # type: ignore[type-var]
+        shown.append(shown[-1] | there)
+        place(poses)
+
     monkeypatch.setattr(scene._sink, "show", lambda seen: (shown.append(seen), show(seen)))
+    monkeypatch.setattr(scene._sink, "place", placed)
     return scene, shown
 
 

@@ -9,7 +9,17 @@ A thing that moves keeps its arrays (the same objects) and changes `T_world_obje
 
 from workbench.scene.beside import Caption, Chart, Curve, Scalar, Table
 from workbench.scene.colors import PALETTE, UNKNOWN, Classes, Color, Field, Role, color_map, color_rows
-from workbench.scene.comparing import PRIMITIVES, Primitive, Scene, arrays, caption_of, ghost, in_space, same
+from workbench.scene.comparing import (
+    PRIMITIVES,
+    Primitive,
+    Scene,
+    arrays,
+    caption_of,
+    ghost,
+    in_space,
+    same,
+    same_but_for_pose,
+)
 from workbench.scene.spatial import Axes, Camera, Label, Mesh, Picture, Points, Segments, Spatial, is_rigid
 
 __all__ = [
@@ -43,4 +53,5 @@ __all__ = [
     "in_space",
     "is_rigid",
     "same",
+    "same_but_for_pose",
 ]

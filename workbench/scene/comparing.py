@@ -93,6 +93,15 @@ def same(a: object, b: object) -> bool:
     return a == b
 
 
+def same_but_for_pose(a: Primitive, b: Primitive | None) -> bool:
+    """Tell whether two things in space look the same, wherever they are."""
+    return (
+        in_space(a)
+        and type(a) is type(b)
+        and all(same(getattr(a, f.name), getattr(b, f.name)) for f in fields(a) if f.name != "T_world_object")
+    )
+
+
 def arrays(value: Any) -> Iterator[np.ndarray]:
     """Walk through all arrays that a scene, primitive or state holds."""
     if isinstance(value, np.ndarray):

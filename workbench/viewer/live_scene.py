@@ -10,7 +10,7 @@ from workbench.emphasis import lit
 from workbench.errors import InputError
 from workbench.knobs import Pick, fields_of
 from workbench.lesson import Lesson
-from workbench.motion import FRAMES, Move, between, moves
+from workbench.motion import Way, eased, way
 from workbench.scene import Scene
 from workbench.session import Look
 from workbench.timeline import Timeline
@@ -18,6 +18,8 @@ from workbench.viewer.handles import Handles, listen_for_clicks
 from workbench.viewer.sink import ViserSink
 from workbench.viewer.stage import BACKDROPS, Aim
 from workbench.viewer.terminal import tell_terminal
+
+EASED = eased()
 
 
 class LiveScene:
@@ -42,7 +44,7 @@ class LiveScene:
         self._staged: Lesson | None = None
         self._handles: Handles | None = None
         self._shown: tuple[Timeline, int, Scene] | None = None
-        self._way: tuple[Scene, Scene, dict[str, Move], int] | None = None  # from, to, what moves, pictures shown
+        self._way: tuple[Way, Scene, int] | None = None  # its pictures, where it leads, pictures shown
 
     def take(self, client: viser.ClientHandle | None) -> None:
         """Draw in this client from now on; None where it has gone."""
@@ -95,12 +97,17 @@ class LiveScene:
         if self._way is None or self.client is None or self._sink is None:
             self._way = None
             return False
-        before, after, moving, shown = self._way
-        ended = at_once or shown + 1 >= FRAMES
+        on_the_way, after, shown = self._way
+        ended = at_once or shown == len(EASED)
         with self.client.atomic():
-            self._sink.show(after if ended else between(before, after, moving, _eased((shown + 1) / FRAMES)))
+            if ended:
+                self._sink.show(after)
+            elif shown == 0:
+                self._sink.show(on_the_way.scene)
+            else:
+                self._sink.place({path: poses[shown] for path, poses in on_the_way.poses.items()})
         self.client.flush()
-        self._way = None if ended else (before, after, moving, shown + 1)
+        self._way = None if ended else (on_the_way, after, shown + 1)
         return not ended
 
     def _begin(self, look: Look) -> None:
@@ -109,9 +116,10 @@ class LiveScene:
         before, self._shown = self._shown, (look.timeline, look.k, look.scene)
         self._way = None
         beside = before is not None and before[0] is look.timeline and abs(before[1] - look.k) == 1
-        moving = moves(before[2], look.scene) if before is not None and beside and not (self.still or self.path) else {}
-        if before is not None and moving:
-            self._way = (before[2], look.scene, moving, 0)
+        calm = self.still or self.path
+        found = way(before[2], look.scene, EASED) if before is not None and beside and not calm else None
+        if found is not None:
+            self._way = (found, look.scene, 0)
         else:
             self._sink.show(lit(look.scene, self.path) if self.path else look.scene)
 
@@ -137,7 +145,3 @@ class LiveScene:
 
     def _theme(self, client: viser.ClientHandle) -> None:
         client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=self.dark)
-
-
-def _eased(share: float) -> float:
-    return share * share * (3.0 - 2.0 * share)

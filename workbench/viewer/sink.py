@@ -7,8 +7,8 @@ once, and the browser then keeps the pose it has. So a node is replaced under it
 its pose then, whatever it is), and a name whose node was removed is never used again.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -32,6 +32,7 @@ from workbench.scene import (
     in_space,
     is_rigid,
     same,
+    same_but_for_pose,
 )
 from workbench.viewer.mended import mend_viser, wxyz_of
 
@@ -44,6 +45,8 @@ class _Node:
     shown: Spatial
     handle: Any
     name: str
+    is_away: bool = False
+    """Whether it was placed elsewhere than `shown` says."""
 
 
 class ViserSink:
@@ -72,6 +75,13 @@ class ViserSink:
             self._show(path, primitive)  # type: ignore[arg-type]
             veiled |= _translucent(primitive) and (node is None or self._nodes[path] is not node)
 
+    def place(self, poses: Mapping[str, np.ndarray]) -> None:
+        """Put what is shown elsewhere, by path, for a moment: rigid poses (4, 4) in the world."""
+        for path, T_world_object in poses.items():
+            node = self._nodes[path]
+            node.is_away = True
+            _set_pose(node.handle, node.shown, T_world_object)
+
     def handle(self, path: str) -> Any:
         """Return viser's handle of what is shown at a path, None when there is nothing."""
         node = self._nodes.get(path)
@@ -90,8 +100,9 @@ class ViserSink:
     def _show(self, path: str, wanted: Spatial) -> None:
         node = self._nodes.get(path)
         if node is not None:
-            if same(node.shown, wanted):
+            if not node.is_away and same(node.shown, wanted):
                 return
+            node.is_away = False
             if self._moved(node, wanted) or self._changed(node, wanted):
                 node.shown = wanted
                 return
@@ -113,9 +124,9 @@ class ViserSink:
         """Set the pose where nothing but a rigid pose differs."""
         if type(node.shown) is not type(wanted) or not (_poseable(node.shown) and _poseable(wanted)):
             return False
-        if not same(replace(node.shown, T_world_object=None), replace(wanted, T_world_object=None)):
+        if not same_but_for_pose(node.shown, wanted):
             return False
-        _set_pose(node.handle, wanted)
+        _set_pose(node.handle, wanted, wanted.T_world_object)
         return True
 
     def _changed(self, node: _Node, wanted: Spatial) -> bool:
@@ -123,7 +134,7 @@ class ViserSink:
         before = node.shown
         if isinstance(before, Label) and isinstance(wanted, Label):
             node.handle.text = wanted.text
-            _set_pose(node.handle, wanted)
+            _set_pose(node.handle, wanted, wanted.T_world_object)
             return True
         if isinstance(before, Points) and isinstance(wanted, Points) and before.radius == wanted.radius:
             p, p_before = _placed(wanted, wanted.p), _placed(before, before.p)
@@ -131,14 +142,14 @@ class ViserSink:
                 if not (p is p_before or np.array_equal(p, p_before)):
                     node.handle.points = p.astype(np.float32)
                 node.handle.colors = self._colors(wanted, len(p))
-                _set_pose(node.handle, wanted)
+                _set_pose(node.handle, wanted, wanted.T_world_object)
                 return True
         if isinstance(before, Segments) and isinstance(wanted, Segments) and before.width == wanted.width:
             ends = _placed(wanted, wanted.ends)
             if len(ends) == len(before.ends) > 0:
                 node.handle.points = ends.astype(np.float32)
                 node.handle.colors = self._end_colors(wanted)
-                _set_pose(node.handle, wanted)
+                _set_pose(node.handle, wanted, wanted.T_world_object)
                 return True
         return False
 
@@ -147,7 +158,7 @@ class ViserSink:
         if (
             isinstance(primitive, Label) or primitive.T_world_object is not None
         ):  # else it has the pose that a node starts with
-            _set_pose(handle, primitive)
+            _set_pose(handle, primitive, primitive.T_world_object)
         return handle
 
     def _makers(self) -> dict[type, Callable[[str, Any], Any]]:
@@ -315,8 +326,7 @@ def _placed(primitive: Spatial, p: np.ndarray) -> np.ndarray:
     return p if T is None or is_rigid(T) else p @ T[:3, :3].T + T[:3, 3]
 
 
-def _set_pose(handle: Any, primitive: Spatial) -> None:
-    T = primitive.T_world_object
+def _set_pose(handle: Any, primitive: Spatial, T: np.ndarray | None) -> None:
     if isinstance(primitive, Label):
         handle.position = primitive.p if T is None else T[:3, :3] @ primitive.p + T[:3, 3]
     elif T is None or not is_rigid(T):
