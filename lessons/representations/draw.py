@@ -15,6 +15,7 @@ from workbench.geometry.voxels import Grid, counted_surface
 from workbench.scene import Field, Mesh, Picture, Points, Primitive, Scene, Segments
 
 MOST_POINTS, MOST_BOXES, MOST_QUADS = 8000, 260, 26_000
+BEHIND = 1.1  # m along y: where a slice is out of the way
 REACH = 0.5  # m: the end of the colour bar of distances
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 RIMS = CUBE[[[a, b] for a in range(8) for b in range(a) if np.abs(CUBE[a] - CUBE[b]).sum() == 1]]
@@ -61,16 +62,16 @@ def _cells(state: State, now: Cells | Fitted) -> dict[str, Primitive]:
         if state.surface is not None or not now.values.any():
             return {}
         return {"cells": Mesh(*counted_surface(now.values, now.grid), "source", flat=True, name="full cells")}
-    return {"slice": _slice(now.values, now.grid, 1.0 if state.surface is None else 0.75)}
+    return {"slice": _slice(now.values, now.grid, aside=state.surface is not None)}
 
 
-def _slice(values: np.ndarray, grid: Grid, opacity: float) -> Picture:
-    """Return the distances in the layer of cells behind y = 0, as an upright picture there."""
+def _slice(values: np.ndarray, grid: Grid, *, aside: bool) -> Picture:
+    """Return the distances in the layer of cells behind y = 0, as an upright picture there, or out of the way behind all."""
     layer = grid.shape[1] // 2
     shown = Field(values[:, layer, ::-1].T.astype(float), -REACH, REACH, "Stored distance", "m", "diverging")
     pose = UPRIGHT.copy()
-    pose[1, 3] = grid.low[1] + grid.spacing[1] * (layer + 0.5)
-    return Picture(shown, "Slice", float(grid.spacing[0] * grid.shape[0]), pose, opacity)
+    pose[1, 3] = BEHIND if aside else grid.low[1] + grid.spacing[1] * (layer + 0.5)
+    return Picture(shown, "Slice through the middle", float(grid.spacing[0] * grid.shape[0]), pose)
 
 
 def _level(now: Level) -> dict[str, Primitive]:

@@ -155,13 +155,13 @@ CAPTIONS = [
     Claim(rf"Area: {MORE}", lambda run, k, m:
           says_more(m[1], mesh_of(surface_of(run.states[k])).area / sizes(run.params)[0])),
     Claim(rf"volume: {MORE}", _volume),
-    Claim(rf"(\d+) cells along each edge, one bit each: {SIZE}\. ([\d,]+) have their middle inside: volume {MORE}\. The walls"
-          rf" around them have {VALUE} times the area", _bits),
+    Claim(rf"(\d+) cells along each edge, one bit each: {SIZE}\. ([\d,]+) have their middle inside: volume {MORE}\. The"
+          rf" walls around them have {VALUE} times the area", _bits),
     Claim(rf"in the middle {WAY} where {WAY} is true", _middle),
     Claim(rf"Level (\d+), edges of {WAY}: ([\d,]+) of ([\d,]+) cells? may be crossed", _level),
     Claim(rf"Packed {SIZE}, with pointers {SIZE}; dense bits {SIZE}", _bytes),
     Claim(rf"{VALUE} cuts? deep: each cell is cut at the median of its longest side\. {VALUE} cells with at"
-          _built),
+          rf" most {VALUE}", _built),
     Claim(rf"Cell {VALUE} of the search: {VALUE} of {VALUE} points looked at \({PERCENT}\), the nearest so far {WAY}"
           r" away", _searched),
     Claim(rf"{VALUE} branch(?:es)? passed over: no point of theirs can be nearer", _passed),
