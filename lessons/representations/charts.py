@@ -116,7 +116,7 @@ def _search(now: Built | Searched) -> dict[str, Primitive]:
     looked = 100 * np.array([visit.looked for visit in visits]) / n
     return {
         "looked": chart.curve(x, looked, "looked at", "source"),
-        "all": chart.curve(x, 0 * x + 100, "all", "neutral"),
+        "share of all": chart.curve(x, 0 * x + 100, "all", "neutral"),
     }
 
 

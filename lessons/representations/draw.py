@@ -87,19 +87,20 @@ def _level(now: Level) -> dict[str, Primitive]:
 
 
 def _patches(now: Patches) -> dict[str, Primitive]:
-    shown = now.control[..., :3] / now.control[..., 3:]
+    dividing = bool(now.levels) and not now.count
+    shown = (now.control[..., :3] / now.control[..., 3:])[: 1 if dividing else None]
     rows = np.concatenate([segments(line) for net in shown for line in (*net, *net.transpose(1, 0, 2))])
     scene: dict[str, Primitive] = {
-        "net": Points(now.net[:, :3], "target", 0.016, name="control points"),
+        "net": Points(shown.reshape(-1, 3) if dividing else now.net[:, :3], "target", 0.016, name="control points"),
         "legs": Segments(rows, "correspondence", 1, opacity=0.6, name="control net"),
     }
-    for k, level in enumerate(now.levels if not now.count else ()):
+    for k, level in enumerate(now.levels if dividing else ()):
         p = (level[..., :3] / level[..., 3:]).reshape(*level.shape[:-1], 3)
         lines = [segments(line) for line in (p if p.ndim == 3 else p[None])]
         scene[f"divided/{k}"] = Points(p.reshape(-1, 3), "source", 0.018, name="divided")
         if p.shape[-2] > 1:
             scene[f"lines/{k}"] = Segments(np.concatenate(lines), "source", 2, name="divided again")
-    if now.point is not None and not now.count:
+    if now.point is not None and dividing:
         scene["point"] = Points(now.point[None], "highlight", 0.035, name="the point on the patch")
     return scene
 

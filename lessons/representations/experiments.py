@@ -190,7 +190,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "predict-weights",
-        "144 control points of cubic patches miss the torus by 0.28 mm at worst. 81 with a weight each: what do they miss it"
+        "144 control points of cubic patches miss the torus by 0.28 mm at worst. 64 with a weight each: what do they miss it"
         " by?",
         answer=lambda states: float(
             np.argmin(np.abs(np.log10([1e-15, 1e-4, 1e-3]) - np.log10(_patch_error(states) + 1e-16)))

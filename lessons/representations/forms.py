@@ -25,7 +25,7 @@ from workbench.algorithms.kd_tree import build_tree, looked_at, search
 from workbench.algorithms.neural_field import new_network, train_field
 from workbench.algorithms.octree import grow_octree
 from workbench.data import surfaces
-from workbench.geometry.bezier import bezier_patch, de_casteljau, torus_patches
+from workbench.geometry.bezier import bezier_patch, de_casteljau, raised_patch, torus_patches
 from workbench.geometry.level_sets import EdgeCrossings, edge_crossings, level_surface
 from workbench.geometry.sampling import points_on_faces
 from workbench.geometry.simplification import clustered, halved
@@ -190,12 +190,12 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
     shown = control[..., :3] / control[..., 3:]
     net = np.unique(np.round(np.concatenate([shown, control[..., 3:]], axis=-1).reshape(-1, 4), 9) + 0.0, axis=0)
     now = Patches(control=control, net=net)
-    count = 81 if params.rational else len(net)  # rational patches are quadratic: three of four are enough
-    state = State(params=params, subject=subject, now=now, bytes=(16 if params.rational else 12) * count)
+    state = State(params=params, subject=subject, now=now, bytes=(16 if params.rational else 12) * len(net))
     yield state
     u, v = params.place
     rows = [de_casteljau(row, v) for row in control[0]]
-    for k in (1, 2, 3):
+    levels = ()
+    for k in range(1, len(rows)):
         levels = tuple(np.stack([row[j] for row in rows]) for j in range(1, k + 1))
         yield replace(state, now=replace(now, levels=levels))
     point = evaluated(functions.bezier_patch, control[0], np.array([[u, v]]))[0]
@@ -229,6 +229,7 @@ def _square(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 def evaluated(bezier_patch: BezierPatch, control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Return points of a rational patch: numerator and denominator are patches too."""
+    control = raised_patch(control) if len(control) == 3 else control
     weights = np.asarray(bezier_patch(np.repeat(control[..., 3:], 3, axis=-1), uv), float)
     return np.asarray(bezier_patch(control[..., :3], uv), float) / np.where(weights == 0, 1.0, weights)
 

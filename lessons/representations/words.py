@@ -174,22 +174,23 @@ def _patches(state: State, now: Patches) -> Caption:
         text = f"{counted(now.count, 'patch', 'patches')} of 16: {_errors(state.surface)}. {len(now.net)} {kind}control"
         return Caption(f"{text} points{f', {size(state.bytes)}' if now.count == 16 else ''}.")
     u, v = (brief(value, 2) for value in state.params.place)
+    n = now.control.shape[1]
     if not now.levels:
         return Caption(
-            f"{len(now.net)} {kind}control points make 16 patches of 4 × 4, {size(state.bytes)}. Those at a patch's corners"
-            " lie on it, the others pull."
+            f"{len(now.net)} {kind}control points make 16 patches of {n} × {n}, {size(state.bytes)}. Those at a patch's"
+            " corners lie on it, the others pull."
         )
     if now.point is None:
-        legs = {1: "three points", 2: "two", 3: "one"}[len(now.levels)]
+        left = n - len(now.levels)
         return Caption(
-            f"De Casteljau along v in the first patch: every leg is divided at v = {v}, which leaves {legs} of each row"
-            f" of {4 - len(now.levels) + 1}."
+            f"De Casteljau along v in the first patch: every leg is divided at v = {v}. Of {left + 1} points in each row"
+            f" {counted(left, 'point')} {'is' if left == 1 else 'are'} left."
         )
     at = now.levels[-1][0, :3] / now.levels[-1][0, 3]
     gap = float(np.linalg.norm(now.point - at))
     said = "agrees" if gap < ROUND_OFF else f"gives a point {length(gap, 2)} away"
     return Caption(
-        f"The column of four is divided at u = {u} in the same way: the last point lies on the patch. The sum of Bernstein"
+        f"The column of {n} is divided at u = {u} in the same way: the last point lies on the patch. The sum of Bernstein"
         f" polynomials {said}."
     )
 

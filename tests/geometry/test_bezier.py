@@ -6,7 +6,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import BPoly
 
-from workbench.geometry.bezier import bernstein, bezier_patch, de_casteljau, quarter_circles, raised, torus_patches
+from workbench.geometry.bezier import (
+    bernstein,
+    bezier_patch,
+    de_casteljau,
+    quarter_circles,
+    raised,
+    raised_patch,
+    torus_patches,
+)
 
 RING, TUBE = 0.6, 0.25
 
@@ -54,7 +62,7 @@ def test_weighted_arcs_are_circles_and_polynomial_ones_are_not():
     t = np.linspace(0, 1, 400)
     off = {}
     for rational in (True, False):
-        p = np.concatenate([bernstein(3, t) @ arc for arc in quarter_circles(rational)])
+        p = np.concatenate([bernstein(len(arc) - 1, t) @ arc for arc in quarter_circles(rational)])
         off[rational] = np.abs(np.linalg.norm(p[:, :2], axis=1) / p[:, 2] - 1).max()
     assert off[True] < 1e-14
     assert off[False] == pytest.approx(2.73e-4, rel=0.01)  # the known error of the usual cubic quarter
@@ -64,6 +72,8 @@ def test_weighted_arcs_are_circles_and_polynomial_ones_are_not():
 def test_sixteen_patches_make_a_torus(rational, most):
     uv = np.random.default_rng(6).random((300, 2))
     for control in torus_patches(RING, TUBE, rational):
+        if rational:
+            control = raised_patch(control)
         w = bezier_patch(np.repeat(control[..., 3:], 3, axis=-1), uv)
         x, y, z = (bezier_patch(control[..., :3], uv) / w).T
         assert np.abs(np.hypot(np.hypot(x, y) - RING, z) - TUBE).max() < most

@@ -26,7 +26,8 @@ def half_size(params: Params) -> np.ndarray:
 def distance(params: Params, q: np.ndarray) -> np.ndarray:
     """How far points are from the true surface, negative inside; of the rabbit without a sign, to half a millimetre."""
     if shape_of(params) == "torus":
-        on_ring = 0.6 * q[:, :2] / np.maximum(np.linalg.norm(q[:, :2], axis=1, keepdims=True), 1e-12)
+        along = np.where(q[:, :2].any(axis=1, keepdims=True), q[:, :2], [1.0, 0.0])  # from the axis any way is as far
+        on_ring = 0.6 * along / np.linalg.norm(along, axis=1, keepdims=True)
         return np.linalg.norm(q - np.column_stack([on_ring, np.zeros(len(q))]), axis=1) - 0.25
     if params.shape == "rabbit":
         return np.asarray(dense_rabbit().query(q)[0])

@@ -57,15 +57,21 @@ def raised(control: Float[np.ndarray, "3 ..."]) -> Float[np.ndarray, "4 ..."]:
     return np.stack([a, (a + 2 * b) / 3, (2 * b + c) / 3, c])
 
 
-def quarter_circles(rational: bool) -> Float[np.ndarray, "4 4 3"]:
-    """Return the unit circle as four cubic arcs, each four control points (w x, w y, w).
+def raised_patch(control: Float[np.ndarray, "3 3 d"]) -> Float[np.ndarray, "4 4 d"]:
+    """Return the control net of the bicubic patch that is the same surface as a biquadratic one."""
+    return raised(raised(control).swapaxes(0, 1)).swapaxes(0, 1)
+
+
+def quarter_circles(rational: bool) -> Float[np.ndarray, "4 k 3"]:
+    """Return the unit circle as four arcs, each some control points (w x, w y, w).
 
     Args:
-        rational: Whether the arcs are exact; else they are polynomials that meet the circle at the ends and in the middle.
+        rational: Whether the arcs are exact, quadratic with three control points; else they are cubic polynomials with
+            four, which meet the circle at the ends and in the middle.
     """
     if rational:
         w = np.sqrt(0.5)
-        first = raised(np.array([[1.0, 0, 1], [w, w, w], [0, 1, 1]]))
+        first = np.array([[1.0, 0, 1], [w, w, w], [0, 1, 1]])
     else:
         leg = 4 / 3 * (np.sqrt(2) - 1)
         first = np.array([[1.0, 0, 1], [1, leg, 1], [leg, 1, 1], [0, 1, 1]])
@@ -76,13 +82,13 @@ def quarter_circles(rational: bool) -> Float[np.ndarray, "4 4 3"]:
     return np.stack(arcs)
 
 
-def torus_patches(ring: float, tube: float, rational: bool) -> Float[np.ndarray, "16 4 4 4"]:
-    """Return a torus around z as 16 bicubic patches, control points (w x, w y, w z, w); u goes around z, v around the tube.
+def torus_patches(ring: float, tube: float, rational: bool) -> Float[np.ndarray, "16 k k 4"]:
+    """Return a torus around z as 16 patches, control points (w x, w y, w z, w); u goes around z, v around the tube.
 
     Args:
         ring: From the origin to the middle of the tube, m.
         tube: The radius of the tube, m.
-        rational: Whether they are exact.
+        rational: Whether they are exact, rational biquadratic; else they are bicubic.
     """
     arcs = quarter_circles(rational)
     patches = []
