@@ -115,7 +115,7 @@ def _search(now: Built | Searched) -> dict[str, Primitive]:
     x = np.arange(1.0, len(visits) + 1)
     looked = 100 * np.array([visit.looked for visit in visits]) / n
     return {
-        "looked": chart.curve(x, looked, "looked at", "source"),
+        "share looked at": chart.curve(x, looked, "looked at", "source"),
         "share of all": chart.curve(x, 0 * x + 100, "all", "neutral"),
     }
 

@@ -96,8 +96,8 @@ PRESETS: tuple[Preset[Params], ...] = (
         PLAIN, -2, breaks=True,
     ),
     Preset(
-        "clamp", "Born dead",
-        "Distances clamped at 10 cm, as DeepSDF does: where the output begins beyond that, its gradient is zero.",
+        "clamp", "A loss that dies",
+        "Distances clamped at 10 cm, as DeepSDF does: where the output is beyond that, its gradient is zero. Turn the seed.",
         CLAMP, -1, breaks=True,
     ),
     Preset(

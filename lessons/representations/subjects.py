@@ -80,7 +80,7 @@ def measured(subject: Subject, p: np.ndarray, faces: np.ndarray) -> Surface:
         worst=float(away.max()),
         area=area / subject.area,
         volume=signed_volume(p, faces) / subject.volume if encloses(faces) else float("nan"),
-        tilt=_tilt(subject, p, faces, u[::8]) if subject.closed else float("nan"),
+        tilt=_tilt(subject, p, faces, u[::16]) if subject.closed else float("nan"),
     )
 
 
