@@ -27,7 +27,7 @@ def draw(state: State) -> Scene:
     now, surface = state.now, state.surface
     scene: dict[str, Primitive] = {"caption": caption(state)}
     if state.subject is not None:
-        scene["truth"] = _truth(state.subject, 0.3 if surface is None else 0.12)
+        scene["truth"] = _truth(state.subject)
     if isinstance(now, Cloud):
         scene |= _cloud(now)
     elif isinstance(now, Cells | Fitted):
@@ -45,8 +45,8 @@ def draw(state: State) -> Scene:
 
 
 @functools.lru_cache(maxsize=8)
-def _truth(subject: Subject, opacity: float) -> Mesh:
-    return Mesh(subject.p, subject.faces, "truth", opacity=opacity, name=subject_name(subject))
+def _truth(subject: Subject) -> Mesh:
+    return Mesh(subject.p, subject.faces, "truth", opacity=0.18, name=subject_name(subject))
 
 
 def _cloud(now: Cloud) -> dict[str, Primitive]:

@@ -11,6 +11,7 @@ from workbench.lesson import Preset, Question, View
 from workbench.numerals import brief, length, percent
 
 VIEW = View(eye=(1.7, -3.2, 1.9), target=(0.0, 0.0, -0.05), grid=None, axes=False)
+NEAR = View(eye=(1.5, -3.3, 1.5), target=(0.2, -0.3, 0.1), grid=None, axes=False)
 WIDE = View(eye=(2.1, -4.2, 2.2), target=(0.0, 0.0, -0.05), grid=None, axes=False)
 
 BINARY = Params(form="voxels", resolution=64)
@@ -24,16 +25,16 @@ SEARCH = Params(form="k-d tree", points=1000)
 TWENTY = Params(form="k-d tree", dimensions=20)
 CUBIC = Params(form="patches")
 RATIONAL = Params(form="patches", rational=True)
-NEURAL = Params(form="neural", iterations=1500)
+NEURAL = Params(form="neural", iterations=1000)
 PLAIN = Params(form="neural", features=0)
-CLAMP = Params(form="neural", shape="box", target="clamped")
+CLAMP = Params(form="neural", shape="box", target="clamped", seed=1)
 RABBIT = Params(form="neural", shape="rabbit", features=3)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "binary", "Bits",
         "One bit for each cell, ever smaller cells. Compare volume, area and normals of what comes back with the truth.",
-        BINARY, 5,
+        BINARY, 4,
     ),
     Preset(
         "edges", "Sharp edges",
@@ -48,7 +49,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "union", "The smaller of two distances",
         "Two boxes that overlap by 10 cm, stored as the smaller of both distances. The surface is fine: look inside.",
-        UNION, 8, breaks=True,
+        UNION, 9, breaks=True,
     ),
     Preset(
         "cloud", "Points alone",
@@ -68,7 +69,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "search", "The nearest of a thousand",
         "Points in no order, then cut at the median again and again: watch how few cells the search looks into.",
-        SEARCH, 3, WIDE,
+        SEARCH, 3, NEAR,
     ),
     Preset(
         "twenty", "The same in twenty dimensions",

@@ -38,7 +38,7 @@ BezierPatch = Callable[[np.ndarray, np.ndarray], np.ndarray]
 LOW, EDGE = np.full(3, -1.0), 2.0  # the cube that is cut into cells
 NEURAL_CELLS = 28
 NEAR, FAR, NEAR_SPREAD = 10_000, 5_000, 0.05  # samples for a network: near the surface, anywhere; m
-MOST_VISITS, QUERIES, FEW_QUERIES = 16, 40, 8
+MOST_VISITS, QUERIES, FEW_QUERIES = 16, 32, 5
 MESH_FROM, CLOUD_FROM = 125, 100
 
 
@@ -262,7 +262,7 @@ def _growth(seed: int) -> Growth:
         tree = build_tree(rng.random((n, d)), np.zeros(d), np.ones(d))
         return float(looked_at(tree, rng.random((QUERIES if d < 10 else FEW_QUERIES, d))).mean())
 
-    counts, dimensions = np.array([250, 1000, 4000, 16_000]), np.array([2, 3, 5, 8, 10, 15, 20])
+    counts, dimensions = np.array([250, 1000, 4000, 16_000]), np.array([2, 3, 5, 10, 15, 20])
     return Growth(
         counts=counts,
         looked=np.array([mean_looked(int(n), 3) for n in counts]),

@@ -30,7 +30,7 @@ class Params:
     resolution: Annotated[
         int, Knob("Cells along an edge of the cube at the end", 8, 64, needs={"form": ("voxels", "distances")})
     ] = 32
-    depth: Annotated[int, Knob("How often cells of the octree are cut", 1, 7, needs={"form": ("octree",)})] = 5
+    depth: Annotated[int, Knob("How often cells of the octree are cut", 3, 7, needs={"form": ("octree",)})] = 5
     points: Annotated[
         int,
         Knob("Points at the end, of a mesh vertices at most", 100, 100_000, step=100,
@@ -40,7 +40,7 @@ class Params:
         float,
         Knob("Of the plate, in cells of the last grid", 0.2, 2, unit="cells", step=0.1, needs={"shape": ("plate",)}),
     ] = 0.5
-    iterations: Annotated[int, Knob("Steps of Adam", 100, 1500, step=25, needs=NEURAL)] = 500
+    iterations: Annotated[int, Knob("Steps of Adam", 100, 1500, step=25, needs=NEURAL)] = 300
     width: Annotated[int, Knob("Numbers in each of two hidden layers", 8, 64, needs=NEURAL)] = 32
     features: Annotated[
         int, Knob("Octaves of sine and cosine of each coordinate that go in too", 0, 5, needs=NEURAL)

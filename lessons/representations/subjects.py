@@ -111,7 +111,7 @@ def _tilt(subject: Subject, p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> 
 
 @functools.cache
 def _torus() -> Subject:
-    made = surfaces.torus(12_000, RING, TUBE)
+    made, fine = surfaces.torus(3000, RING, TUBE), surfaces.torus(20_000, RING, TUBE)
     return Subject(
         name="the torus",
         p=made.p,
@@ -121,7 +121,7 @@ def _torus() -> Subject:
         inside=lambda q: torus_sdf(q, RING, TUBE) < 0,
         area=4 * np.pi**2 * RING * TUBE,
         volume=2 * np.pi**2 * RING * TUBE**2,
-        on=points_on_faces(made.p, made.faces, spread_numbers()),
+        on=points_on_faces(fine.p, fine.faces, spread_numbers()),
     )
 
 

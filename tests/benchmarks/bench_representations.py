@@ -66,7 +66,7 @@ def networks() -> dict[str, Contender]:
 
         def theirs() -> float:
             regressor = learning.MLPRegressor(
-                (32, 32), activation="tanh", batch_size=BATCH, learning_rate_init=5e-3,
+                hidden_layer_sizes=(32, 32), activation="tanh", batch_size=BATCH, learning_rate_init=5e-3,
                 max_iter=1500 * BATCH // len(x), random_state=1, n_iter_no_change=1000,
             )  # fmt: skip
             with warnings.catch_warnings():

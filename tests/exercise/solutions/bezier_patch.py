@@ -61,6 +61,34 @@ def right_tensordot(control, uv):
     return np.tensordot(weights, control, axes=([1, 2], [0, 1]))
 
 
+def right_scipy(control, uv):
+    from scipy.special import comb as choose
+
+    k = np.arange(4)
+    U, V = (choose(3, k) * t[:, None] ** k * (1 - t)[:, None] ** (3 - k) for t in uv.T)
+    return np.sum(U[:, :, None, None] * V[:, None, :, None] * control, axis=(1, 2))
+
+
+def right_vectorised_legs(control, uv):
+    u, v = uv[:, 0].reshape(-1, 1, 1, 1), uv[:, 1].reshape(-1, 1, 1, 1)
+    net = np.broadcast_to(control, (len(uv), 4, 4, 3))
+    for _ in range(3):
+        net = (1 - u) * net[:, :-1] + u * net[:, 1:]
+    for _ in range(3):
+        net = (1 - v) * net[:, :, :-1] + v * net[:, :, 1:]
+    return net[:, 0, 0]
+
+
+def right_horner(control, uv):
+    def cubic(a, b, c, d, t):
+        s = 1 - t
+        return a * s**3 + 3 * b * s * s * t + 3 * c * s * t * t + d * t**3
+
+    u, v = uv[:, :1], uv[:, 1:]
+    rows = [cubic(*(control[i, j] for j in range(4)), v) for i in range(4)]
+    return cubic(*rows, u)
+
+
 # wrong ---------------------------------------------------------------------------------------------------------------
 
 

@@ -58,6 +58,30 @@ def right_einsum(p, half_size):
     return np.einsum("ij,ij->i", w, w) ** 0.5 + v.max(-1).clip(max=0)
 
 
+def right_mask(p, half_size):
+    d = np.abs(p) - half_size
+    answer = np.zeros(len(p))
+    out = (d > 0).any(axis=1)
+    answer[out] = np.linalg.norm(d[out].clip(min=0), axis=1)
+    answer[~out] = d[~out].max(axis=1, initial=-np.inf)
+    return answer
+
+
+def right_sorted(p, half_size):
+    d = np.sort(np.abs(p) - half_size, axis=1)[:, ::-1]
+    x, y, z = np.maximum(d, 0).T
+    return np.where(d[:, 0] > 0, np.sqrt(x * x + y * y + z * z), d[:, 0])
+
+
+def right_list(p, half_size):
+    def one(q):
+        d = [abs(a) - h for a, h in zip(q, half_size, strict=True)]
+        m = max(d)
+        return m if m < 0 else sum(max(a, 0.0) ** 2 for a in d) ** 0.5
+
+    return np.array([one(q) for q in p], float)
+
+
 # wrong ---------------------------------------------------------------------------------------------------------------
 
 

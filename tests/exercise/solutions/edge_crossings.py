@@ -58,6 +58,21 @@ def right_bisection(p_a, p_b, f_a, f_b):
     return p_a + low[:, None] * (p_b - p_a)
 
 
+def right_interp(p_a, p_b, f_a, f_b):
+    answer = np.zeros(p_a.shape)
+    for k in range(len(p_a)):
+        order = [0, 1] if f_a[k] < f_b[k] else [1, 0]
+        f, ends = np.array([f_a[k], f_b[k]])[order], np.stack([p_a[k], p_b[k]])[order]
+        answer[k] = [np.interp(0.0, f, ends[:, axis]) for axis in range(3)]
+    return answer
+
+
+def right_ratio(p_a, p_b, f_a, f_b):
+    with np.errstate(divide="ignore"):
+        t = 1 / (1 + np.abs(f_b) / np.abs(f_a))
+    return (1 - t[:, None]) * p_a + t[:, None] * p_b
+
+
 # wrong ---------------------------------------------------------------------------------------------------------------
 
 
