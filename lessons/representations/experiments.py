@@ -11,6 +11,7 @@ from workbench.lesson import Preset, Question, View
 from workbench.numerals import brief, length, percent
 
 VIEW = View(eye=(1.7, -3.2, 1.9), target=(0.0, 0.0, -0.05), grid=None, axes=False)
+PATCH = View(eye=(2.2, 2.0, 1.5), target=(0.15, 0.1, 0.0), grid=None, axes=False)
 NEAR = View(eye=(1.5, -3.3, 1.5), target=(0.2, -0.3, 0.1), grid=None, axes=False)
 WIDE = View(eye=(2.1, -4.2, 2.2), target=(0.0, 0.0, -0.05), grid=None, axes=False)
 
@@ -79,12 +80,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "cubic", "A torus of Bézier patches",
         "16 patches from 144 control points. Watch one point come about by dividing legs, then the error of all.",
-        CUBIC, 3,
+        CUBIC, 3, PATCH,
     ),
     Preset(
         "rational", "With weights",
         "Fewer control points, each with a weight: a circle is a quotient of polynomials, and no polynomial.",
-        RATIONAL, 0,
+        RATIONAL, 0, PATCH,
     ),
     Preset(
         "neural", "A network learns the distance",
