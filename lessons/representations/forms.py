@@ -133,7 +133,7 @@ def distances(params: Params, subject: Subject, functions: Functions) -> Steps:
     state = State(params=params, subject=subject)
     for n in resolutions(params.resolution):
         grid = cube(n)
-        values = _stored(subject, n)
+        values = (_sampled if subject.quick else _stored)(subject, n)
         state = replace(state, now=Cells(grid=grid, values=values), surface=None, bytes=values.nbytes)
         yield state
         surface = measured(subject, *level_surface(values, grid, functions.edge_crossings))
@@ -141,13 +141,13 @@ def distances(params: Params, subject: Subject, functions: Functions) -> Steps:
         yield state
 
 
-@functools.lru_cache(maxsize=16)
-def _stored(subject: Subject, cells: int) -> np.ndarray:
-    """Return the distances at the middles of all cells, which cost most of a run on a mesh."""
+def _sampled(subject: Subject, cells: int) -> np.ndarray:
+    """Return the distances at the middles of all cells."""
     grid = cube(cells)
-    values = subject.field(grid.centres()).reshape(grid.shape).astype(np.float32)
-    values.flags.writeable = False
-    return values
+    return subject.field(grid.centres()).reshape(grid.shape).astype(np.float32)
+
+
+_stored = functools.lru_cache(maxsize=16)(_sampled)  # of a mesh they cost most of a run
 
 
 def octree(params: Params, subject: Subject, functions: Functions) -> Steps:
@@ -293,7 +293,7 @@ def others(params: Params, subject: Subject) -> dict[str, tuple[np.ndarray, np.n
     return {form: points for form, points in found.items() if form != params.form}
 
 
-@functools.lru_cache(maxsize=4)
+@functools.lru_cache(maxsize=16)
 def _references(subject: Subject, params: Params) -> dict[Form, tuple[np.ndarray, np.ndarray]]:
     functions = Functions(bezier_patch=bezier_patch, edge_crossings=edge_crossings)
     forms: tuple[Form, ...] = ("cloud", "mesh")

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from lessons.representations.state import Params, Subject, Surface, Upward
+from lessons.representations.state import Params, Shape, Subject, Surface, Upward
 from workbench.data import solids, surfaces
 from workbench.data.files import read_mesh, stamp
 from workbench.data.framing import UPRIGHT, box, extent, likely_up
@@ -51,17 +51,23 @@ def subject_of(params: Params, box_sdf: BoxSdf) -> Subject:
         return _rabbit()
     if params.shape == "torus":
         return _torus()
-    if params.shape == "box":
+    return _boxed(params.shape, params.thickness / params.resolution, params.seed, box_sdf)
+
+
+@functools.lru_cache(maxsize=16)
+def _boxed(shape: Shape, thin: float, seed: int, box_sdf: BoxSdf) -> Subject:
+    """Return the box, both boxes, or the plate, half of whose thickness is given."""
+    if shape == "box":
         return _box("the box", HALF, lambda q: box_sdf(q, HALF))
-    if params.shape == "two boxes":
+    if shape == "two boxes":
         whole = PAIR_HALF + PAIR_APART
         return _box(
             "the two boxes",
             whole,
             lambda q: np.minimum(box_sdf(q - PAIR_APART, PAIR_HALF), box_sdf(q + PAIR_APART, PAIR_HALF)),
         )
-    half = np.array([PLATE, PLATE, params.thickness / params.resolution])
-    R = exp_so3(1.5 * np.random.default_rng(params.seed).normal(size=3))
+    half = np.array([PLATE, PLATE, thin])
+    R = exp_so3(1.5 * np.random.default_rng(seed).normal(size=3))
     return _box("the plate", half, lambda q: box_sdf(q @ R, half), R)
 
 
