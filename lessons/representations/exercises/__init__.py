@@ -1,0 +1,39 @@
+"""The exercises of this lesson: the distance to a box, a Bézier patch, and where a field changes sign."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from workbench.exercise import Verdict, fail, full, partial
+
+STUDENTS, GRADERS = 61, 5179  # seeds of what a student sees run, and of what only a grader does
+
+
+def rows_verdict(
+    got: np.ndarray, right: np.ndarray, what: Callable[[int], str], hint: str, *, good: float = 1e-6, fair: float = 1e-3
+) -> Verdict:
+    """Judge numbers or points row by row, by the one that is farthest off, m, and say what came and what is right.
+
+    Args:
+        got: The answer.
+        right: The right one.
+        what: Says what a row is, as a message begins.
+        hint: What to look at where it is wrong.
+        good: Metres up to which all points are earned.
+        fair: The same for half of them.
+    """
+    if not len(right):
+        return full("Nothing came in, nothing came out.")
+    off = np.abs(got - right).reshape(len(right), -1)
+    off = np.where(np.isfinite(off), off, np.inf).max(axis=1)
+    k = int(off.argmax())
+    said = f"{what(k)}: {written(got[k])}, right is {written(right[k])}"
+    if off[k] <= good:
+        return full(f"{said}.")
+    return partial(0.5, f"{said}: close. {hint}") if off[k] <= fair else fail(f"{said}. {hint}")
+
+
+def written(value: np.ndarray) -> str:
+    """Write a number or a point."""
+    numbers = [f"{one:.4g}" for one in np.atleast_1d(value)]
+    return numbers[0] if len(numbers) == 1 else f"({', '.join(numbers)})"

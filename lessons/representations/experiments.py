@@ -1,0 +1,207 @@
+"""Experiments that show what each form is good for, and what to predict before looking."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lessons.representations.state import Params, State
+from lessons.representations.words import field_error
+from workbench.algorithms.octree import Level
+from workbench.lesson import Preset, Question, View
+from workbench.numerals import brief, length, percent
+
+VIEW = View(eye=(1.7, -3.2, 1.9), target=(0.0, 0.0, -0.05), grid=None, axes=False)
+PATCH = View(eye=(2.2, 2.0, 1.5), target=(0.15, 0.1, 0.0), grid=None, axes=False)
+NEAR = View(eye=(1.5, -3.3, 1.5), target=(0.2, -0.3, 0.1), grid=None, axes=False)
+WIDE = View(eye=(2.1, -4.2, 2.2), target=(0.0, 0.0, -0.05), grid=None, axes=False)
+
+BINARY = Params(form="voxels", resolution=64)
+EDGES = Params(shape="box")
+THIN = Params(shape="plate")
+UNION = Params(shape="two boxes")
+CLOUD = Params(form="cloud", points=100_000)
+TRIANGLES = Params(form="mesh")
+OCTREE = Params(form="octree", depth=7)
+SEARCH = Params(form="k-d tree", points=1000)
+TWENTY = Params(form="k-d tree", dimensions=20)
+CUBIC = Params(form="patches")
+RATIONAL = Params(form="patches", rational=True)
+NEURAL = Params(form="neural", iterations=1000)
+PLAIN = Params(form="neural", features=0)
+CLAMP = Params(form="neural", shape="box", target="clamped", seed=1)
+RABBIT = Params(form="neural", shape="rabbit", features=3)
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "binary", "Bits",
+        "One bit for each cell, ever smaller cells. Compare volume, area and normals of what comes back with the truth.",
+        BINARY, 4,
+    ),
+    Preset(
+        "edges", "Sharp edges",
+        "A box from its distances: marching cubes bevels every edge. Watch the worst error beside the edge of a cell.",
+        EDGES, 5, breaks=True,
+    ),
+    Preset(
+        "thin", "Thinner than a cell",
+        "A plate half a cell thick, lying somehow. Between two positive distances nobody looks for a surface.",
+        THIN, -1, breaks=True,
+    ),
+    Preset(
+        "union", "The smaller of two distances",
+        "Two boxes that overlap by 10 cm, stored as the smaller of both distances. The surface is fine: look inside.",
+        UNION, 9, breaks=True,
+    ),
+    Preset(
+        "cloud", "Points alone",
+        "From 100 to 100,000 points: the largest hole closes, and slowly. Four times the points, half the distance.",
+        CLOUD, 4,
+    ),
+    Preset(
+        "triangles", "Triangles",
+        "Vertices on the torus, and flat triangles between them: twice the vertices, half the error.",
+        TRIANGLES, 2,
+    ),
+    Preset(
+        "octree", "Only where the surface is",
+        "Cells that the surface may cross are cut in eight. Compare what the tree takes with bits for all cells.",
+        OCTREE, 4, WIDE,
+    ),
+    Preset(
+        "search", "The nearest of a thousand",
+        "Points in no order, then cut at the median again and again: watch how few cells the search looks into.",
+        SEARCH, 3, NEAR,
+    ),
+    Preset(
+        "twenty", "The same in twenty dimensions",
+        "4,000 points with 20 coordinates, three of which are drawn. Watch the share that is looked at.",
+        TWENTY, 7, WIDE, breaks=True,
+    ),
+    Preset(
+        "cubic", "A torus of Bézier patches",
+        "16 patches from 144 control points. Watch one point come about by dividing legs, then the error of all.",
+        CUBIC, 3, PATCH,
+    ),
+    Preset(
+        "rational", "With weights",
+        "Fewer control points, each with a weight: a circle is a quotient of polynomials, and no polynomial.",
+        RATIONAL, 0, PATCH,
+    ),
+    Preset(
+        "neural", "A network learns the distance",
+        "1,601 numbers, steps of Adam: the loss falls, and the surface where the field is zero takes shape.",
+        NEURAL, 4,
+    ),
+    Preset(
+        "plain", "Without sines and cosines",
+        "The same network is given the coordinates alone: it learns smooth things first, and stays far behind.",
+        PLAIN, -2, breaks=True,
+    ),
+    Preset(
+        "clamp", "A loss that dies",
+        "Distances clamped at 10 cm, as DeepSDF does: where the output is beyond that, its gradient is zero. Turn the seed.",
+        CLAMP, -1, breaks=True,
+    ),
+    Preset(
+        "rabbit", "The rabbit in a network",
+        "Three octaves of sines: ears and paws come last. Compare with a grid of distances of as many bytes.",
+        RABBIT, 6,
+    ),
+)  # fmt: skip
+
+
+def _levels(states: Sequence[State]) -> list[Level]:
+    return [state.now for state in states[:-1] if isinstance(state.now, Level)]
+
+
+def _octree_factor(states: Sequence[State]) -> float:
+    before, last = _levels(states)[-2:]
+    return last.packed_bytes / before.packed_bytes
+
+
+def _areas(states: Sequence[State]) -> list[float]:
+    return [state.surface.area for state in states[:-1] if state.surface is not None]
+
+
+def _looked(states: Sequence[State]) -> tuple[float, float]:
+    growth = states[-1].growth
+    assert growth is not None
+    return float(growth.looked[1]), float(growth.looked[-1])
+
+
+def _middle(states: Sequence[State]) -> tuple[float, float]:
+    found = field_error(states[-1])
+    assert found is not None
+    return found
+
+
+def _patch_error(states: Sequence[State]) -> float:
+    surface = states[-1].surface
+    assert surface is not None
+    return surface.worst
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        "predict-half",
+        "Cells with edges half as long: a grid of bits takes 8 times the bytes. How many times as many does the"
+        " octree take?",
+        answer=lambda states: float(np.argmin(np.abs(np.array([2, 4, 8]) - _octree_factor(states)))),
+        why=lambda states: (
+            f"{brief(_octree_factor(states), 2)} times at the last cut. Only cells near the surface are cut, and a surface"
+            " meets four times as many cells of half the edge."
+        ),
+        params=OCTREE,
+        choices=("about 2 times", "about 4 times", "8 times as well"),
+    ),
+    Question(
+        "predict-area",
+        "A torus as bits, its surface by marching cubes. What becomes of the area with ever smaller cells?",
+        answer=lambda states: 0.0 if _areas(states)[-1] < 1.02 else 1.0 if _areas(states)[-1] < 1.2 else 2.0,
+        why=lambda states: (
+            f"With 16 cells {percent(_areas(states)[2] - 1)} too much, with 64 cells {percent(_areas(states)[-1] - 1)}. Bits"
+            " know 26 directions at most: the surface goes up and down in facets that do not turn with the cells' size."
+        ),
+        params=BINARY,
+        choices=("It tends to the true area", "It stays some 9 % too large", "It grows without end"),
+    ),
+    Question(
+        "predict-looked",
+        "16 times as many points in 3 dimensions. How many times as many does a search in the tree look at, on average?",
+        answer=lambda states: float(
+            np.argmin(np.abs(np.log([16, 4, 1.1]) - np.log(_looked(states)[1] / _looked(states)[0])))
+        ),
+        why=lambda states: (
+            f"{_looked(states)[0]:.0f} of 1,000, {_looked(states)[1]:.0f} of 16,000. The tree is four cuts deeper; the cells"
+            " around the query are as many as before, only smaller."
+        ),
+        params=SEARCH,
+        choices=("16 times", "4 times", "about as many"),
+    ),
+    Question(
+        "predict-middle",
+        "Two boxes overlap by 10 cm; together they are a box, and its middle lies 30 cm deep. What is the smaller of the two"
+        " distances there?",
+        answer=lambda states: float(np.argmin(np.abs(np.array([-0.3, -0.05, 0.05]) - _middle(states)[0]))),
+        why=lambda states: (
+            f"{length(_middle(states)[0], 2)} for {length(_middle(states)[1], 2)}. Each box knows its own walls, and those"
+            " inside the other box are no walls of both. Outside the smaller one is true."
+        ),
+        params=UNION,
+        choices=("−30 cm", "−5 cm", "+5 cm"),
+    ),
+    Question(
+        "predict-weights",
+        "144 control points of cubic patches miss the torus by 0.28 mm at worst. 64 with a weight each: what do they miss it"
+        " by?",
+        answer=lambda states: float(
+            np.argmin(np.abs(np.log10([1e-15, 1e-4, 1e-3]) - np.log10(_patch_error(states) + 1e-16)))
+        ),
+        why=lambda states: (
+            "By nothing but rounding: a quotient of quadratic polynomials runs along a circle, and a torus is circles along"
+            " a circle."
+        ),
+        params=RATIONAL,
+        choices=("nothing", "0.1 mm", "1 mm"),
+    ),
+)

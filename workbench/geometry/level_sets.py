@@ -1,0 +1,71 @@
+"""The surface where a field on a grid is zero: marching cubes, with the places on the grid's edges made by a function.
+
+Reference: Lorensen and Cline, Marching cubes, SIGGRAPH 1987. Lewiner et al., Efficient implementation of marching cubes'
+cases with topological guarantees, JGT 8(2), 2003.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from workbench.geometry.voxels import Grid
+
+EdgeCrossings = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+"""edge_crossings(p_a, p_b, f_a, f_b) -> where the field is zero on each edge."""
+
+
+def edge_crossings(
+    p_a: Float[np.ndarray, "n 3"],
+    p_b: Float[np.ndarray, "n 3"],
+    f_a: Float[np.ndarray, " n"],
+    f_b: Float[np.ndarray, " n"],
+) -> Float[np.ndarray, "n 3"]:
+    """Return where a field that is linear along each edge is zero, m.
+
+    Args:
+        p_a: One end of each edge, m.
+        p_b: The other end, m.
+        f_a: The field at `p_a`.
+        f_b: The field at `p_b`, of the other sign; where both are zero the middle is returned.
+
+    Examples:
+        >>> edge_crossings(np.zeros((1, 3)), np.ones((1, 3)), np.array([-1.0]), np.array([3.0])).tolist()
+        [[0.25, 0.25, 0.25]]
+    """
+    apart = f_a - f_b
+    t = np.where(apart == 0, 0.5, f_a / np.where(apart == 0, 1.0, apart))
+    return p_a + t[:, None] * (p_b - p_a)
+
+
+def level_surface(
+    values: Float[np.ndarray, "x y z"], grid: Grid, edge_crossings: EdgeCrossings = edge_crossings
+) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
+    """Return the surface where a field is zero, its faces counterclockwise seen from where the field is positive.
+
+    Args:
+        values: The field at the middles of the cells.
+        grid: The cells, metres.
+        edge_crossings: Places the vertices: asked once for all edges between middles of different sign.
+
+    Returns:
+        Vertices, m, and faces; both empty where the field has one sign or the grid is one cell thin.
+
+    Note:
+        A vertex that marching cubes puts inside a cell, to keep ambiguous cells watertight, stays where it put it.
+    """
+    if min(values.shape) < 2 or not values.min() < 0 <= values.max():
+        return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)
+    from skimage.measure import marching_cubes
+
+    # Negative is inside: `descent` turns the faces outwards (skimage follows the left-hand rule). Read-only it refuses.
+    ijk, faces, _, _ = marching_cubes(values.copy(), 0.0, gradient_direction="descent")
+    ijk = ijk.astype(float)
+    below, above = np.floor(ijk).astype(np.int64), np.ceil(ijk).astype(np.int64)
+    edge = (below != above).sum(axis=1) == 1
+    start = grid.low + grid.spacing / 2
+    p = start + grid.spacing * ijk
+    a, b = below[edge], above[edge]
+    f_a, f_b = values[tuple(a.T)].astype(float), values[tuple(b.T)].astype(float)
+    p[edge] = edge_crossings(start + grid.spacing * a, start + grid.spacing * b, f_a, f_b)
+    return p, faces.astype(np.int64)
