@@ -11,7 +11,7 @@ from workbench.algorithms.heat_method import HeatState
 from workbench.geometry.polylines import between, rectangle, segments
 from workbench.scene import Classes, Color, Field, Mesh, Points, Primitive, Scene, Segments
 
-MOST_EDGES, MOST_ARROWS = 2500, 1400
+MOST_EDGES, MOST_ARROWS = 2500, 900
 SQUARE = np.array([-HALF, -HALF]), np.array([HALF, HALF])
 AHEAD = np.array([0.0, -4.0])  # the stereo camera's landmarks lie 4 to 6 m ahead of it: shown about the origin
 
@@ -48,7 +48,7 @@ def _ways(state: State) -> dict[str, Primitive]:
     else:
         scene["nodes"] = Points(subject.p, color, subject.radius, name=subject.name)
     up = subject.radius * (np.array([0.0, 0, 1]) if subject.tip is not None else np.zeros(3))
-    scene["source"] = Points(subject.p[[subject.source]] + up, "highlight", 2.2 * subject.radius, name="source")
+    scene["source"] = Points(subject.p[[subject.source]] + up, "highlight", 1.8 * subject.radius, name="source")
     if subject.tip is not None and not subject.free.all():
         foot = np.array([subject.tip[0], -0.5])
         scene["wall"] = Segments(flat(between(foot, subject.tip)) + up, "neutral", 8.0, name="wall")
@@ -94,9 +94,9 @@ def _color(state: State, subject: Subject) -> Color:
 def _arrows(subject: Subject, now: HeatState) -> dict[str, Primitive]:
     some = slice(None, None, -(-len(subject.faces) // MOST_ARROWS))
     middle = subject.p[subject.faces[some]].mean(axis=1)
-    tip = middle + 0.45 * subject.h * now.X[some]
+    tip = middle + 0.8 * subject.h * now.X[some]
     return {
-        "directions": Segments(between(middle, tip), "source", 1.5, name="away from the heat"),
+        "directions": Segments(between(middle, tip), "source", 2.5, name="away from the heat"),
         "directions/tips": Points(tip, "source", 0.07 * subject.h),
     }
 
@@ -122,7 +122,7 @@ def _ball(now: Ball) -> dict[str, Primitive]:
 def _within(line: np.ndarray) -> np.ndarray:
     """Return the pieces of a line that do not leave the square by much."""
     pieces = segments(line)
-    return pieces[(np.abs(pieces) <= 2 * HALF).all(axis=(1, 2))]
+    return pieces[(np.abs(pieces) <= 1.01 * HALF).all(axis=(1, 2))]
 
 
 def _trials(now: Trials) -> dict[str, Primitive]:

@@ -11,6 +11,7 @@ from workbench.numerals import counted, fixed, length, percent
 
 VIEW = View(eye=(0.0, 0.0, 1.5), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 PLANE = View(eye=(0.0, 0.0, 3.0), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+AHEAD = View(eye=(0.0, 0.0, 3.9), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 CLOUD = View(eye=(0.0, 0.0, 9.0), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 BALL = View(eye=(1.1, -2.4, 1.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 RABBIT = View(eye=(0.82, -1.5, 0.75), target=(0.0, 0.0, 0.15), grid=None, axes=False)
@@ -28,7 +29,7 @@ NO_ROOT = Params(stage="axioms", metric="p-sum")
 WHITEN = Params(stage="whiten", points=400)
 MASKING = Params(stage="whiten", points=200, outliers=40)
 ROBUST = replace(MASKING, estimate="robust")
-FIVE = Params(stage="whiten", points=4, outliers=1, away=100.0, correlation=0.0)
+TWENTY = Params(stage="whiten", points=19, outliers=1, away=100.0, correlation=0.0)
 STEREO = Params(stage="stereo")
 STAIRCASE = Params(neighbours="4", grid=31)
 MARCHING = Params(neighbours="march")
@@ -97,7 +98,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "stereo", "Which landmark was it?",
         "A stereo camera, 4 to 6 m away, measures depth far worse than what lies across. See which landmark each measurement"
         " is taken for.",
-        STEREO, -1, PLANE,
+        STEREO, -1, AHEAD,
     ),
     Preset(
         "staircase", "Up and across only",
@@ -229,15 +230,15 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         tolerance=3.0,
     ),
     Question(
-        "five",
-        "Four points within a few metres, a fifth one 100 m away. Mean and covariance are those of all five. How many"
-        " standard deviations is the fifth from the mean?",
+        "twenty",
+        "Nineteen points within a few metres, one more 100 m away. Mean and covariance are those of all. How many"
+        " standard deviations is that one from the mean?",
         answer=lambda states: float(scatter(states, TOLD).d.max()),
         why=lambda states: (
             f"{fixed(float(scatter(states, TOLD).d.max()), 2)}. However far it is, it stretches the covariance with it: no"
             " point of n can be farther than (n − 1)/√n."
         ),
-        params=FIVE,
+        params=TWENTY,
         step=TOLD,
         unit="σ",
         tolerance=0.3,
@@ -257,14 +258,14 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "longer",
-        "On the rabbit heat flows 100 times as long as one squared edge. The mean error of the distances becomes …",
+        "On the rabbit heat flows 100 times as long as one squared edge. The mean error of the distances …",
         answer=lambda states: float(np.digitize(late(states), [0.8, 1.25])),
         why=lambda states: (
             f"{fixed(late(states), 1)} times as large. Heat has had time to go round both ways, and its direction is no"
             " longer that of the shortest one. On a sphere both ways are alike, and nobody would notice."
         ),
         params=LATE,
-        choices=("smaller", "about the same", "several times as large"),
+        choices=("falls", "hardly changes", "more than triples"),
     ),
     Question(
         "shortcut",

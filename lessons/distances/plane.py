@@ -20,7 +20,7 @@ TRIPLES, ROUNDS = 500, 20
 SHARE, WITHIN, FRESH, DIMENSIONS = 0.95, 2.0, 4000, 10
 SECOND, SPREAD = np.array([1.0, -1.0]) / np.sqrt(2), 0.1  # towards the second cluster, and its standard deviation
 FOCAL, BASELINE, SIGMA = 700.0, 0.12, 0.5  # pixels, metres, pixels
-LANDMARKS, SIGHTS, VIEWS = 60, 40, 10
+LANDMARKS, SIGHTS, VIEWS = 60, 30, 8
 
 
 def covariance_of(params: Params) -> np.ndarray:
@@ -78,7 +78,7 @@ def outline(params: Params, centre: np.ndarray, radius: float) -> np.ndarray:
         towards = np.arctan2(*(centre * units)[::-1])
         turn = towards + np.arccos(1 - min(radius, 2.0)) * np.array([1.0, -1.0])
         ends = np.column_stack([np.cos(turn), np.sin(turn)]) / units
-        ends *= 2 * HALF / np.linalg.norm(ends, axis=1, keepdims=True)
+        ends *= HALF / np.abs(ends).max(axis=1, keepdims=True)
         return np.stack([ends[0], np.zeros(2), ends[1]])
     rays = circle(360)
     reach = distance_in(params, params.metric)(rays, np.zeros(2))
@@ -176,7 +176,7 @@ def stereo(params: Params, functions: Functions) -> Steps:
 
 @traced
 def sighted(rng: np.random.Generator, mahalanobis: Callable) -> Iterator[Landmarks]:
-    """Yield sights of random landmarks from above, forty at a time, with the covariance of depth by disparity."""
+    """Yield sights of random landmarks from above, thirty at a time, with the covariance of depth by disparity."""
     landmarks = np.column_stack([rng.uniform(-1, 1, LANDMARKS), rng.uniform(4, 6, LANDMARKS)])
     seen, true, near, told = [np.empty((0, 2))], [], [], []
     for _ in range(VIEWS):

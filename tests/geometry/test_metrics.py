@@ -150,9 +150,3 @@ def test_half_of_the_points_on_a_line_are_refused():
     p[15:, 1] = 1.0
     with pytest.raises(ValueError, match="hyperplane"):
         metrics.robust_mean_and_covariance(p, np.random.default_rng(0))
-
-
-def test_the_nearest_by_two_metrics():
-    p, q = np.array([[0.9, 0.0], [0.5, 0.5]]), np.zeros((1, 2))
-    assert metrics.nearest_by(metrics.distance_of("manhattan"), p, q).tolist() == [0]
-    assert metrics.nearest_by(metrics.distance_of("euclid"), p, q).tolist() == [1]

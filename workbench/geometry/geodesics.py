@@ -24,7 +24,13 @@ def edge_lengths(p: Points, edges: Edges) -> Lengths:
 
 
 def length_graph(edges: Edges, lengths: Lengths, count: int) -> Sparse:
-    """Return the symmetric matrix of an undirected graph's lengths; of edges given twice the shortest counts."""
+    """Return the symmetric matrix of an undirected graph's lengths; of edges given twice the shortest counts.
+
+    Args:
+        edges: Pairs of nodes, either way round.
+        lengths: Of the edges; one of length 0 keeps its place in the matrix.
+        count: How many nodes there are.
+    """
     low, high = edges.min(axis=1).astype(np.int64), edges.max(axis=1).astype(np.int64)
     keys = low * count + high
     if len(keys) > 1 and not (np.diff(keys) > 0).all():  # then no edge comes twice

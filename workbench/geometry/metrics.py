@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 import scipy
-from jaxtyping import Float, Int
+from jaxtyping import Float
 
 Metric = Literal["euclid", "manhattan", "chebyshev", "p", "p-sum", "squared", "cosine", "mahalanobis"]
 Distance = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -165,8 +165,3 @@ def triangle_excess(
     """
     ab, bc, ac = distance(a, b), distance(b, c), distance(a, c)
     return ac - ab - bc, np.column_stack([ab, bc, ac])
-
-
-def nearest_by(distance: Distance, p: Points, q: Float[np.ndarray, "m d"]) -> Int[np.ndarray, " m"]:
-    """Return for every query the index of the point that is nearest by a distance; of equal ones the first."""
-    return np.array([int(np.argmin(distance(p, one))) for one in q])
