@@ -118,7 +118,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "sphere", "Along the edges of a sphere",
-        "The orange way zigzags, the green one is a great circle. All ways along edges are too long.",
+        "The orange way zigzags, the green one is a great circle. Most ways along edges are several per cent too long.",
         SPHERE, ERRORS, BALL, breaks=True,
     ),
     Preset(
@@ -200,8 +200,11 @@ def to_goal(states: Sequence[State]) -> tuple[float, float]:
 def _why_shortcut(states: Sequence[State]) -> str:
     subject, (d, true) = states[-1].subject, to_goal(states)
     assert subject is not None
-    many = counted(int(subject.shortcuts.sum()), "edge leaves", "edges leave")
-    return f"{length(d)} for {length(true)}: {many} the sheet and joins two turns of it, and every shortest way takes that."
+    many = int(subject.shortcuts.sum())
+    if not many:
+        return f"{length(d)} for {length(true)}: with these points no edge leaves the sheet."
+    told = counted(many, "edge leaves the sheet and joins", "edges leave the sheet and join")
+    return f"{length(d)} for {length(true)}: {told} two turns of it. A shortest way takes whatever is short."
 
 
 QUESTIONS: tuple[Question[Params, State], ...] = (

@@ -73,10 +73,10 @@ def _on(state: State) -> Subject:
 
 def _of_heat(state: State, now: HeatState) -> str:
     if now.phase == "flow":
-        far = float(np.log10(max(now.u.min() / now.u.max(), 1e-300)))
+        far = float(np.log10(max(np.median(np.abs(now.u)) / now.u.max(), 1e-300)))
         return (
-            f"Heat has flowed from the source for {_times(state.params)} squared mean edges. At its weakest it is"
-            f" 10 to the power of {fixed(far, 0)} of the strongest: its size says little, its direction all."
+            f"Heat has flowed from the source for {_times(state.params)} squared mean edges. Half of the surface"
+            f" has less than 10 to the power of {fixed(far, 0)} of the strongest: its size says little, its direction all."
         )
     if now.phase == "directions":
         return (
