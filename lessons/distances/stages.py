@@ -117,8 +117,6 @@ def _marched(params: Params, subject: Subject, update: Update) -> Iterator[Front
     start[subject.source] = 0.0
     band = float(subject.truth[subject.free].max()) / BANDS
     for now in march(start.reshape(shape), subject.free.reshape(shape), subject.h, band, update):
-        if np.isnan(now.d).any():
-            raise InputError("eikonal_update returned values that are not numbers")
         yield Front(d=now.d.ravel(), accepted=now.accepted.ravel(), reach=now.reach)
 
 

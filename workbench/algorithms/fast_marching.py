@@ -69,7 +69,8 @@ def march(
         free: Where the front can go.
         h: Spacing of the grid.
         band: How far the front goes from one state to the next.
-        update: Gives nodes their distance from two neighbours', as `eikonal_update` does.
+        update: Gives nodes their distance from two neighbours', as `eikonal_update` does. One that is no number, or below
+            both neighbours, is not taken.
     """
     n, m = start.shape
     d = np.full((n + 2, m + 2), np.inf)  # a rim that is never reached spares questions at the border
@@ -84,7 +85,7 @@ def march(
     while True:
         reach += band
         waiting = []
-        while len(changed):  # values below the reach spread until none falls
+        for _ in range(n * m):  # values below the reach spread until none falls
             ready = flat[changed] <= reach
             waiting.append(changed[~ready])
             at = np.unique((changed[ready, None] + beside).ravel())
@@ -93,7 +94,7 @@ def march(
                 break
             left, up = np.minimum(flat[at - width], flat[at + width]), np.minimum(flat[at - 1], flat[at + 1])
             found = np.asarray(update(left, up, h), float)
-            falls = found < flat[at] - 1e-12 * h
+            falls = (found < flat[at] - 1e-12 * h) & (found >= np.minimum(left, up))
             changed = at[falls]
             flat[changed] = found[falls]
         changed = np.unique(np.concatenate(waiting)) if waiting else changed[:0]
