@@ -143,7 +143,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "roll", "Along a roll",
-        "Joined to its 15 nearest, a point has its neighbours on the sheet. The way round is many times the straight one.",
+        "Joined to its 15 nearest, a point has its neighbours on the sheet. The way round is more than three times the"
+        " straight one.",
         ROLLED, ERRORS, ROLL,
     ),
 )  # fmt: skip

@@ -211,7 +211,7 @@ def _mended(run: Run, k: int, m: re.Match[str]) -> bool:
     assert run.states[-1].subject is not None
     far = true_distances(run.states[-1]) > 0.5
     off = [np.abs(d[far] / true_distances(run.states[-1])[far] - 1).mean() for d in (_ends(run).d, plain)]
-    return off[0] < 0.6 * off[1]
+    return off[0] < 0.75 * off[1]
 
 
 def _exact_near(run: Run) -> bool:
@@ -283,7 +283,7 @@ LINES = {
             and _ends(run).times[1][8] <= _ends(run).times[1][4],  # type: ignore[index]
         )
     ],
-    "roll": [Claim(r"many times the straight one", _round_about)],
+    "roll": [Claim(r"more than three times the straight one", _round_about)],
 }  # fmt: skip
 
 WHYS = {

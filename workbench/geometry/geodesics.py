@@ -31,15 +31,17 @@ def length_graph(edges: Edges, lengths: Lengths, count: int) -> Sparse:
         lengths: Of the edges; one of length 0 keeps its place in the matrix.
         count: How many nodes there are.
     """
-    low, high = edges.min(axis=1).astype(np.int64), edges.max(axis=1).astype(np.int64)
-    keys = low * count + high
-    if len(keys) > 1 and not (np.diff(keys) > 0).all():  # then no edge comes twice
-        order = np.lexsort((lengths, keys))
-        order = order[np.r_[True, np.diff(keys[order]) > 0]]
-        low, high, lengths = low[order], high[order], lengths[order]
-    w = np.maximum(lengths, TINY)
-    both = np.concatenate([low, high]), np.concatenate([high, low])
-    return scipy.sparse.csr_array((np.concatenate([w, w]), both), shape=(count, count))
+    return _one_way(np.concatenate([edges, edges[:, ::-1]]), np.concatenate([lengths, lengths]), count)
+
+
+def _one_way(edges: Edges, lengths: Lengths, count: int) -> Sparse:
+    """Return the matrix of edges that lead as they are given; of equal ones the shortest."""
+    graph = scipy.sparse.csr_array((np.maximum(lengths, TINY), tuple(edges.T)), shape=(count, count))
+    if graph.nnz < len(edges):  # some came twice, and their lengths were added up
+        order = np.lexsort((lengths, edges[:, 1], edges[:, 0]))
+        kept = order[np.r_[True, (np.diff(edges[order], axis=0) != 0).any(axis=1)]]
+        return _one_way(edges[kept], lengths[kept], count)
+    return graph
 
 
 def shortest_distances(edges: Edges, lengths: Lengths, count: int, source: int) -> Float[np.ndarray, " {count}"]:
@@ -55,8 +57,8 @@ def shortest_distances(edges: Edges, lengths: Lengths, count: int, source: int) 
         >>> shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]), 4, 0).tolist()
         [0.0, 1.0, 2.0, inf]
     """
-    graph = length_graph(edges, lengths, count)
-    return scipy.sparse.csgraph.dijkstra(graph, directed=True, indices=np.array([source]))[0]
+    graph = _one_way(edges, lengths, count)
+    return scipy.sparse.csgraph.dijkstra(graph, directed=False, indices=np.array([source]))[0]
 
 
 def shortest_path(
