@@ -20,12 +20,10 @@ ROLL = View(eye=(0.9, -2.4, 2.4), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 TOLD = 4  # the step of a scatter that tells who lies far out
 ERRORS = 11  # the step of ways along edges that holds them against the truth
 TAXI = Params(stage="balls", metric="manhattan")
-COSINE = Params(stage="balls", metric="cosine")
 UNITS = Params(stage="balls", stretch=1000)
 SQUARED = Params(stage="axioms", metric="squared")
 WEDGE = Params(stage="axioms", metric="cosine")
 HALF = Params(stage="axioms", metric="p")
-NO_ROOT = Params(stage="axioms", metric="p-sum")
 WHITEN = Params(stage="whiten", points=400)
 MASKING = Params(stage="whiten", points=200, outliers=40)
 ROBUST = replace(MASKING, estimate="robust")
@@ -51,12 +49,6 @@ PRESETS: tuple[Preset[Params], ...] = (
         TAXI, 4, PLANE,
     ),
     Preset(
-        "cosine", "A ball without a middle",
-        "By the cosine only directions count, seen from the origin: its ball is a wedge, and far points are as near as"
-        " close ones.",
-        COSINE, 4, PLANE,
-    ),
-    Preset(
         "units", "x in metres, y in millimetres",
         "Euclid's distance adds what has different units: now y alone decides. Go to the end and count the red queries.",
         UNITS, 4, PLANE,
@@ -71,11 +63,6 @@ PRESETS: tuple[Preset[Params], ...] = (
         "half", "An exponent below one",
         "With p = ½ a detour along the axes is often shorter than the straight way: the ball is a star, not convex.",
         HALF, -1, PLANE, breaks=True,
-    ),
-    Preset(
-        "no-root", "The same without its root",
-        "The sum of square roots, as it stands, breaks no axiom. It is a metric, though its ball is still a star.",
-        NO_ROOT, -1, PLANE,
     ),
     Preset(
         "whiten", "A scatter made round",

@@ -40,9 +40,9 @@ def goal(params) -> tuple[float, float]:
 
 
 def test_other_metrics_have_other_nearest_points():
-    changed = {name: now(Ball, preset(name)).changed.mean() for name in ("taxi", "cosine", "units")}
+    changed = {name: now(Ball, preset(name)).changed.mean() for name in ("taxi", "units")}
     assert 0.05 < changed["taxi"] < 0.2
-    assert changed["cosine"] > 0.4
+    assert now(Ball, Params(stage="balls", metric="cosine")).changed.mean() > 0.4
     assert changed["units"] > 0.7
     ball = now(Ball, preset("taxi"))
     np.testing.assert_allclose(np.abs(ball.rims[0] - ball.p[ball.query]).sum(axis=1), ball.radius)

@@ -253,7 +253,6 @@ LINES = {
     "cosine-axioms": [
         Claim(r"Points on one ray are at distance 0", lambda run, k, m: run.states[-1].now.axioms["d(a, b) > 0"] == 1.0)
     ],
-    "no-root": [Claim(r"breaks no axiom", lambda run, k, m: not any(run.states[-1].now.axioms.values()))],
     "robust": [
         Claim(
             r"the second cluster lies far out",
