@@ -55,13 +55,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "cosine-axioms", "One minus the cosine",
-        "Points on one ray are at distance 0, and many triples have a shorter way over b. The angle itself would keep the"
-        " triangle inequality.",
+        "Points on one ray are at distance 0, and many triples have a shorter way over b.",
         WEDGE, -1, PLANE, breaks=True,
     ),
     Preset(
         "half", "An exponent below one",
-        "With p = ½ a detour along the axes is often shorter than the straight way: the ball is a star, not convex.",
+        "With p = ½ a detour along the axes is often shorter: the ball is a star, not convex.",
         HALF, -1, PLANE, breaks=True,
     ),
     Preset(
@@ -71,20 +70,17 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "masking", "Outliers hide themselves",
-        "A fifth as many points as the scatter has lie off to one side. They are part of the covariance that should tell"
-        " them.",
+        "Forty points lie off to one side. They are part of the covariance that should tell them.",
         MASKING, TOLD, CLOUD, breaks=True,
     ),
     Preset(
         "robust", "The half that lies closest",
-        "The same points, but the covariance is that of the half with the smallest determinant: the second cluster lies far"
-        " out.",
+        "The covariance of the half with the smallest determinant: the second cluster lies far out.",
         ROBUST, TOLD, CLOUD,
     ),
     Preset(
         "stereo", "Which landmark was it?",
-        "A stereo camera, 4 to 6 m away, measures depth far worse than what lies across. See which landmark each measurement"
-        " is taken for.",
+        "A stereo camera, 4 to 6 m away, measures depth far worse than what lies across.",
         STEREO, -1, AHEAD,
     ),
     Preset(
@@ -99,8 +95,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "disc", "Exact near the source",
-        "Fast marching errs most at the source, where the front is most curved. Exact distances in a small disc mend the"
-        " rest too.",
+        "The front is most curved at the source. Exact distances in a small disc mend the rest too.",
         DISC, 6,
     ),
     Preset(

@@ -25,8 +25,8 @@ def eikonal_update(a: Values, b: Values, h: float) -> Values:
     Where there is none, since a and b differ by h or more, the front comes along one axis: u = min(a, b) + h.
 
     Args:
-        a: The smaller distance of the neighbours to the left and right, one entry per node; inf where neither is reached.
-        b: That of the neighbours above and below; inf likewise. One of a and b is finite.
+        a: The smaller distance of the neighbours to the left and right, one entry per node; inf where there is none.
+        b: That of those above and below, likewise. One of a and b is finite.
         h: Spacing of the grid, positive.
 
     Returns:
