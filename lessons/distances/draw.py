@@ -1,0 +1,172 @@
+"""What one step looks like: balls and scatters in the plane, fronts and errors on what ways lead over."""
+
+import numpy as np
+
+from lessons.distances.charts import beside
+from lessons.distances.plane import HALF
+from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, State, Subject, Trials
+from lessons.distances.subjects import true_way
+from lessons.distances.words import caption
+from workbench.algorithms.heat_method import HeatState
+from workbench.geometry.polylines import between, rectangle, segments
+from workbench.scene import Classes, Color, Field, Mesh, Points, Primitive, Scene, Segments
+
+MOST_EDGES, MOST_ARROWS = 2500, 900
+SQUARE = np.array([-HALF, -HALF]), np.array([HALF, HALF])
+AHEAD = np.array([0.0, -4.0])  # the stereo camera's landmarks lie 4 to 6 m ahead of it: shown about the origin
+
+
+def draw(state: State) -> Scene:
+    """Return the picture of one step."""
+    now = state.now
+    match now:
+        case Front() | Found() | HeatState():
+            scene = _ways(state)
+        case Ball():
+            scene = _ball(now)
+        case Trials():
+            scene = _trials(now)
+        case Scatter():
+            scene = _scatter(now)
+        case Landmarks():
+            scene = _landmarks(now)
+    return {"caption": caption(state)} | scene | beside(state)
+
+
+def flat(p: np.ndarray, height: float = 0.0) -> np.ndarray:
+    """Return points or segments of the plane with a third coordinate."""
+    return np.concatenate([p, np.full((*p.shape[:-1], 1), height)], axis=-1)
+
+
+def _ways(state: State) -> dict[str, Primitive]:
+    now, subject = state.now, state.subject
+    assert subject is not None
+    color = _color(state, subject)
+    scene: dict[str, Primitive] = {}
+    if len(subject.faces):
+        scene["nodes"] = Mesh(subject.p, subject.faces, color, name=subject.name)
+    else:
+        scene["nodes"] = Points(subject.p, color, subject.radius, name=subject.name)
+    up = subject.radius * (np.array([0.0, 0, 1]) if subject.tip is not None else np.zeros(3))
+    scene["source"] = Points(subject.p[[subject.source]] + up, "highlight", 1.8 * subject.radius, name="source")
+    if subject.tip is not None and not subject.free.all():
+        foot = np.array([subject.tip[0], -0.5])
+        scene["wall"] = Segments(flat(between(foot, subject.tip)) + up, "neutral", 8.0, name="wall")
+    elif 0 < len(subject.edges) <= MOST_EDGES and len(subject.faces):
+        scene["edges"] = Segments(subject.p[subject.edges], "neutral", 1.0, opacity=0.5, name="edges")
+    if len(subject.shortcuts):
+        ends = subject.p[subject.edges[subject.shortcuts]]
+        scene["shortcuts"] = Segments(ends, "wrong", 5.0, name="edges that leave the surface")
+    if isinstance(now, Front):
+        trial = np.isfinite(now.d) & ~now.accepted
+        scene["trial"] = Points(subject.p[trial] + up, "source", subject.radius, name="on trial")
+    if isinstance(now, HeatState) and now.phase == "directions":
+        scene |= _arrows(subject, now)
+    if isinstance(now, Found):
+        goal = subject.goal
+        if len(now.path) > 1:
+            scene["way"] = Segments(segments(now.path) + 2 * up, "source", 4.0, name="shortest way found")
+            goal = int(np.argmin(np.linalg.norm(subject.p - now.path[-1], axis=1)))
+        if goal >= 0:
+            scene["goal"] = Points(subject.p[[goal]] + up, "truth", 2.0 * subject.radius, name="goal")
+            way = true_way(subject, goal)
+            if len(way):
+                scene["true way"] = Segments(segments(way) + 2 * up, "truth", 3.0, name="true way")
+    return scene
+
+
+def _color(state: State, subject: Subject) -> Color:
+    now = state.now
+    if isinstance(now, Found) and np.isfinite(now.error).any():
+        percent = 100 * now.error
+        reach = max(float(np.nanpercentile(np.abs(percent), 98)), 0.1)
+        return Field(percent, -reach, reach, "error to the truth", "%", "diverging")
+    if isinstance(now, HeatState) and now.phase != "distances":
+        u = np.log10(np.maximum(now.u / now.u.max(), 1e-12))
+        return Field(u, -12.0, 0.0, "heat, log₁₀")
+    d = now.d if isinstance(now, Found | HeatState) else np.where(now.accepted, now.d, np.nan)  # type: ignore[union-attr]
+    truth = subject.truth[np.isfinite(subject.truth)]
+    known = d[np.isfinite(d)]
+    top = float(truth.max()) if len(truth) else float(known.max(initial=0.0))
+    return Field(np.where(np.isfinite(d), d, np.nan), 0.0, max(top, 1e-6), "distance", "m")
+
+
+def _arrows(subject: Subject, now: HeatState) -> dict[str, Primitive]:
+    some = slice(None, None, -(-len(subject.faces) // MOST_ARROWS))
+    middle = subject.p[subject.faces[some]].mean(axis=1)
+    tip = middle + 0.8 * subject.h * now.X[some]
+    return {
+        "directions": Segments(between(middle, tip), "source", 2.5, name="away from the heat"),
+        "directions/tips": Points(tip, "source", 0.07 * subject.h),
+    }
+
+
+def _ball(now: Ball) -> dict[str, Primitive]:
+    scene: dict[str, Primitive] = {
+        "border": Segments(flat(segments(rectangle(*SQUARE), closed=True)), "neutral", 1.0),
+        "nodes": Points(flat(now.p), "target", 0.022, name="points"),
+        "source": Points(flat(now.p[[now.query]], 0.01), "highlight", 0.035, name="in the middle"),
+        "ball": Segments(flat(_within(now.rims[0])), "source", 4.0, name="ball by this distance"),
+        "euclid": Segments(flat(_within(now.rims[1])), "correspondence", 2.0, name="Euclid's"),
+    }
+    if now.nearest:
+        first = int(np.argmin(now.d))
+        scene["nearest"] = Points(flat(now.p[[first]], 0.005), "source", 0.035, name="nearest by this distance")
+        straight = now.nearest["euclid"]
+        scene["nearest/euclid"] = Points(flat(now.p[[straight]], -0.005), "correspondence", 0.045, name="by Euclid's")
+        told = Classes.marking(now.changed, "wrong", "another nearest", others=("neutral", "the same"))
+        scene["queries"] = Points(flat(now.queries, -0.01), told, 0.009, name="queries")
+    return scene
+
+
+def _within(line: np.ndarray) -> np.ndarray:
+    """Return the pieces of a line that do not leave the square by much."""
+    pieces = segments(line)
+    return pieces[(np.abs(pieces) <= 1.01 * HALF).all(axis=(1, 2))]
+
+
+def _trials(now: Trials) -> dict[str, Primitive]:
+    a, b, c = 2 * HALF * now.corners - HALF
+    role = "wrong" if now.sides[2] > now.sides[0] + now.sides[1] + 1e-9 else "truth"
+    return {
+        "border": Segments(flat(segments(rectangle(*SQUARE), closed=True)), "neutral", 1.0),
+        "nodes": Points(flat(np.stack([a, b, c])), "target", 0.035, name="a, b, c"),
+        "over b": Segments(flat(segments(np.stack([a, b, c]))), "correspondence", 4.0, name="from a over b to c"),
+        "straight": Segments(flat(between(a, c)), role, 4.0, name="from a to c"),
+    }
+
+
+def _scatter(now: Scatter) -> dict[str, Primitive]:
+    ids = np.where(now.outlier, np.where(now.flagged, 2, 3), np.where(now.flagged, 1, 0)).astype(np.uint8)
+    named = Classes(
+        ids, ("target", "other", "source", "wrong"),
+        ("of the scatter", "of it, beyond 95 %", "second cluster, beyond 95 %", "second cluster, within 95 %"),
+    )  # fmt: skip
+    told: Color = named if now.phase in ("told", "dimensions") or now.outlier.any() else "target"
+    return {
+        "nodes": Points(flat(now.p), told, 0.035, name="points"),
+        "rim": Segments(flat(segments(now.rim)), "source", 4.0, name="95 %"),
+        "axes": Segments(flat(np.array([[[-4.0, 0], [4, 0]], [[0, -4], [0, 4]]]), -0.01), "neutral", 1.0),
+    }
+
+
+def _landmarks(now: Landmarks) -> dict[str, Primitive]:
+    seen, new = now.seen[-len(now.rims) :], slice(len(now.true) - len(now.rims), None)
+    ends = now.landmarks[now.true[new]]
+    wrong = now.euclid[new] != now.true[new]
+    missed = now.mahalanobis[new] != now.true[new]
+
+    def show(p: np.ndarray, height: float = 0.0) -> np.ndarray:
+        return flat(p + AHEAD - [0.0, 1.0], height)
+
+    return {
+        "nodes": Points(show(now.landmarks), "target", 0.02, name="landmarks"),
+        "seen": Points(show(seen, 0.01), "source", 0.012, name="measured"),
+        "rims": Segments(show(np.stack([now.rims[:, :-1], now.rims[:, 1:]], axis=2).reshape(-1, 2, 2)), "correspondence",
+                         1.0, opacity=0.6, name="95 % of a measurement"),
+        "right": Segments(show(between(seen, ends)), "truth", 2.0, name="to the true landmark"),
+        "euclid": Segments(show(between(seen, now.landmarks[now.euclid[new]])[wrong]), "wrong", 3.0,
+                           name="wrong, by Euclid's distance"),
+        "missed": Segments(show(between(seen, now.landmarks[now.mahalanobis[new]])[missed], 0.005), "highlight", 3.0,
+                           name="wrong, by Mahalanobis'"),
+    }  # fmt: skip

@@ -1,0 +1,215 @@
+"""What each stage computes, by the functions in the slots."""
+
+import functools
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from lessons.distances.plane import axioms, balls, stereo, whiten
+from lessons.distances.slots import Functions
+from lessons.distances.state import Found, Front, Now, Params, Subject
+from lessons.distances.subjects import reference, subject_of, ways_in_square
+from workbench.algorithms.fast_marching import Update, eikonal_update, march
+from workbench.algorithms.heat_method import HeatMethod, heat_method
+from workbench.data import surfaces
+from workbench.errors import InputError
+from workbench.geometry import geodesics
+from workbench.tracing import traced
+
+BANDS = 10
+NEAR = 0.14  # of the largest true distance: nearer than this a relative error says little
+SIDES, VERTICES = (11, 21, 41, 81, 161), (42, 162, 642, 2562)  # of the studies: nodes along a side, on a sphere
+EXTRA = 3
+TIMES = np.arange(-2.0, 3.1, 0.5)
+PAIRS = 24  # sources between which heat distances are held against each other
+
+
+def grid(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
+    """Yield a front that goes round the wall, and how far off its distances are."""
+    subject = subject_of(params)
+    if params.neighbours == "march":
+        d, steps = np.empty(0), _marched(params, subject, functions.eikonal_update)
+        for front in steps:
+            d = front.d
+            yield subject, front
+        path = _path(subject, *ways_in_square(params.grid, params.wall, 8), d)
+    else:
+        edges, lengths = ways_in_square(params.grid, params.wall, int(params.neighbours))
+        d = distances_by(functions, edges, lengths, len(subject.p), subject.source)
+        for front in spread(edges, lengths, d):
+            yield subject, front
+        path = _path(subject, edges, lengths, d)
+    found = _found(subject, d, path)
+    yield subject, found
+    yield subject, replace(found, study=finer_grids())
+
+
+def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
+    """Yield distances over a mesh, along its edges or by heat, and how far off they are."""
+    subject = subject_of(params)
+    if params.method == "heat":
+        d, method = np.empty(0), (subject.p, subject.faces, 10.0**params.time * subject.h**2)
+        for now in heat_method(subject.p, subject.faces, subject.source, method[2]):
+            d = now.d
+            yield subject, now
+        found = _found(subject, d, np.empty(0, int))
+        yield subject, found
+        asymmetry, broken = _as_a_metric(HeatMethod(*method))
+        found = replace(found, asymmetry=asymmetry, broken=broken, times=_over_time(subject))
+    else:
+        nodes, edges, lengths = geodesics.with_points_on_edges(subject.p, subject.faces, params.extra)
+        d = distances_by(functions, edges, lengths, len(nodes), subject.source)
+        for front in spread(edges, lengths, d, len(subject.p)):
+            yield subject, front
+        found = _found(subject, d[: len(subject.p)], np.empty(0, int))
+        goal = int(np.nanargmax(np.abs(found.error))) if np.isfinite(found.error).any() else subject.source
+        way = geodesics.shortest_path(edges, lengths, d, goal)
+        found = replace(found, path=nodes[way])
+        yield subject, found
+    if subject.is_sphere:
+        found = replace(found, study=finer_spheres())
+    if found.study or found.times is not None:
+        yield subject, found
+
+
+def roll(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
+    """Yield distances along a graph of neighbours, beside those on the unrolled sheet."""
+    subject = subject_of(params)
+    d = distances_by(functions, subject.edges, subject.lengths, len(subject.p), subject.source)
+    for front in spread(subject.edges, subject.lengths, d):
+        yield subject, front
+    yield subject, _found(subject, d, _path(subject, subject.edges, subject.lengths, d))
+
+
+def distances_by(functions: Functions, edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
+    """Return the distances by the function in the slot.
+
+    Raises:
+        InputError: If they are no distances.
+    """
+    d = np.asarray(functions.shortest_distances(edges, lengths, count, source), float)
+    if np.isnan(d).any() or (d < 0).any():
+        raise InputError("shortest_distances returned values that are no distances")
+    return d
+
+
+@traced
+def spread(edges: np.ndarray, lengths: np.ndarray, d: np.ndarray, shown: int | None = None) -> Iterator[Front]:
+    """Yield how Dijkstra's front grows: nodes are accepted in the order of their distance, their neighbours are on trial."""
+    farthest = float(np.max(d, where=np.isfinite(d), initial=0.0))
+    for reach in np.linspace(0.0, farthest, BANDS + 1) if farthest > 0 else (0.0,):
+        accepted = d <= reach + 1e-12 * farthest
+        tentative = np.where(accepted, d, np.inf)
+        for here, there in (edges.T, edges.T[::-1]):
+            leaves = accepted[here] & ~accepted[there]
+            np.minimum.at(tentative, there[leaves], d[here[leaves]] + lengths[leaves])
+        yield Front(d=tentative[:shown], accepted=accepted[:shown], reach=float(reach))
+
+
+def _marched(params: Params, subject: Subject, update: Update) -> Iterator[Front]:
+    """Yield fast marching's fronts."""
+    shape = (subject.side, subject.side)
+    start = np.where(
+        np.linalg.norm(subject.p - subject.p[subject.source], axis=1) <= params.disc, subject.truth, np.inf
+    )
+    start[~subject.free] = np.inf
+    start[subject.source] = 0.0
+    band = float(subject.truth[subject.free].max()) / BANDS
+    for now in march(start.reshape(shape), subject.free.reshape(shape), subject.h, band, update):
+        yield Front(d=now.d.ravel(), accepted=now.accepted.ravel(), reach=now.reach)
+
+
+def _path(subject: Subject, edges: np.ndarray, lengths: np.ndarray, d: np.ndarray) -> np.ndarray:
+    return subject.p[geodesics.shortest_path(edges, lengths, d, subject.goal)]
+
+
+def _found(subject: Subject, d: np.ndarray, path: np.ndarray) -> Found:
+    truth = reference(subject)
+    if not len(truth):
+        return Found(d=d, path=path, error=np.full(len(d), np.nan), truth=truth)
+    return Found(d=d, path=path, error=relative(d, truth), truth=truth)
+
+
+def relative(d: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    """Return the relative error of distances; NaN near the source, out of reach and where the truth is not known."""
+    known = np.isfinite(d) & np.isfinite(truth) & (truth > NEAR * np.max(truth, where=np.isfinite(truth), initial=0.0))
+    return np.divide(d, truth, out=np.full(len(d), np.nan), where=known) - 1
+
+
+def _as_a_metric(method: HeatMethod) -> tuple[np.ndarray, float]:
+    """Return the asymmetry of heat distances between some vertices, and the share of triples that break the triangle."""
+    chosen = np.unique(np.linspace(0, len(method.p) - 1, PAIRS).astype(int))
+    D = method.between(chosen)
+    i, j = np.triu_indices(len(chosen), 1)
+    over = D[:, :, None] + D[None, :, :]  # a to b to c
+    excess = D[:, None, :] - over
+    n = len(chosen)
+    apart = np.array([len({a, b, c}) == 3 for a in range(n) for b in range(n) for c in range(n)]).reshape(n, n, n)
+    return np.abs(D - D.T)[i, j] / np.maximum(D, D.T)[i, j], float((excess > 1e-9)[apart].mean())
+
+
+def _over_time(subject: Subject) -> tuple[np.ndarray, np.ndarray]:
+    """Return the mean size of the error of heat for each time, per cent."""
+    truth, errors = reference(subject), []
+    for time in TIMES:
+        *_, last = heat_method(subject.p, subject.faces, subject.source, 10.0**time * subject.h**2)
+        errors.append(100 * float(np.nanmean(np.abs(relative(last.d, truth)))))
+    return TIMES, np.array(errors)
+
+
+@functools.cache
+def finer_grids() -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Return by method the worst error (%) of distances from a corner over the unit square, over the spacing (m)."""
+    errors: dict[str, list[float]] = {}
+    for side in SIDES:
+        x = np.linspace(0.0, 1.0, side)
+        p = np.stack(np.meshgrid(x, x, indexing="ij"), axis=-1).reshape(-1, 2)
+        truth, h = np.linalg.norm(p, axis=1), 1 / (side - 1)
+        for neighbours in (4, 8, 16):
+            edges = geodesics.grid_edges(side, neighbours)
+            d = geodesics.shortest_distances(edges, geodesics.edge_lengths(p, edges), len(p), 0)
+            errors.setdefault(f"{neighbours} neighbours", []).append(_worst(d, truth))
+        for name, disc in (("marching", 0.0), ("marching, exact disc", 0.1)):
+            start = np.where(truth <= disc, truth, np.inf).reshape(side, side)
+            *_, last = march(start, np.ones((side, side), bool), h, 0.2, eikonal_update)
+            errors.setdefault(name, []).append(_worst(last.d.ravel(), truth))
+    return _log(1 / (np.array(SIDES) - 1.0), errors)
+
+
+@functools.cache
+def finer_spheres() -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Return by method the worst error (%) of distances over the unit sphere, over the mean length of its edges (m)."""
+    errors: dict[str, list[float]] = {}
+    spacing = []
+    for count in VERTICES:
+        ball = surfaces.sphere(count)
+        truth = np.arccos(np.clip(ball.p @ ball.p[0], -1, 1))
+        for name, extra in (("edges", 0), (f"{EXTRA} points on each edge", EXTRA)):
+            nodes, edges, lengths = geodesics.with_points_on_edges(ball.p, ball.faces, extra)
+            d = geodesics.shortest_distances(edges, lengths, len(nodes), 0)[: len(ball.p)]
+            errors.setdefault(name, []).append(_worst(d, truth))
+            if extra == 0:
+                spacing.append(float(lengths.mean()))
+        *_, last = heat_method(ball.p, ball.faces, 0, spacing[-1] ** 2)
+        errors.setdefault("heat", []).append(_worst(last.d, truth))
+    return _log(np.array(spacing), errors)
+
+
+def _worst(d: np.ndarray, truth: np.ndarray) -> float:
+    return 100 * float(np.nanmax(np.abs(relative(d, truth))))
+
+
+def _log(spacing: np.ndarray, errors: dict[str, list[float]]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    return {name: (np.log10(spacing), np.log10(np.array(values))) for name, values in errors.items()}
+
+
+STAGES: dict[str, Callable[[Params, Functions], Iterator[tuple[Subject | None, Now]]]] = {
+    "balls": balls,
+    "axioms": axioms,
+    "whiten": whiten,
+    "stereo": stereo,
+    "grid": grid,
+    "surface": surface,
+    "roll": roll,
+}

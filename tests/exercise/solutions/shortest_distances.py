@@ -1,0 +1,273 @@
+"""What students hand in for shortest_distances."""
+
+import heapq
+
+import numpy as np
+
+NAMED = {
+    "wrong_directed": "one way",
+    "wrong_breadth_first": "first visit",
+    "wrong_counts": "hops",
+    "wrong_zero_unreached": "zero out of reach",
+    "wrong_minus_one": "minus one out of reach",
+    "wrong_one_round": "one pass",
+    "wrong_prim": "next edge only",
+}
+
+
+def _beside(edges, lengths, count):
+    beside = [[] for _ in range(count)]
+    for (a, b), w in zip(edges, lengths, strict=True):
+        beside[a].append((b, w))
+        beside[b].append((a, w))
+    return beside
+
+
+def right_heap(edges, lengths, count, source):
+    beside = _beside(edges, lengths, count)
+    d = [float("inf")] * count
+    d[source] = 0.0
+    heap, done = [(0.0, source)], set()
+    while heap:
+        way, u = heapq.heappop(heap)
+        if u in done:
+            continue
+        done.add(u)
+        for v, w in beside[u]:
+            if way + w < d[v]:
+                d[v] = way + w
+                heapq.heappush(heap, (d[v], v))
+    return np.array(d)
+
+
+def right_array_scan(edges, lengths, count, source):
+    W = np.full((count, count), np.inf)
+    for (a, b), w in zip(edges, lengths, strict=True):
+        W[a, b] = W[b, a] = w
+    d, done = np.full(count, np.inf), np.zeros(count, bool)
+    d[source] = 0
+    for _ in range(count):
+        u = int(np.argmin(np.where(done, np.inf, d)))
+        done[u] = True
+        d = np.minimum(d, d[u] + W[u])
+    return d
+
+
+def right_bellman_ford(edges, lengths, count, source):
+    d = np.full(count, np.inf)
+    d[source] = 0
+    for _ in range(count):
+        for (a, b), w in zip(edges, lengths, strict=True):
+            d[b] = min(d[b], d[a] + w)
+            d[a] = min(d[a], d[b] + w)
+    return d
+
+
+def right_scipy(edges, lengths, count, source):
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import dijkstra
+
+    G = coo_array((lengths, (edges[:, 0], edges[:, 1])), shape=(count, count)).tocsr()
+    return dijkstra(G, directed=False, indices=[source])[0]
+
+
+def right_floyd(edges, lengths, count, source):
+    D = np.full((count, count), np.inf)
+    np.fill_diagonal(D, 0)
+    for (a, b), w in zip(edges, lengths, strict=True):
+        D[a, b] = D[b, a] = w
+    for k in range(count):
+        D = np.minimum(D, D[:, [k]] + D[k])
+    return D[source]
+
+
+def right_until_still(edges, lengths, count, source):
+    d = np.full(count, np.inf)
+    d[source] = 0
+    while True:
+        new = d.copy()
+        for (a, b), w in zip(edges, lengths, strict=True):
+            new[b] = min(new[b], new[a] + w)
+            new[a] = min(new[a], new[b] + w)
+        if (new == d).all():
+            return d
+        d = new
+
+
+def right_list(edges, lengths, count, source):
+    return right_heap(edges, lengths, count, source).tolist()
+
+
+def right_queue_without_order(edges, lengths, count, source):
+    beside, d, waiting = _beside(edges, lengths, count), np.full(count, np.inf), [source]
+    d[source] = 0
+    while waiting:
+        u = waiting.pop()
+        for v, w in beside[u]:
+            if d[u] + w < d[v]:
+                d[v] = d[u] + w
+                waiting.append(v)
+    return d
+
+
+def right_min_plus(edges, lengths, count, source):
+    W = np.full((count, count), np.inf)
+    np.fill_diagonal(W, 0)
+    W[edges[:, 0], edges[:, 1]] = W[edges[:, 1], edges[:, 0]] = lengths
+    d = W[source]
+    for _ in range(count):
+        d = (d[:, None] + W).min(axis=0)
+    return d
+
+
+def wrong_directed(edges, lengths, count, source):
+    d = np.full(count, np.inf)
+    d[source] = 0.0
+    for _ in range(count):
+        for (a, b), w in zip(edges, lengths, strict=True):
+            d[b] = min(d[b], d[a] + w)
+    return d
+
+
+def wrong_breadth_first(edges, lengths, count, source):
+    beside, d, queue = _beside(edges, lengths, count), np.full(count, np.inf), [source]
+    d[source] = 0.0
+    for u in queue:
+        for v, w in beside[u]:
+            if np.isinf(d[v]):
+                d[v] = d[u] + w
+                queue.append(v)
+    return d
+
+
+def wrong_counts(edges, lengths, count, source):
+    return right_heap(edges, np.ones(len(edges)), count, source)
+
+
+def wrong_zero_unreached(edges, lengths, count, source):
+    d = right_heap(edges, lengths, count, source)
+    d[np.isinf(d)] = 0
+    return d
+
+
+def wrong_minus_one(edges, lengths, count, source):
+    return [w if np.isfinite(w) else -1.0 for w in right_heap(edges, lengths, count, source)]
+
+
+def wrong_one_round(edges, lengths, count, source):
+    d = np.full(count, np.inf)
+    d[source] = 0.0
+    for k in range(len(edges)):
+        a, b = edges[k]
+        d[b] = min(d[b], d[a] + lengths[k])
+        d[a] = min(d[a], d[b] + lengths[k])
+    return d
+
+
+def wrong_prim(edges, lengths, count, source):
+    beside, d, done, heap = _beside(edges, lengths, count), [np.inf] * count, set(), [(0.0, source, 0.0)]
+    while heap:
+        _, u, way = heapq.heappop(heap)
+        if u not in done:
+            done.add(u)
+            d[u] = way
+            for v, w in beside[u]:
+                if v not in done:
+                    heapq.heappush(heap, (w, v, way + w))
+    return d
+
+
+def wrong_huge_for_inf(edges, lengths, count, source):
+    return np.minimum(right_heap(edges, lengths, count, source), 1e9)
+
+
+def wrong_nan_unreached(edges, lengths, count, source):
+    d = right_heap(edges, lengths, count, source)
+    return np.where(np.isinf(d), np.nan, d)
+
+
+def wrong_first_neighbours_only(edges, lengths, count, source):
+    d = np.full(count, np.inf)
+    d[source] = 0.0
+    for (a, b), w in zip(edges, lengths, strict=True):
+        if a == source:
+            d[b] = w
+        if b == source:
+            d[a] = w
+    return d
+
+
+def wrong_source_zero(edges, lengths, count, source):
+    return right_heap(edges, lengths, count, 0)
+
+
+def wrong_source_inf(edges, lengths, count, source):
+    d = right_heap(edges, lengths, count, source)
+    d[source] = np.inf
+    return d
+
+
+def wrong_squared(edges, lengths, count, source):
+    return right_heap(edges, lengths**2, count, source)
+
+
+def wrong_done_when_pushed(edges, lengths, count, source):
+    beside, d, done, heap = _beside(edges, lengths, count), [np.inf] * count, {source}, [(0.0, source)]
+    d[source] = 0.0
+    while heap:
+        way, u = heapq.heappop(heap)
+        for v, w in beside[u]:
+            if v not in done:
+                done.add(v)
+                d[v] = way + w
+                heapq.heappush(heap, (d[v], v))
+    return d
+
+
+def wrong_longest_first(edges, lengths, count, source):
+    beside, d, done, heap = _beside(edges, lengths, count), [np.inf] * count, set(), [(0.0, source)]
+    d[source] = 0.0
+    while heap:
+        way, u = heapq.heappop(heap)
+        if u in done:
+            continue
+        done.add(u)
+        for v, w in beside[u]:
+            if v not in done:
+                d[v] = -way + w
+                heapq.heappush(heap, (-d[v], v))
+    return d
+
+
+def wrong_largest_edge(edges, lengths, count, source):
+    d = np.full(count, np.inf)
+    d[source] = 0.0
+    for _ in range(count):
+        for (a, b), w in zip(edges, lengths, strict=True):
+            d[b] = min(d[b], max(d[a], w))
+            d[a] = min(d[a], max(d[b], w))
+    return d
+
+
+def wrong_last_node_missing(edges, lengths, count, source):
+    keep = (edges < count - 1).all(axis=1)
+    return right_heap(edges[keep], lengths[keep], count, source)
+
+
+def wrong_two_rounds(edges, lengths, count, source):
+    d = np.full(count, np.inf)
+    d[source] = 0.0
+    for _ in range(2):
+        for (a, b), w in zip(edges, lengths, strict=True):
+            d[b] = min(d[b], d[a] + w)
+            d[a] = min(d[a], d[b] + w)
+    return d
+
+
+def wrong_both_ends_of_the_file(edges, lengths, count, source):
+    d = np.full(count, np.inf)
+    d[source] = 0.0
+    for _ in range(count):
+        for (a, b), w in zip(edges, lengths, strict=True):
+            d[a] = min(d[a], d[b] + w)
+    return d

@@ -1,0 +1,297 @@
+"""Every claim of the distances lesson in numbers: presets, questions, page, slots and what is refused."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from lessons.distances import experiments
+from lessons.distances.lesson import lesson
+from lessons.distances.stages import finer_grids, finer_spheres
+from lessons.distances.state import Ball, Found, Front, Landmarks, Params, Scatter, Trials
+from tests.runs import finished
+from tests.truths.distances import errors, true_distances
+from workbench.errors import InputError
+from workbench.geometry import metrics
+from workbench.scene import Mesh, Points, Segments, Table, caption_of
+from workbench.timeline import Timeline
+
+
+def states(params):
+    return finished("distances", params).states()
+
+
+def preset(name):
+    return lesson.preset(name).params
+
+
+def now(kind, params, step=-1):
+    found = states(params)[step].now
+    assert isinstance(found, kind)
+    return found
+
+
+def goal(params) -> tuple[float, float]:
+    return experiments.to_goal(states(params))
+
+
+# the plane ------------------------------------------------------------------------------------------------------------
+
+
+def test_other_metrics_have_other_nearest_points():
+    changed = {name: now(Ball, preset(name)).changed.mean() for name in ("taxi", "units")}
+    assert 0.05 < changed["taxi"] < 0.2
+    assert now(Ball, Params(stage="balls", metric="cosine")).changed.mean() > 0.4
+    assert changed["units"] > 0.7
+    ball = now(Ball, preset("taxi"))
+    np.testing.assert_allclose(np.abs(ball.rims[0] - ball.p[ball.query]).sum(axis=1), ball.radius)
+    assert ball.radius == ball.d.min()
+
+
+@pytest.mark.parametrize(
+    ("metric", "share"), [("euclid", 0), ("squared", 0.24), ("cosine", 0.34), ("p", 0.156), ("p-sum", 0)]
+)
+def test_which_of_them_are_metrics(metric, share):
+    trials = now(Trials, Params(stage="axioms", metric=metric))
+    assert trials.broken / trials.tried == pytest.approx(share, abs=0.02)
+    tone = caption_of(finished("distances", Params(stage="axioms", metric=metric))[-1].scene).tone
+    assert trials.axioms["d(a, b) > 0"] == (metric == "cosine")
+    assert tone in ("info", "wrong")
+
+
+def test_a_scatter_is_made_round():
+    run = states(preset("whiten"))
+    round_ = run[3].now
+    assert isinstance(round_, Scatter)
+    np.testing.assert_allclose(np.cov(round_.p.T), np.eye(2), atol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(round_.p, axis=1), round_.d)  # Mahalanobis' distance is Euclid's now
+    np.testing.assert_allclose(np.linalg.norm(round_.rim, axis=1), 2.4477, atol=1e-4)
+    np.testing.assert_allclose(np.mean(run[1].now.p, axis=0), 0, atol=1e-12)
+    assert now(Scatter, preset("whiten"), 4).flagged.mean() == pytest.approx(0.05, abs=0.03)
+
+
+def test_within_two_in_ever_more_dimensions():
+    shares = now(Scatter, preset("whiten")).shares
+    assert shares is not None
+    np.testing.assert_allclose(shares[1][[0, 1, 2, 9]], [0.954, 0.865, 0.739, 0.053], atol=0.001)
+    np.testing.assert_allclose(shares[0], shares[1], atol=0.025)
+
+
+def test_outliers_hide_themselves_and_are_found_by_the_closest_half():
+    masked, robust = (now(Scatter, preset(name), experiments.TOLD) for name in ("masking", "robust"))
+    assert masked.d[masked.outlier].mean() == pytest.approx(2.15, abs=0.05)
+    assert not masked.flagged[masked.outlier].any()
+    clean = metrics.mahalanobis(masked.p, *metrics.mean_and_covariance(masked.p[~masked.outlier]))
+    assert clean[masked.outlier].mean() == pytest.approx(9.0, abs=0.7)
+    assert robust.d[robust.outlier].mean() == pytest.approx(9.2, abs=0.7)
+    assert robust.flagged[robust.outlier].all()
+
+
+def test_the_right_landmark_by_the_ellipse_of_the_measurement():
+    seen = [now(Landmarks, replace(preset("stereo"), seed=seed)) for seed in range(4)]
+    assert np.mean([np.mean(one.euclid == one.true) for one in seen]) == pytest.approx(0.60, abs=0.06)
+    assert np.mean([np.mean(one.mahalanobis == one.true) for one in seen]) == pytest.approx(0.95, abs=0.03)
+
+
+# grids ------------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("params", "worst", "mean", "way"),
+    [
+        (Params(), 8.24, 4.1, 4.1), (preset("staircase"), 41.4, 31, 39), (Params(neighbours="16"), 2.75, 1.0, 0.5),
+        (preset("marching"), 10.0, 4.9, 6.1), (Params(neighbours="march", grid=81), 6.0, 2.9, 3.6),
+    ],
+)  # fmt: skip
+def test_errors_round_the_wall(params, worst, mean, way):
+    found = now(Found, params)
+    assert 100 * found.worst == pytest.approx(worst, abs=0.4)
+    assert 100 * found.mean == pytest.approx(mean, abs=0.4)
+    d, true = goal(params)
+    assert true == pytest.approx(np.hypot(0.3, 0.3) + np.hypot(0.3, 0.5), abs=0.012)
+    assert 100 * (d / true - 1) == pytest.approx(way, abs=0.6)
+    np.testing.assert_allclose(errors(states(params)[-1]), found.error[np.isfinite(found.error)], atol=1e-12)
+
+
+def test_the_error_along_edges_stays_and_that_of_marching_falls():
+    study = {name: 10**error for name, (_, error) in finer_grids().items()}
+    for name, worst in (("4 neighbours", 41.42), ("8 neighbours", 8.24), ("16 neighbours", 2.75)):
+        np.testing.assert_allclose(study[name], worst, atol=0.012)
+    np.testing.assert_allclose(study["marching"], [15.0, 12.1, 8.0, 5.3, 3.3], atol=0.06)
+    np.testing.assert_allclose(study["marching, exact disc"][1:], [8.0, 3.6, 1.7, 0.8], atol=0.06)
+    assert study["marching"][1] > study["8 neighbours"][1]  # coarse grids: Dijkstra is nearer the truth
+
+
+def test_a_disc_of_exact_distances_helps_everywhere():
+    disc, bare = (now(Found, replace(preset("disc"), disc=radius)) for radius in (0.1, 0.0))
+    assert disc.mean < 0.6 * bare.mean
+
+
+def test_fronts_accept_in_the_order_of_distance():
+    for params in (Params(), preset("marching")):
+        fronts = [state.now for state in states(params) if isinstance(state.now, Front)]
+        end = now(Found, params).d
+        for front, later in pairwise(fronts):
+            assert later.accepted[front.accepted].all()
+            np.testing.assert_array_equal(end[front.accepted], front.d[front.accepted])
+            assert (end[~front.accepted] >= front.reach - 1e-9).all()
+
+
+def test_the_wall_is_not_walked_through():
+    subject = states(Params())[0].subject
+    assert np.isinf(now(Found, Params()).d[~subject.free]).all()
+    path = now(Found, Params()).path
+    for a, b in pairwise(path):
+        if (a[0] - subject.tip[0]) * (b[0] - subject.tip[0]) < 0:
+            assert min(a[1], b[1]) >= subject.tip[1] - 1e-9
+
+
+# surfaces ---------------------------------------------------------------------------------------------------------------
+
+
+def test_over_a_sphere():
+    edges, points = (now(Found, preset(name)) for name in ("sphere", "points"))
+    assert 100 * edges.mean == pytest.approx(6.2, abs=0.1)
+    assert 100 * edges.worst == pytest.approx(16.1, abs=0.2)
+    assert 100 * points.mean == pytest.approx(0.4, abs=0.05)
+    study = {name: 10**error for name, (_, error) in finer_spheres().items()}
+    assert (study["edges"][1:] > 18).all()
+    assert (np.diff(study["heat"]) < 0).all()
+    assert study["heat"][-1] == pytest.approx(2.07, abs=0.05)
+    assert study["3 points on each edge"][-1] == pytest.approx(1.16, abs=0.03)
+
+
+def test_the_time_of_heat():
+    plain, early, late = (now(Found, params) for params in (preset("heat"), preset("early"), experiments.LATE))
+    assert tuple(round(100 * float(np.nanmean(np.abs(one.error))), 1) for one in (plain, early, late)) == (
+        1.9,
+        26.0,
+        8.4,
+    )
+    assert early.mean < -0.25
+    assert late.times is not None
+    np.testing.assert_allclose(late.times[1][[0, 4, 8]], [26.0, 1.95, 8.35], atol=0.1)
+    flattered = now(Found, preset("flattered")).times
+    assert flattered is not None
+    assert flattered[1][8] < flattered[1][4]  # on a sphere a longer time looks better
+
+
+def test_heat_distance_is_nearly_a_metric():
+    found = now(Found, preset("heat"))
+    assert 0.005 < found.broken < 0.04
+    assert 0.001 < np.median(found.asymmetry) < 0.03
+    table = finished("distances", preset("heat"))[-1].scene["metric"]
+    assert isinstance(table, Table)
+
+
+def test_the_reference_of_the_rabbit_is_near_that_of_more_points():
+    from lessons.distances.subjects import subject_of
+    from workbench.geometry import geodesics
+
+    subject = subject_of(preset("heat"))
+    nodes, edges, lengths = geodesics.with_points_on_edges(subject.p, subject.faces, 7)
+    finer = geodesics.shortest_distances(edges, lengths, len(nodes), subject.source)[: len(subject.p)]
+    known = now(Found, preset("heat")).truth
+    off = known[finer > 0.1] / finer[finer > 0.1] - 1
+    assert (off > -1e-9).all() or off.min() > -2e-3  # other points, not the same ones and more
+    assert off.mean() < 2.5e-3
+
+
+def test_one_edge_ruins_the_ways_over_a_roll():
+    d, true = goal(preset("roll"))
+    assert d / true == pytest.approx(1.015, abs=0.003)
+    assert not states(preset("roll"))[0].subject.shortcuts.any()
+    d, true = goal(experiments.SHORTCUT)
+    assert states(experiments.SHORTCUT)[0].subject.shortcuts.sum() == 1
+    assert (round(d, 2), round(true, 2)) == (2.54, 6.42)
+    np.testing.assert_allclose(true_distances(states(preset("roll"))[-1]), now(Found, preset("roll")).truth, atol=1e-4)
+
+
+# questions --------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "within"),
+    [("finer", 2, 0.1), ("two-sigma", 86.5, 1.5), ("twenty", 19 / np.sqrt(20), 0.05), ("squares", 24.2, 1.5),
+     ("longer", 2, 0.1), ("shortcut", 2.54, 0.01)],
+)  # fmt: skip
+def test_answers(name, answer, within):
+    question = next(question for question in lesson.questions if question.name == name)
+    assert question.answer(states(question.params)) == pytest.approx(answer, abs=within)
+
+
+def test_answers_are_read_off_the_run():
+    asked = {question.name: question for question in lesson.questions}
+    assert asked["longer"].answer(states(preset("flattered"))) == 1
+    assert asked["shortcut"].answer(states(preset("roll"))) == pytest.approx(6.52, abs=0.01)
+    assert asked["squares"].answer(states(preset("half"))) == pytest.approx(15.6, abs=1.5)
+
+
+# slots, and what is refused -----------------------------------------------------------------------------------------------
+
+
+def with_slots(params, **slots):
+    return Timeline(lesson, params, slots).complete().states()
+
+
+def test_slots_drive_the_run():
+    def hops(edges, lengths, count, source):
+        return np.where(np.arange(count) == source, 0.0, 1.0)
+
+    for params in (Params(grid=11), Params(stage="surface", points=42), Params(stage="roll", points=100, k=6)):
+        found = with_slots(params, shortest_distances=hops)[-1].now
+        assert set(np.unique(found.d)) == {0.0, 1.0}
+    run = with_slots(Params(grid=21, wall=0.0, neighbours="march"), eikonal_update=lambda a, b, h: np.minimum(a, b) + h)
+    assert 100 * run[-1].now.worst == pytest.approx(41.4, abs=0.1)  # Manhattan's
+    run = with_slots(Params(stage="whiten", points=50), mahalanobis=lambda p, mean, C: np.full(len(p), 7.0))
+    assert (run[4].now.d == 7).all()
+    run = with_slots(preset("stereo"), mahalanobis=lambda p, mean, C: np.linalg.norm(p - mean, axis=1))
+    np.testing.assert_array_equal(run[-1].now.mahalanobis, run[-1].now.euclid)
+
+
+def test_answers_that_are_no_distances_are_told():
+    with pytest.raises(InputError, match="are no distances"):
+        with_slots(Params(), shortest_distances=lambda e, w, n, s: np.full(n, np.nan))
+    with pytest.raises(InputError, match="not finite"):
+        with_slots(Params(stage="whiten"), mahalanobis=lambda p, m, C: np.full(len(p), np.inf))
+    for update in (lambda a, b, h: np.full(len(a), np.nan), lambda a, b, h: np.minimum(a, b) - h):
+        run = with_slots(Params(neighbours="march", grid=11), eikonal_update=update)
+        assert np.isfinite(run[-1].now.d).sum() == 1  # the front does not get away from the source
+
+
+def test_nodes_that_nobody_reaches_are_told():
+    run = with_slots(Params(grid=11), shortest_distances=lambda e, w, n, s: np.where(np.arange(n) == s, 0.0, np.inf))
+    assert isinstance(run[-1].now, Found)
+    caption = caption_of(Timeline(lesson, Params(grid=11), {
+        "shortest_distances": lambda e, w, n, s: np.where(np.arange(n) == s, 0.0, np.inf)
+    }).complete()[-1].scene)  # fmt: skip
+    assert "1 of" in caption.text
+
+
+def test_what_cannot_be_is_said():
+    side, middle = 41, 20
+    with pytest.raises(InputError, match="lies in the wall"):
+        next(lesson.run(Params(source=middle * side + 3)))
+    with pytest.raises(InputError, match="cannot have 15 neighbours"):
+        next(lesson.run(Params(stage="roll", points=12)))
+
+
+def test_a_click_moves_the_source():
+    for params in (Params(source=5), Params(stage="surface", source=17), Params(stage="roll", points=300, source=9)):
+        subject, found = states(params)[-1].subject, now(Found, params)
+        assert subject.source == params.source
+        assert found.d[params.source] == found.truth[params.source] == 0
+    assert now(Ball, Params(stage="balls", source=8)).query == 8
+
+
+def test_what_is_drawn():
+    scene = finished("distances", Params())[-2].scene
+    assert isinstance(scene["nodes"], Mesh)
+    assert isinstance(scene["way"], Segments)
+    assert isinstance(scene["true way"], Segments)
+    assert len(scene["true way"].ends) == 2  # over the tip of the wall
+    roll = finished("distances", experiments.SHORTCUT)[-1].scene
+    assert isinstance(roll["nodes"], Points)
+    assert isinstance(roll["shortcuts"], Segments)
+    assert len(roll["shortcuts"].ends) == 1

@@ -1,0 +1,55 @@
+"""What is true of a distance, apart from the lesson's core: closed forms, visibility past a wall, an unrolled spiral."""
+
+import numpy as np
+
+from lessons.distances.state import Found, Front, State
+
+NEAR = 0.14
+
+
+def true_distances(state: State) -> np.ndarray:
+    """The true distance of every node from the source; of surfaces without formula what the run was held against."""
+    s = state.subject
+    assert s is not None
+    p, q = s.p, s.p[s.source]
+    if state.params.stage == "grid":
+        assert s.tip is not None
+        tip, found = np.append(s.tip, 0.0), []
+        for one in p:
+            t = np.linspace(0, 1, 2001)
+            crossing = one[0] != q[0] and 0 < (tip[0] - q[0]) / (one[0] - q[0]) < 1
+            y = np.interp((tip[0] - q[0]) / (one[0] - q[0]), t, q[1] + t * (one[1] - q[1])) if crossing else np.inf
+            seen = y >= tip[1] - 1e-9
+            found.append(np.linalg.norm(one - q) if seen else np.linalg.norm(tip - q) + np.linalg.norm(one - tip))
+        return np.array(found)
+    if state.params.stage == "roll" and state.params.cloud is None:
+        return unrolled(p, s.source)
+    if state.params.shape == "sphere" and state.params.mesh is None:
+        return np.arccos(np.clip(p @ q / np.linalg.norm(q) ** 2, -1, 1)) * np.linalg.norm(q)
+    assert isinstance(state.now, Found)
+    return state.now.truth
+
+
+def unrolled(p: np.ndarray, source: int) -> np.ndarray:
+    """Distances on the sheet of a roll r = t / (4.5 pi), by adding up the spiral's length in small steps."""
+    t = np.linspace(0, 4.6 * np.pi, 200_001)
+    x, y = t * np.cos(t), t * np.sin(t)
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))]) / (4.5 * np.pi)
+    along = np.interp(np.linalg.norm(p[:, :2], axis=1) * 4.5 * np.pi, t, length)
+    return np.hypot(along - along[source], p[:, 2] - p[source, 2])
+
+
+def errors(state: State) -> np.ndarray:
+    """The relative errors of a step's distances, far enough from the source."""
+    now = state.now
+    assert isinstance(now, Found | Front)
+    true = true_distances(state)
+    finite = np.isfinite(true)
+    kept = np.isfinite(now.d) & finite & (true > NEAR * true[finite].max())
+    return now.d[kept] / true[kept] - 1
+
+
+def mahalanobis(p: np.ndarray, mean: np.ndarray, C: np.ndarray) -> np.ndarray:
+    """By the inverse, point by point."""
+    inverse = np.linalg.inv(C)
+    return np.array([np.sqrt((x - mean) @ inverse @ (x - mean)) for x in p])

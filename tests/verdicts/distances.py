@@ -1,0 +1,332 @@
+"""What the distances lesson says of its runs, decided from closed forms and by trying, apart from its core."""
+
+import functools
+import re
+
+import numpy as np
+import scipy
+
+from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, Trials
+from lessons.distances.words import caption
+from tests.readings import LENGTH, NUMBER, near, near_length, number, says, says_percent
+from tests.truths.distances import errors, mahalanobis, true_distances
+from tests.verdicts import Claim, Run
+from workbench.algorithms.heat_method import HeatState
+
+__all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
+
+PERCENT = r"(?:less than )?[\d.,]+ %"
+
+
+def right(run: Run, k: int) -> bool | None:
+    now = run.states[k].now
+    if isinstance(now, Found) and len(now.truth):
+        off = _off(run, k)
+        return (True if off.mean() <= 0.02 else False if off.mean() > 0.06 else None) if len(off) else False
+    if isinstance(now, Trials):
+        return False if now.broken or run.params.metric == "cosine" else None
+    if isinstance(now, Scatter) and now.phase == "told" and now.outlier.any():
+        beyond = (_radii(run, k) > 2.4477)[now.outlier].mean()
+        return True if beyond >= 0.9 else False if beyond < 0.5 else None
+    return None
+
+
+def _off(run: Run, k: int) -> np.ndarray:
+    """The sizes of the errors; the same for all steps that have all distances."""
+    return np.abs(_errors(run.states[k]))
+
+
+@functools.lru_cache(maxsize=4)
+def _errors(state) -> np.ndarray:
+    return errors(state)
+
+
+def _radii(run: Run, k: int) -> np.ndarray:
+    """Mahalanobis distances, by the sample covariance or by the run's own where that is robust."""
+    now = run.states[k].now
+    assert isinstance(now, Scatter)
+    first = run.states[0].now.p
+    if run.params.estimate == "robust":
+        return now.d
+    return mahalanobis(first, first.mean(axis=0), np.cov(first.T))
+
+
+# captions ---------------------------------------------------------------------------------------------------------------
+
+
+def _mean_and_worst(run: Run, k: int, m: re.Match[str]) -> bool:
+    found = _errors(run.states[k])
+    worst = found[np.abs(found).argmax()]
+    sense = (worst > 0) == (m["sense"] == "long") or abs(worst) < 1e-12
+    return bool(says_percent(m["mean"], np.abs(found).mean()) and says_percent(m["worst"], abs(worst)) and sense)
+
+
+def _to_goal(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[k]
+    assert state.subject is not None
+    goal = state.subject.goal
+    found, true = float(state.now.d[goal]), float(true_distances(state)[goal])
+    return near_length(m["found"], found) and near_length(m["true"], true)
+
+
+def _accepted(run: Run, k: int, m: re.Match[str]) -> bool:
+    """So many have a distance that no later step changes."""
+    now = run.states[k].now
+    assert isinstance(now, Front)
+    end = next(s.now.d for s in run.states if isinstance(s.now, Found))
+    same = np.array_equal(end[now.accepted], now.d[now.accepted])
+    return same and number(m["n"]) == now.accepted.sum() == np.sum(end <= now.reach * (1 + 1e-9) + 1e-12)
+
+
+def _balls(run: Run, k: int, m: re.Match[str]) -> bool:
+    """Of the queries so many change their nearest point; by own formulas."""
+    now, a = run.states[k].now, run.params
+    assert isinstance(now, Ball)
+    units = np.array([1.0, a.stretch])
+    v = np.abs((now.queries[:, None] - now.p[None]) * units)
+    C = np.linalg.inv([[1, a.correlation], [a.correlation, 1]])
+    w = (now.queries[:, None] - now.p[None]) * units
+    x, y = now.queries * units, now.p * units
+    by = {
+        "euclid": (v**2).sum(axis=2), "squared": (v**2).sum(axis=2), "manhattan": v.sum(axis=2),
+        "chebyshev": v.max(axis=2), "p": (v**a.p).sum(axis=2), "p-sum": (v**a.p).sum(axis=2),
+        "cosine": -(x @ y.T) / np.linalg.norm(x, axis=1)[:, None] / np.linalg.norm(y, axis=1),
+        "mahalanobis": np.einsum("qpi,ij,qpj->qp", w, C, w),
+    }[a.metric]  # fmt: skip
+    straight = np.linalg.norm(now.queries[:, None] - now.p[None], axis=2)
+    return says_percent(m["share"], float((by.argmin(axis=1) != straight.argmin(axis=1)).mean()))
+
+
+def _detour(run: Run, k: int, m: re.Match[str]) -> bool:
+    now = run.states[k].now
+    assert isinstance(now, Trials)
+    ab, bc, ac = now.sides
+    return near(m["ac"], ac) and near(m["over"], ab + bc) and ac > ab + bc
+
+
+def _share_broken(run: Run, k: int, m: re.Match[str]) -> bool:
+    """As many as of other triples, by formulas of their own."""
+    now, a = run.states[k].now, run.params
+    assert isinstance(now, Trials)
+    if not says_percent(m["share"], now.broken / now.tried):
+        return False
+    p = np.random.default_rng(77).random((3, 20_000, 2))
+
+    def d(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+        if a.metric == "cosine":
+            return 1 - (one * other).sum(axis=1) / np.hypot(*one.T) / np.hypot(*other.T)
+        if a.metric == "squared":
+            return ((one - other) ** 2).sum(axis=1)
+        return (np.abs(one - other) ** a.p).sum(axis=1) ** (1 / a.p if a.metric == "p" else 1)
+
+    expected = (d(p[0], p[2]) > d(p[0], p[1]) + d(p[1], p[2]) + 1e-9).mean()
+    return abs(expected - now.broken / now.tried) < 4.5 * np.sqrt(expected * (1 - expected) / now.tried) + 0.01
+
+
+def _flagged(run: Run, k: int, m: re.Match[str]) -> bool:
+    now, d = run.states[k].now, _radii(run, k)
+    assert isinstance(now, Scatter)
+    return says_percent(m["share"], float((d[~now.outlier] > 2.4477).mean()))
+
+
+def _second(run: Run, k: int, m: re.Match[str]) -> bool:
+    now, d = run.states[k].now, _radii(run, k)
+    assert isinstance(now, Scatter)
+    caught = int((d[now.outlier] > 2.4477).sum())
+    return number(m["n"]) == caught and says(m["mean"], float(d[now.outlier].mean()))
+
+
+def _landmark(run: Run, k: int, m: re.Match[str]) -> bool:
+    """Nearest by Euclid's distance, and by the covariance of depth from disparity."""
+    now = run.states[k].now
+    assert isinstance(now, Landmarks)
+    near_, told = [], []
+    for x, z in now.seen:
+        v = now.landmarks - [x, z]
+        near_.append(int(np.argmin((v**2).sum(axis=1))))
+        by_pixel = np.array([[z / 700, -x * z / 84], [0, -z * z / 84]]) / 2
+        told.append(int(np.argmin((np.linalg.solve(by_pixel, v.T) ** 2).sum(axis=0))))
+    return says_percent(m["near"], float((np.array(near_) == now.true).mean())) and says_percent(
+        m["told"], float((np.array(told) == now.true).mean())
+    )
+
+
+def _shares(run: Run, k: int, m: re.Match[str]) -> bool:
+    """Near what the chi-squared distribution says."""
+    return all(abs(number(m[name]) / 100 - scipy.stats.chi2.cdf(4, d)) < 0.02 for name, d in (("one", 1), ("ten", 10)))
+
+
+def _wrong(run: Run, k: int, m: re.Match[str]) -> bool:
+    return right(run, k) is False
+
+
+def _good(run: Run, k: int, m: re.Match[str]) -> bool:
+    return right(run, k) is True
+
+
+def _weakest(run: Run, k: int, m: re.Match[str]) -> bool:
+    now = run.states[k].now
+    assert isinstance(now, HeatState)
+    return abs(number(m["far"]) - np.log10(np.sort(np.abs(now.u))[len(now.u) // 2] / now.u.max())) < 0.51
+
+
+CAPTIONS = [
+    Claim(
+        rf"(?P<mean>{PERCENT}) off on average, at worst (?P<worst>{PERCENT}) too (?P<sense>long|short)", _mean_and_worst
+    ),
+    Claim(rf"(?P<found>{LENGTH}) to the goal, in truth (?P<true>{LENGTH})", _to_goal),
+    Claim(r"Right to 2 %", _good),
+    Claim(r"That is wrong, also on average", _wrong),
+    Claim(r"(?P<n>[\d,]+) of [\d,]+ nodes are accepted, their distance is final", _accepted),
+    Claim(r"10 to the power of (?P<far>[−\d]+) of the strongest", _weakest),
+    Claim(r"Of \d+ other queries (?P<share>[\d.]+ %) have another nearest", _balls),
+    Claim(rf"(?P<share>{PERCENT}) break the triangle inequality\. (?:Here|Also|No)", _share_broken),
+    Claim(rf"from a to c is (?P<ac>{NUMBER}), over b it is (?P<over>{NUMBER})", _detour),
+    Claim(r"No metric\.", _wrong),
+    Claim(r"none breaks the triangle inequality", lambda run, k, m: run.states[k].now.broken == 0),
+    Claim(rf"Beyond 2\.45 lie (?P<share>{PERCENT}) of the scatter", _flagged),
+    Claim(rf"(?P<n>[\d,]+) of [\d,]+ of the second cluster, at (?P<mean>{NUMBER}) on average", _second),
+    Claim(r"It is found\.", _good),
+    Claim(r"It hides itself", lambda run, k, m: right(run, k) is not True),
+    Claim(rf"is the right one for (?P<near>{PERCENT}), by Mahalanobis' for (?P<told>{PERCENT})", _landmark),
+    Claim(r"from (?P<one>[\d.]+) % in one down to (?P<ten>[\d.]+) % in ten", _shares),
+]
+
+# preset lines and explanations --------------------------------------------------------------------------------------------
+
+
+def _ends(run: Run) -> Found:
+    now = run.states[-1].now
+    assert isinstance(now, Found)
+    return now
+
+
+def _most_too_long(run: Run, k: int, m: re.Match[str]) -> bool:
+    return bool(np.mean(_errors(run.states[-1]) > 0.02) > 0.75)
+
+
+def _mended(run: Run, k: int, m: re.Match[str]) -> bool:
+    """Without the disc the same march is farther off; beyond half a metre too."""
+    *_, plain = march_again(run.params.grid)
+    assert run.states[-1].subject is not None
+    far = true_distances(run.states[-1]) > 0.5
+    off = [np.abs(d[far] / true_distances(run.states[-1])[far] - 1).mean() for d in (_ends(run).d, plain)]
+    return off[0] < 0.75 * off[1]
+
+
+def _exact_near(run: Run) -> bool:
+    true = true_distances(run.states[-1])
+    return bool(np.allclose(_ends(run).d[true <= 0.1], true[true <= 0.1]))
+
+
+def _round_about(run: Run, k: int, m: re.Match[str]) -> bool:
+    state = run.states[-1]
+    assert state.subject is not None
+    ends = state.subject.p[[state.subject.goal, state.subject.source]]
+    return bool(true_distances(state)[state.subject.goal] > 3 * np.linalg.norm(ends[0] - ends[1]))
+
+
+def march_again(side: int) -> list[np.ndarray]:
+    """The distances of the same run from a bare source."""
+    from lessons.distances.lesson import run as of
+    from lessons.distances.state import Params
+
+    states = list(of(Params(grid=side, neighbours="march", wall=0.0)))
+    return [state.now.d for state in states if isinstance(state.now, Found)]
+
+
+def _refined(run: Run) -> np.ndarray:
+    return 10 ** _ends(run).study["8 neighbours"][1]
+
+
+LINES = {
+    "taxi": [Claim(r"another nearest point", lambda run, k, m: run.states[-1].now.changed.any())],
+    "units": [
+        Claim(
+            r"y alone decides",
+            lambda run, k, m: (
+                np.abs(run.states[-1].now.p[:, 1] - run.states[-1].now.p[0, 1])[1:].argmin() + 1
+                == run.states[-1].now.nearest["euclid"] or run.states[-1].now.changed.mean() > 0.6
+            ),
+        )
+    ],
+    "cosine-axioms": [
+        Claim(r"Points on one ray are at distance 0", lambda run, k, m: run.states[-1].now.axioms["d(a, b) > 0"] == 1.0)
+    ],
+    "robust": [
+        Claim(
+            r"the second cluster lies far out",
+            lambda run, k, m: run.states[4].now.d[run.states[4].now.outlier].min() > 4,
+        )
+    ],
+    "stereo": [
+        Claim(
+            r"far worse than what lies across",
+            lambda run, k, m: np.ptp(run.states[-1].now.rims[..., 1], axis=1).min()
+            > 4 * np.ptp(run.states[-1].now.rims[..., 0], axis=1).max() / 2,
+        )
+    ],
+    "sphere": [Claim(r"Most ways along edges are several per cent too long", _most_too_long)],
+    "points": [
+        Claim(r"errors of about one per cent", lambda run, k, m: 0.005 < np.abs(_errors(run.states[-1])).max() < 0.015)
+    ],
+    "disc": [
+        Claim(r"Exact distances in a small disc mend the rest too", _mended),
+        Claim(r"Exact near the source", lambda run, k, m: _exact_near(run)),
+    ],
+    "early": [Claim(r"far too short", lambda run, k, m: _errors(run.states[-1]).mean() < -0.15)],
+    "flattered": [
+        Claim(
+            r"here it is no worse",
+            lambda run, k, m: _ends(run).times is not None
+            and _ends(run).times[1][8] <= _ends(run).times[1][4],  # type: ignore[index]
+        )
+    ],
+    "roll": [Claim(r"more than three times the straight one", _round_about)],
+}  # fmt: skip
+
+WHYS = {
+    "finer": [
+        Claim(
+            rf"(?P<last>{NUMBER}) %, as on the coarse one, (?P<first>{NUMBER}) %",
+            lambda run, k, m: (
+                says(m["last"], _refined(run)[-1])
+                and says(m["first"], _refined(run)[0])
+                and abs(_refined(run)[-1] - 100 * (1 / np.cos(np.pi / 8) - 1)) < 0.01
+            ),
+        )
+    ],
+    "two-sigma": [
+        Claim(
+            r"(?P<two>[\d.]+) %: .* In ten it is (?P<ten>[\d.]+) %",
+            lambda run, k, m: abs(number(m["two"]) - 86.5) < 2 and abs(number(m["ten"]) - 5.3) < 1.5,
+        )
+    ],
+    "twenty": [
+        Claim(
+            rf"(?P<most>{NUMBER})\. However far",
+            lambda run, k, m: says(m["most"], _radii(run, 4).max()) and _radii(run, 4).max() <= 19 / np.sqrt(20),
+        )
+    ],
+    "squares": [
+        Claim(
+            r"(?P<share>\d+ %): wherever the angle at b is obtuse",
+            lambda run, k, m: says_percent(m["share"], run.states[-1].now.broken / run.states[-1].now.tried),
+        )
+    ],
+    "longer": [
+        Claim(
+            rf"(?P<ratio>{NUMBER}) times as large",
+            lambda run, k, m: says(m["ratio"], _ends(run).times[1][8] / _ends(run).times[1][4]),  # type: ignore[index]
+        )
+    ],
+    "shortcut": [
+        Claim(
+            rf"(?P<found>{LENGTH}) for (?P<true>{LENGTH}):",
+            lambda run, k, m: (
+                near_length(m["found"], float(_ends(run).d[run.states[-1].subject.goal]))
+                and near_length(m["true"], float(true_distances(run.states[-1])[run.states[-1].subject.goal]))
+            ),
+        )
+    ],
+}
