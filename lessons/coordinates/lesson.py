@@ -11,6 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from lessons.coordinates.draw import draw
+from lessons.coordinates.exercises.great_circle_distance import great_circle_distance
+from lessons.coordinates.exercises.meet import meet
+from lessons.coordinates.exercises.spherical_from_cartesian import spherical_from_cartesian
 from lessons.coordinates.experiments import PRESETS, QUESTIONS, VIEW
 from lessons.coordinates.point import point_stage
 from lessons.coordinates.state import SECONDS, TILTS, Now, Params, State
@@ -19,7 +22,6 @@ from workbench.algorithms.pan_tilt import follow
 from workbench.algorithms.parallels import Meet, step_back, turn_parallel
 from workbench.algorithms.placing import Spherical, measure, scatter
 from workbench.algorithms.voyages import Distance, to_the_pole, travel
-from workbench.geometry import curvilinear, globe, projective
 from workbench.geometry.globe import PLANETS
 from workbench.lesson import Lesson, Sweep
 
@@ -32,9 +34,9 @@ STOPS = np.array([0.0, 1.0, 3.0, 7.0])
 def run(
     params: Params,
     *,
-    spherical_from_cartesian: Spherical = curvilinear.spherical_from_cartesian,
-    meet: Meet = projective.meet,
-    great_circle_distance: Distance = globe.great_circle_distance,
+    spherical_from_cartesian: Spherical = spherical_from_cartesian,
+    meet: Meet = meet,
+    great_circle_distance: Distance = great_circle_distance,
 ) -> Iterator[State]:
     """Yield the steps of one stage."""
     rng, subject = np.random.default_rng(params.seed), None
@@ -90,7 +92,7 @@ lesson = Lesson(
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,
-    first_step=-1,
+    first_step=6,
     sweeps=(Sweep("system", ("cartesian", "cylindrical", "spherical", "homogeneous")),),
     telling="Along the walk",
 )
