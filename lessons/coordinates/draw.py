@@ -14,8 +14,8 @@ from workbench.algorithms.placing import Placed, Ranged, Scattered, Walked
 from workbench.algorithms.voyages import Raised, Travelled
 from workbench.data.places import Places
 from workbench.data.surfaces import sphere
-from workbench.geometry.curvilinear import Coordinates, cartesian_from_spherical
-from workbench.geometry.globe import Ellipsoid, units_of_places
+from workbench.geometry.curvilinear import Coordinates, cartesian_from_spherical, cell_edges
+from workbench.geometry.globe import Ellipsoid, graticule, parallel, units_of_places
 from workbench.geometry.motions import motion
 from workbench.geometry.polylines import between, circle, segments, sphere_rings
 from workbench.numerals import angle, fixed
@@ -34,6 +34,8 @@ ORIGIN = np.zeros(3)
 REACH = 1.2  # metres that axes and rays go
 FLAT = Ellipsoid(1.0, 0.35)  # how flat a planet is drawn
 BALL = sphere(1500)
+PALE = np.tile(np.array([222, 228, 236], np.uint8), (len(BALL.p), 1))  # land and sea: nothing to tell apart
+GRATICULE = graticule(15)
 K = np.array([[60.0, 0.0, 31.5], [0.0, 60.0, 23.5], [0.0, 0.0, 1.0]])
 
 
@@ -74,7 +76,7 @@ def _point(state: State, system: Coordinates) -> dict[str, Primitive]:
         scene["place"] = Points(now.p[None], "source", 0.025, name="so far")
         scene["numbers"] = _table("So far", system, now.c)
     elif isinstance(now, Cell):
-        scene["cell"] = Segments(_cell_edges(now, system), "source", 3, name="a cell")
+        scene["cell"] = Segments(cell_edges(system, now.low, now.high), "source", 3, name="a cell")
         rows = (("with the density", fixed(now.solid[0], 2)), ("sides alone", fixed(now.solid[1], 2)))
         what = "unit ball" if state.params.system == "spherical" else "solid 2 m wide"
         scene["solid"] = Table(f"Cells of a {what} (m³)", ("", "sum"), (*rows, ("true", fixed(system.volume, 2))))
@@ -95,16 +97,6 @@ def _point(state: State, system: Coordinates) -> dict[str, Primitive]:
 def _table(title: str, system: Coordinates, c: np.ndarray) -> Table:
     rows = (quantity(float(v), is_angle) for v, is_angle in zip(c, system.angles, strict=True))
     return Table(title, ("", "value"), tuple(zip(system.names, rows, strict=True)))
-
-
-def _cell_edges(cell: Cell, system: Coordinates) -> np.ndarray:
-    """Return the twelve edges of a cell, bent where an angle changes along them."""
-    t, lines = np.linspace(0.0, 1.0, 9), []
-    for along in range(3):
-        for bits in np.ndindex(2, 2):
-            share = np.insert(np.tile(np.array(bits, float), (len(t), 1)), along, t, axis=1)
-            lines.append(segments(system.to_points(cell.low + share * (cell.high - cell.low))))
-    return np.concatenate(lines)
 
 
 def _walked(now: Walked, system: Coordinates) -> dict[str, Primitive]:
@@ -163,10 +155,10 @@ def _scattered(now: Scattered) -> dict[str, Primitive]:
     radius = 0.02 if len(now.p) < 1000 else 0.012 if len(now.p) < 6000 else 0.008
     edges = np.arange(0.0, 181.0, 10.0)
     expected = len(now.p) * -np.diff(np.cos(np.radians(edges))) / 2
-    rims = np.concatenate([_parallel(CAP), _parallel(np.pi - CAP)])
+    rims = np.concatenate([parallel(polar) for polar in (CAP, np.pi - CAP)])
     polar = np.degrees(np.arccos(np.clip(now.p[:, 2], -1.0, 1.0)))
     return {
-        "ball": Mesh(0.985 * BALL.p, BALL.faces, "neutral", opacity=0.5),
+        "ball": Mesh(0.985 * BALL.p, BALL.faces, PALE),
         "rims": Segments(rims, "highlight", 3, name="30° from a pole"),
         "points": Points(
             now.p, Classes.marking(near, "source", "near a pole", others=("target", "elsewhere")), radius, name="points"
@@ -178,11 +170,6 @@ def _scattered(now: Scattered) -> dict[str, Primitive]:
     }
 
 
-def _parallel(polar: float) -> np.ndarray:
-    turn = np.linspace(-np.pi, np.pi, 73)
-    return segments(cartesian_from_spherical(np.column_stack([np.ones(73), np.full(73, polar), turn])))
-
-
 def _travelled(now: Travelled, places: Places) -> dict[str, Primitive]:
     turn = np.radians(-90.0 - _middle(places)[1])
     T = motion(np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]]), ORIGIN)
@@ -192,8 +179,8 @@ def _travelled(now: Travelled, places: Places) -> dict[str, Primitive]:
         "circle": (now.circle, "truth", "great circle"),
     }
     scene: dict[str, Primitive] = {
-        "ball": Mesh(0.985 * BALL.p, BALL.faces, "neutral", T, 0.9),
-        "grid": Segments(_graticule(), "neutral", 1, T, opacity=0.35),
+        "ball": Mesh(0.985 * BALL.p, BALL.faces, PALE, T),
+        "grid": Segments(GRATICULE, "neutral", 1, T, opacity=0.5),
         "places": Points(1.004 * units_of_places(degrees), "target", 0.02, T, name="places"),
     }
     for k in {0, len(names) - 1} if len(names) > 12 else range(len(names)):
@@ -217,16 +204,6 @@ def _travelled(now: Travelled, places: Places) -> dict[str, Primitive]:
 def _middle(places: Places) -> np.ndarray:
     p = units_of_places(places.degrees).mean(axis=0)
     return np.degrees([np.arctan2(p[2], np.hypot(p[0], p[1])), np.arctan2(p[1], p[0])])
-
-
-@functools.cache
-def _graticule() -> np.ndarray:
-    turn = np.linspace(-np.pi, np.pi, 73)
-    meridians = [
-        segments(cartesian_from_spherical(np.column_stack([np.ones(37), np.linspace(0, np.pi, 37), np.full(37, a)])))
-        for a in turn[:-1:6]
-    ]
-    return np.concatenate([_parallel(polar) for polar in np.radians(np.arange(15.0, 180.0, 15.0))] + meridians)
 
 
 def _raised(now: Raised) -> dict[str, Primitive]:
@@ -256,12 +233,12 @@ def _followed(now: Followed) -> dict[str, Primitive]:
     n = cartesian_from_spherical(np.array([[1.0, np.pi / 2 - now.tilt, now.pan]]))[0]
     right = np.array([s, -c, 0.0])
     T_world_camera = motion(np.column_stack([right, np.cross(n, right), n]), ORIGIN)
-    ring = np.insert(3.0 * circle(), 2, 0.0, axis=1)
+    ring = np.insert(4.0 * circle(), 2, 0.0, axis=1)
     track = np.array([[[-18.0, now.p[1], now.p[2]], [18.0, now.p[1], now.p[2]]]])
     return {
         "ring": Segments(segments(ring), "neutral", 2, name="pan axis"),
-        "pan": Segments(between(ORIGIN, 3.0 * np.array([c, s, 0.0])), "source", 5, name="pan"),
-        "camera": Camera(K, 64, 48, T_world_camera, 2.0, color="source", name="camera"),
+        "pan": Segments(between(ORIGIN, 4.0 * np.array([c, s, 0.0])), "source", 5, name="pan"),
+        "camera": Camera(K, 64, 48, T_world_camera, 3.0, color="source", name="camera"),
         "track": Segments(track, "neutral", 1.5, name="way of the target"),
         "zenith": Segments(between(ORIGIN, np.array([0.0, 0.0, 12.0])), "z", 1.5, opacity=0.6, name="zenith"),
         "sight": Segments(between(ORIGIN, now.p), "correspondence", 2, name="line of sight"),

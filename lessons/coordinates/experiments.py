@@ -19,10 +19,9 @@ CELL = 10  # the step of the default run that draws a cell
 
 VIEW = View(eye=(2.1, -2.3, 1.7), target=(0.0, 0.0, 0.1), grid=None)
 BALL = View(eye=(0.0, -2.9, 1.3), target=(0.0, 0.0, 0.0), grid=None, axes=False)
-ABOVE = View(eye=(5.2, 0.0, 21.0), target=(5.2, 0.0, 0.0), grid=None, axes=False)
+ABOVE = View(eye=(5.2, 0.0, 25.0), target=(5.2, 0.0, 0.0), grid=None, axes=False)
 MERIDIAN = View(eye=(0.2, -2.7, 0.2), target=(0.2, 0.0, 0.05), grid=None, axes=False)
-PASSING = View(eye=(13.0, -26.0, 9.0), target=(0.0, 0.0, 4.5), grid=2.0, axes=False)
-CLOSE = View(eye=(5.0, -9.0, 6.0), target=(0.0, 0.0, 3.0), grid=2.0, axes=False)
+PASSING = View(eye=(9.0, -21.0, 8.0), target=(0.0, 0.0, 4.8), grid=2.0, axes=False)
 PLANE = View(eye=(-1.5, -7.5, 5.5), target=(3.0, 0.4, 0.4), grid=None, axes=False)
 SIDE = View(eye=(2.2, -2.3, 1.2), target=(0.0, -0.5, 0.0), grid=None, axes=False)
 
@@ -104,7 +103,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "wide", "Far from the zenith",
-        "Thirty degrees off, the pan axis turns at about the pace of the target.",
+        "Thirty degrees off, the pan axis turns twice as fast as the line of sight at most: 1 / sin 30°.",
         Params(stage="mount", miss=30.0), -1, PASSING,
     ),
     Preset(
@@ -171,7 +170,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=TOKYO,
         unit="%",
-        tolerance=6.0,
+        tolerance=5.0,
         step=-2,
     ),
     Question(

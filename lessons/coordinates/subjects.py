@@ -15,6 +15,7 @@ from workbench.errors import InputError
 from workbench.geometry.globe import great_circle_distance, mean_place
 
 MOST_POINTS = 3000
+SHORTEST = 1e-9  # radians, and as much short of half round
 WIDTH = 1.1  # metres that an own object is long
 
 
@@ -26,8 +27,10 @@ def places_of(params: Params) -> Places:
     """
     places = between_cities(params.route) if params.places is None else read_places(params.places)
     ends = places.degrees[[0, -1]]
-    if np.pi - float(great_circle_distance(ends[:1], ends[1:], 1.0)[0]) < 1e-6:
-        raise InputError("the first place and the last are antipodes: they have no one shortest way")
+    way = float(great_circle_distance(ends[:1], ends[1:], 1.0)[0])
+    if not SHORTEST < way < np.pi - SHORTEST:
+        what = "one place" if way <= SHORTEST else "antipodes"
+        raise InputError(f"the first place and the last are {what}: they have no one shortest way")
     try:
         mean_place(places.degrees)
     except ValueError as error:

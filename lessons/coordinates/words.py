@@ -9,6 +9,7 @@ from workbench.algorithms.placing import Placed, Ranged, Scattered, Walked
 from workbench.algorithms.voyages import Raised, Travelled
 from workbench.data.places import Places
 from workbench.geometry.curvilinear import Convention, Coordinates
+from workbench.geometry.globe import great_circle_distance
 from workbench.numerals import angle, brief, coordinates, counted, fixed, length, percent
 from workbench.scene import Caption
 
@@ -24,6 +25,7 @@ WAYS = {  # what each coordinate does, by its name
     "θ": "down from the z axis", "φ": "round the z axis",
 }  # fmt: skip
 HOME = 1e-6  # metres or radians: what rounding leaves
+MEASURED = 1e-3  # by which share a measured way may be off
 FAR_APART = 1e4  # metres between two means
 
 
@@ -189,6 +191,13 @@ def _travelled(now: Travelled, places: Places) -> Caption:
             f"{start} to {end}: one goes straight on the map, latitude and longitude changing evenly, the other along the"
             " great circle."
         )
+    if not abs(now.circle_length / (now.share * direct(places)) - 1) < MEASURED:
+        said = kilometres(now.circle_length) if np.isfinite(now.circle_length) else "no number"
+        return Caption(
+            f"So far {said} along the great circle, by your measure; {kilometres(now.share * direct(places))} were gone."
+            " It is wrong.",
+            "wrong",
+        )
     text = (
         f"{kilometres(now.circle_length)} along the great circle, {kilometres(now.straight_length)} straight on the map"
     )
@@ -196,6 +205,11 @@ def _travelled(now: Travelled, places: Places) -> Caption:
         return Caption(f"So far {text}.")
     more = percent(now.straight_length / now.circle_length - 1, 1)
     return Caption(f"{start} to {end}: {text}, {more} more.")
+
+
+def direct(places: Places) -> float:
+    """Return how far the last place is from the first, metres."""
+    return float(great_circle_distance(places.degrees[:1], places.degrees[-1:])[0])
 
 
 def _raised(now: Raised, state: State) -> str:

@@ -13,6 +13,8 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
+from workbench.geometry.polylines import segments
+
 System = Literal["cartesian", "cylindrical", "spherical"]
 Convention = Literal["ISO", "mathematics", "elevation"]
 CHUNK = 4096  # rows whose columns stay in the cache
@@ -113,6 +115,25 @@ SYSTEMS: Mapping[System, Coordinates] = {
         volume=4 / 3 * np.pi,
     ),
 }
+
+
+def cell_edges(
+    system: Coordinates, low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"], pieces: int = 8
+) -> Float[np.ndarray, "n 2 3"]:
+    """Return the twelve edges of the cell between coordinates as segments, bent where an angle changes along them.
+
+    Args:
+        system: Whose coordinates.
+        low: The lowest coordinates.
+        high: The highest.
+        pieces: Of each edge.
+    """
+    t, edges = np.linspace(0.0, 1.0, pieces + 1), []
+    for along in range(3):
+        for bits in np.ndindex(2, 2):
+            share = np.insert(np.tile(np.array(bits, float), (len(t), 1)), along, t, axis=1)
+            edges.append(segments(system.to_points(low + share * (high - low))))
+    return np.concatenate(edges)
 
 
 def volume_of_cells(

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from workbench.geometry.polylines import circle, segments
+
 EARTH_RADIUS = 6_371_008.8
 """The mean radius of the Earth (2a + b) / 3, metres."""
 
@@ -87,6 +89,23 @@ def mean_place(places: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2"]:
     if np.linalg.norm(mean) < 1e-9:
         raise ValueError("the places cancel: they have no middle")
     return places_of_units(mean[None])[0]
+
+
+def parallel(polar: float, pieces: int = 72) -> Float[np.ndarray, "n 2 3"]:
+    """Return the circle of the unit sphere at a polar angle, radians, as segments."""
+    turn = circle(pieces)
+    return segments(np.column_stack([np.sin(polar) * turn, np.full(len(turn), np.cos(polar))]))
+
+
+def graticule(degrees: int) -> Float[np.ndarray, "n 2 3"]:
+    """Return the unit sphere's parallels every so many degrees, and its meridians every twice as many."""
+    parallels = [parallel(polar) for polar in np.radians(np.arange(degrees, 180, degrees))]
+    latitude = np.linspace(-90.0, 90.0, 37)
+    meridians = [
+        segments(units_of_places(np.column_stack([latitude, np.full(37, longitude)])))
+        for longitude in np.arange(0.0, 360.0, 2 * degrees)
+    ]
+    return np.concatenate(parallels + meridians)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.coordinates.exercises import GRADERS, STUDENTS, numbers, row_by_row
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake
+from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
 from workbench.geometry import globe
 
 
@@ -85,17 +85,17 @@ def places_are_left_alone(candidate: Function) -> Verdict:
 @check(2)
 def short_ways(candidate: Function) -> Verdict:
     """Places a millimetre, a metre and a kilometre apart are that far apart."""
-    return short(candidate, np.array([48.0, 0.0, -35.0]), np.array([1e-3, 1.0, 1e3]))
+    return worst(short(candidate, 0, metres) for metres in (1e-3, 1.0, 1e3))
 
 
-def short(candidate: Function, latitude: np.ndarray, metres: np.ndarray) -> Verdict:
-    """Judge short ways to the north, one call each, so that a millimetre is not lost beside a kilometre."""
-    found = []
-    for lat, way in zip(latitude, metres, strict=True):
-        a = np.array([[lat, 0.0]])
-        b = a + np.array([[np.degrees(way / EARTH), 0.0]])
-        found.append(judged(candidate, a, b, EARTH, FINE))
-    return min(found, key=lambda verdict: verdict.share)
+def short(candidate: Function, axis: int, metres: float) -> Verdict:
+    """Judge a short way to the north (0) or east (1), in a call of its own: beside a long one it would not count.
+
+    It begins on the equator, where what a cosine loses does not depend on how a machine rounds.
+    """
+    a = np.array([[0.0, 12.0]])
+    b = a + np.degrees(metres / EARTH) * np.eye(2)[[axis]]
+    return judged(candidate, a, b, EARTH, FINE)
 
 
 @check(2, public=False)
@@ -121,7 +121,7 @@ def the_same_place(candidate: Function) -> Verdict:
 @check(1, public=False)
 def other_short_ways(candidate: Function) -> Verdict:
     """So are other places some millimetres and metres apart."""
-    return short(candidate, np.array([60.0, -5.0, 20.0, 71.0]), np.array([2e-3, 5e-3, 0.1, 30.0]))
+    return worst(short(candidate, axis, metres) for axis, metres in ((1, 2e-3), (0, 5e-3), (0, 30.0)))
 
 
 def radians(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -163,7 +163,7 @@ def swapped(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
 
 
 @mistake(
-    "You used the law of cosines, arccos(sin sin + cos cos cos Δlon): for short ways the cosine is 1 but for rounding, and a"
+    "You used the law of cosines, or arccos of a dot product: for short ways that cosine is 1 but for rounding, and a"
     " millimetre becomes 0 or decimetres."
 )
 def law_of_cosines(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
