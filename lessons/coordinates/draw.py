@@ -72,7 +72,8 @@ def _point(state: State, system: Coordinates) -> dict[str, Primitive]:
     if not isinstance(now, Walked):
         scene["point"] = Points(p[None], "target", 0.03, name="the point")
     if isinstance(now, Placed):
-        scene["path"] = Segments(segments(now.path), "source", 4, name="its coordinates, one after the other")
+        if now.moves is not None:
+            scene["path"] = Segments(segments(now.path), "source", 4, name="its coordinates, one after the other")
         scene["place"] = Points(now.p[None], "source", 0.025, name="so far")
         scene["numbers"] = _table("So far", system, now.c)
     elif isinstance(now, Cell):

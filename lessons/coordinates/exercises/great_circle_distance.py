@@ -91,9 +91,9 @@ def short_ways(candidate: Function) -> Verdict:
 def short(candidate: Function, axis: int, metres: float) -> Verdict:
     """Judge a short way to the north (0) or east (1), in a call of its own: beside a long one it would not count.
 
-    It begins on the equator, where what a cosine loses does not depend on how a machine rounds.
+    It begins at (0, 0), where what a cosine loses does not depend on how a machine rounds.
     """
-    a = np.array([[0.0, 12.0]])
+    a = np.zeros((1, 2))
     b = a + np.degrees(metres / EARTH) * np.eye(2)[[axis]]
     return judged(candidate, a, b, EARTH, FINE)
 

@@ -135,8 +135,8 @@ def atan_and_nan(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your polar angle is arccos(z / r): below 1e-8 radians it is 0, near that it is wrong, and at the origin it is 0 / 0."
-    " Use atan2(√(x² + y²), z)."
+    "Your polar angle is arccos(z / r): below a hundred-millionth of a radian it is 0, near that it is wrong, and at the"
+    " origin it is 0 / 0. Use atan2(√(x² + y²), z)."
 )
 def arccos_of_the_quotient(p: np.ndarray) -> np.ndarray:
     """Takes the arc cosine, also of 0 / 0."""
@@ -145,8 +145,8 @@ def arccos_of_the_quotient(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your polar angle is arccos(z / r), with the origin looked after: below 1e-8 radians it is 0, near that it is wrong."
-    " Use atan2(√(x² + y²), z)."
+    "Your polar angle is arccos(z / r), with the origin looked after: below a hundred-millionth of a radian it is 0, near"
+    " that it is wrong. Use atan2(√(x² + y²), z)."
 )
 def arccos_with_care(p: np.ndarray) -> np.ndarray:
     """Takes the arc cosine, but not of 0 / 0."""
