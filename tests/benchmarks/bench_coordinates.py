@@ -41,13 +41,11 @@ def bench_spherical(rounds: int) -> None:
 def bench_distances(rounds: int) -> None:
     rng = np.random.default_rng(0)
     a, b = (np.column_stack([rng.uniform(-90, 90, WAYS), rng.uniform(-180, 180, WAYS)]) for _ in range(2))
-    peers = {}
-    if pyproj:
-        geod = pyproj.Geod(a=EARTH_RADIUS, f=0.0)
-        peers["pyproj"] = lambda: geod.inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])
+    geod = pyproj.Geod(a=EARTH_RADIUS, f=0.0) if pyproj else None
+    peers = {"pyproj": lambda: geod.inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])} if geod else {}
     ours, *theirs = best(lambda: great_circle_distance(a, b), *peers.values(), repeat=rounds)
     line("distances on a sphere, 100,000", ours, dict(zip(peers, theirs, strict=True)), "0.1")
-    if pyproj:
+    if geod:
         off = np.abs(great_circle_distance(a, b) - geod.inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])[2]).max()
         earth = pyproj.Geod(ellps="WGS84").inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])[2]
         share = np.abs(great_circle_distance(a, b) / earth - 1)
