@@ -72,6 +72,12 @@ def _point(state: State, system: Coordinates) -> dict[str, Primitive]:
     if not isinstance(now, Walked):
         scene["point"] = Points(p[None], "target", 0.03, name="the point")
     if isinstance(now, Placed):
+        if now.moves:  # the first goes straight out and sweeps nothing
+            swept = np.column_stack(
+                [np.zeros(len(now.path) - 1, int), *(np.arange(len(now.path) - 1) + k for k in (1, 2))]
+            )
+            fan = np.vstack([ORIGIN, now.path])
+            scene["swept"] = Mesh(fan, swept, "source", opacity=0.6, name="swept by the ray to it")
         if now.moves is not None:
             scene["path"] = Segments(segments(now.path), "source", 4, name="its coordinates, one after the other")
         scene["place"] = Points(now.p[None], "source", 0.025, name="so far")

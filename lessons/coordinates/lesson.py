@@ -92,7 +92,7 @@ lesson = Lesson(
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,
-    first_step=6,
+    first_step=9,
     sweeps=(Sweep("system", ("cartesian", "cylindrical", "spherical", "homogeneous")),),
     telling="Along the walk",
 )
