@@ -5,12 +5,11 @@ import functools
 import numpy as np
 
 from lessons.coordinates.flat import met, ranged, seen
-from lessons.coordinates.point import CONVENTIONS
-from lessons.coordinates.state import Cell, Readings, State
+from lessons.coordinates.state import State
 from lessons.coordinates.words import CAP, CAPS_AREA, caption, in_caps, quantity
 from workbench.algorithms.pan_tilt import Followed
 from workbench.algorithms.parallels import Met, Scaled, Seen
-from workbench.algorithms.placing import Placed, Ranged, Scattered, Walked
+from workbench.algorithms.placing import Cell, Placed, Ranged, Readings, Scattered, Walked
 from workbench.algorithms.voyages import Raised, Travelled
 from workbench.data.places import Places
 from workbench.data.surfaces import sphere
@@ -88,7 +87,7 @@ def _point(state: State, system: Coordinates) -> dict[str, Primitive]:
         what = "unit ball" if state.params.system == "spherical" else "solid 2 m wide"
         scene["solid"] = Table(f"Cells of a {what} (m³)", ("", "sum"), (*rows, ("true", fixed(system.volume, 2))))
     elif isinstance(now, Readings):
-        others = [name for name in CONVENTIONS if name != state.params.convention]
+        others = [name for name in now.p if name != state.params.convention]
         q = np.stack([now.p[name] for name in others])
         scene["ray"] = Segments(between(ORIGIN, p), "source", 3)
         scene["others"] = Points(q, "wrong", 0.03, name="by other conventions")
@@ -198,6 +197,7 @@ def _travelled(now: Travelled, places: Places) -> dict[str, Primitive]:
             scene[path] = Segments(1.006 * segments(p), role, 4, T, name=name)
         longitude = np.degrees(np.unwrap(np.radians(way[:, 1]))) if path == "circle" else way[:, 1]
         scene[f"map {path}"] = MAP.curve(longitude, way[:, 0], name, role)
+    scene["map places"] = MAP.dots(degrees[:, 1], degrees[:, 0], "places", "target")
     if now.means is not None:
         p = 1.01 * units_of_places(now.means)
         scene["mean"] = Points(p[:1], "wrong", 0.035, T, name="mean of the numbers")

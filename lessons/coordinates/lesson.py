@@ -22,6 +22,7 @@ from workbench.algorithms.pan_tilt import follow
 from workbench.algorithms.parallels import Meet, step_back, turn_parallel
 from workbench.algorithms.placing import Spherical, measure, scatter
 from workbench.algorithms.voyages import Distance, to_the_pole, travel
+from workbench.data.thinning import growing
 from workbench.geometry.globe import PLANETS
 from workbench.lesson import Lesson, Sweep
 
@@ -45,9 +46,9 @@ def run(
         yield from point_stage(params, spherical_from_cartesian)
         return
     if params.stage == "sphere":
-        found = scatter(counts_to(params.samples), params.even, rng)
+        found = scatter(growing(params.samples, 6), params.even, rng)
     elif params.stage == "radar":
-        found = measure(RANGE, np.radians(params.bearing_noise), RANGE_SIGMA, counts_to(params.samples), rng)
+        found = measure(RANGE, np.radians(params.bearing_noise), RANGE_SIGMA, growing(params.samples, 6), rng)
     elif params.stage == "globe":
         subject = places_of(params)
         found = travel(subject.degrees, 16, great_circle_distance)
@@ -65,11 +66,6 @@ def run(
         found = step_back(subject.p, subject.half_depth, np.geomspace(1.5, max(params.distance, 1.51), 17))
     for now in found:
         yield State(params=params, now=now, subject=subject)
-
-
-def counts_to(most: int) -> tuple[int, ...]:
-    """Return how many are drawn until each step: from 10 on, six steps for each power of ten."""
-    return (*np.unique(np.rint(10 ** np.arange(1, np.log10(most) - 1e-9, 1 / 6)).astype(int)).tolist(), most)
 
 
 def moments(scale: float) -> np.ndarray:

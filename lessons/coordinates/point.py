@@ -5,26 +5,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from lessons.coordinates.state import WALKED, Cell, Params, Readings, State
+from lessons.coordinates.state import WALKED, Params, State
 from workbench.algorithms.parallels import scale_last
-from workbench.algorithms.placing import Spherical, place, walk
+from workbench.algorithms.placing import Spherical, cell_at, place, read_by_all, walk
 from workbench.errors import InputError
-from workbench.geometry.curvilinear import (
-    SYSTEMS,
-    Convention,
-    Coordinates,
-    cartesian_from_spherical,
-    read_as,
-    volume_of_cells,
-    written_as,
-)
+from workbench.geometry.curvilinear import SYSTEMS
 
 STEPS = 3  # for each coordinate
 SIDE, TURN = 0.2, np.radians(20.0)  # of the cell: metres and radians
 CLIMB, REACH = 0.8, 0.6  # metres: how high the walk is, and how far to both sides
 WS = (1.0, 2.0, 0.7, 0.5, 0.3, 0.1, 0.01, 0.0)
 OTHER = 3.0 * np.array([-0.7, 0.5, 0.2, 1.0])  # a second point, with w = 3
-CONVENTIONS: tuple[Convention, ...] = ("ISO", "mathematics", "elevation")
 
 
 def point_stage(params: Params, spherical_from_cartesian: Spherical) -> Iterator[State]:
@@ -42,29 +33,10 @@ def point_stage(params: Params, spherical_from_cartesian: Spherical) -> Iterator
     c = np.asarray(system.of_points(p[None]), float)[0]
     for placed in place(c, system, STEPS):
         yield State(params=params, now=placed, subject=system)
-    yield State(params=params, now=cell_at(c, params, system), subject=system)
+    yield State(params=params, now=cell_at(c, np.where(system.angles, TURN, SIDE), system), subject=system)
     if params.system == "spherical":
-        yield State(params=params, now=readings(c, params.convention), subject=system)
+        yield State(params=params, now=read_by_all(c, params.convention), subject=system)
     beside = CLIMB * np.tan(np.radians(params.miss))
     x = np.linspace(-REACH, REACH, WALKED)
     for walked in walk(np.column_stack([x, np.full(WALKED, beside), np.full(WALKED, CLIMB)]), system):
         yield State(params=params, now=walked, subject=system)
-
-
-def cell_at(c: np.ndarray, params: Params, system: Coordinates) -> Cell:
-    """Return the cell with the point at its lowest corner."""
-    sides = np.where(system.angles, TURN, SIDE)
-    name = params.system
-    assert name != "homogeneous"
-    volume, product = volume_of_cells(name, c, c + sides)
-    low, high = np.array(system.solid)
-    return Cell(low=c, high=c + sides, volume=volume, product=product, solid=volume_of_cells(name, low, high))
-
-
-def readings(c: np.ndarray, convention: Convention) -> Readings:
-    """Return what the numbers of a convention mean by all of them."""
-    numbers = written_as(c, convention)
-    return Readings(
-        numbers=numbers,
-        p={name: cartesian_from_spherical(read_as(numbers, name)[None])[0] for name in CONVENTIONS},
-    )

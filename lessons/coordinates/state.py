@@ -8,7 +8,7 @@ import numpy as np
 
 from workbench.algorithms.pan_tilt import Followed
 from workbench.algorithms.parallels import Met, Scaled, Seen
-from workbench.algorithms.placing import Even, Placed, Ranged, Scattered, Walked
+from workbench.algorithms.placing import Cell, Even, Placed, Ranged, Readings, Scattered, Walked
 from workbench.algorithms.voyages import Raised, Travelled
 from workbench.data.framing import Up
 from workbench.data.places import Places
@@ -67,32 +67,6 @@ class Params:
     cloud: Annotated[Path | None, Knob("Own object instead of the house: ply, pcd, obj, xyz, csv, npz")] = None
     up: Annotated[Up, Knob("Which axis of an own object points up", of_files=True)] = "z"
     seed: Annotated[int, Knob("What chance draws", 0, 99, needs={"stage": ("sphere", "radar")})] = 0
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Cell:
-    """A small cell at a point, and the solid that such cells fill.
-
-    Attributes:
-        low, high: Its lowest and highest coordinates.
-        volume: What it holds, m^3.
-        product: What its three sides multiply to, in units of their own.
-        solid: The sum over the cells of a solid about the origin with the right density, and of the products alone.
-    """
-
-    low: np.ndarray
-    high: np.ndarray
-    volume: float
-    product: float
-    solid: tuple[float, float]
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Readings:
-    """Three numbers, and the points that they mean by each convention, m."""
-
-    numbers: np.ndarray
-    p: dict[str, np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)

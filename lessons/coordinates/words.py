@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from lessons.coordinates.state import Cell, Params, Readings, State
+from lessons.coordinates.state import Params, State
 from workbench.algorithms.pan_tilt import Followed
 from workbench.algorithms.parallels import Met, Scaled, Seen
-from workbench.algorithms.placing import Placed, Ranged, Scattered, Walked
+from workbench.algorithms.placing import Cell, Placed, Ranged, Readings, Scattered, Walked
 from workbench.algorithms.voyages import Raised, Travelled
 from workbench.data.places import Places
 from workbench.geometry.curvilinear import Convention, Coordinates

@@ -80,14 +80,14 @@ def test_the_known_oracle_is_zero_near_the_axis():
 def test_cells_fill_their_solid(system):
     of = SYSTEMS[system]
     low, high = np.array(of.solid)
-    volume, product = volume_of_cells(system, low, high, 40)
+    volume, product = volume_of_cells(of, low, high, 40)
     assert volume == pytest.approx(of.volume, rel=1e-3)
     assert product == pytest.approx(np.prod(high - low))
 
 
 def test_the_box_of_a_balls_coordinates_is_two_pi_squared():
     low, high = np.array(SYSTEMS["spherical"].solid)
-    assert volume_of_cells("spherical", low, high)[1] == pytest.approx(2 * np.pi**2)
+    assert volume_of_cells(SYSTEMS["spherical"], low, high)[1] == pytest.approx(2 * np.pi**2)
 
 
 @pytest.mark.parametrize("system", sorted(SYSTEMS))

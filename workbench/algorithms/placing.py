@@ -4,14 +4,21 @@ Reference: ISO 80000-2:2019, 2-17. Marsaglia, Choosing a Point from the Surface 
 Tracking with Debiased Consistent Converted Measurements versus EKF, 1993, eq. 4.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from jaxtyping import Float
 
-from workbench.geometry.curvilinear import Coordinates, cartesian_from_spherical
+from workbench.geometry.curvilinear import (
+    Convention,
+    Coordinates,
+    cartesian_from_spherical,
+    read_as,
+    volume_of_cells,
+    written_as,
+)
 from workbench.tracing import traced
 
 Spherical = Callable[[np.ndarray], np.ndarray]
@@ -55,6 +62,54 @@ def place(c: Float[np.ndarray, "3"], system: Coordinates, steps: int) -> Iterato
             path = np.concatenate([path, system.to_points(arc)])
             now = arc[-1]
             yield Placed(c=now, p=path[-1], path=path, moves=k)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Cell:
+    """A small cell, and the solid that such cells fill.
+
+    Attributes:
+        low: Its lowest coordinates.
+        high: Its highest.
+        volume: What it holds, m^3.
+        product: What its three sides multiply to, in units of their own.
+        solid: The sum over the cells of a solid about the origin with the density, m^3, and of the products alone.
+    """
+
+    low: Float[np.ndarray, "3"]
+    high: Float[np.ndarray, "3"]
+    volume: float
+    product: float
+    solid: tuple[float, float]
+
+
+def cell_at(c: Float[np.ndarray, "3"], sides: Float[np.ndarray, "3"], system: Coordinates) -> Cell:
+    """Return the cell with its lowest corner at a point.
+
+    Args:
+        c: Coordinates of the point.
+        sides: Of the cell, in the units of the coordinates.
+        system: What they mean.
+    """
+    volume, product = volume_of_cells(system, c, c + sides)
+    low, high = np.array(system.solid)
+    return Cell(low=c, high=c + sides, volume=volume, product=product, solid=volume_of_cells(system, low, high))
+
+
+@dataclass(frozen=True, eq=False)
+class Readings:
+    """Three numbers, and the points that they mean by each convention, m."""
+
+    numbers: Float[np.ndarray, "3"]
+    p: Mapping[str, np.ndarray]
+
+
+def read_by_all(c: Float[np.ndarray, "3"], convention: Convention) -> Readings:
+    """Return what (r, polar, azimuth), written in a convention, mean by all of them."""
+    numbers = written_as(c, convention)
+    return Readings(
+        numbers, {name: cartesian_from_spherical(read_as(numbers, name)[None])[0] for name in get_args(Convention)}
+    )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -137,7 +137,7 @@ def cell_edges(
 
 
 def volume_of_cells(
-    system: System, low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"], cells: int = 24
+    system: Coordinates, low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"], cells: int = 24
 ) -> tuple[float, float]:
     """Return the volume between coordinates as a sum over cells, m^3, and the sum of what their sides multiply to alone.
 
@@ -150,7 +150,7 @@ def volume_of_cells(
     middles = [a + (b - a) * (np.arange(cells) + 0.5) / cells for a, b in zip(low, high, strict=True)]
     c = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1).reshape(-1, 3)
     product = float(np.prod((high - low) / cells))
-    return product * float(SYSTEMS[system].density(c).sum()), product * len(c)
+    return product * float(system.density(c).sum()), product * len(c)
 
 
 def read_as(numbers: Float[np.ndarray, "3"], convention: Convention) -> Float[np.ndarray, "3"]:
