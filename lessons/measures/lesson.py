@@ -21,6 +21,7 @@ from lessons.measures.study import study_of
 from lessons.measures.subjects import subject_of
 from workbench.algorithms.measures import SignedVolume, count_cells, sum_faces
 from workbench.algorithms.monte_carlo import ByChance, OnFaces, raise_dimension, shoot_lines, throw_points
+from workbench.data.thinning import growing
 from workbench.lesson import Lesson, Sweep
 
 BANDS = 20  # steps in which faces are added
@@ -81,8 +82,7 @@ def counts_to(most: int, powers_of_two: bool = False) -> tuple[int, ...]:
     """Return how many are drawn until each step: from 10 on, eight steps for each power of ten."""
     if powers_of_two:
         return tuple(2**k for k in range(4, int(np.log2(most)) + 1))
-    steps = np.rint(10 ** np.arange(1, np.log10(most) - 1e-9, 0.125)).astype(int)
-    return (*steps.tolist(), most)
+    return growing(most)
 
 
 def _bands(faces: int) -> tuple[int, ...]:

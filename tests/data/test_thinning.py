@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.thinning import evenly, every, some_points, spacing, voxel_means
+from workbench.data.thinning import evenly, every, growing, some_points, spacing, voxel_means
 
 
 @settings(max_examples=25, deadline=None)
@@ -67,3 +67,11 @@ def test_the_spacing_of_a_grid_is_its_step_whatever_is_there_twice():
     p = 0.25 * np.stack(np.meshgrid(*[np.arange(8.0)] * 3), axis=-1).reshape(-1, 3)
     assert spacing(np.vstack([p, p[:100]])) == pytest.approx(0.25)
     assert spacing(np.zeros((5, 3))) == 1e-9
+
+
+@pytest.mark.parametrize(("most", "per_power"), [(100, 8), (1000, 6), (20_000, 8), (101, 6)])
+def test_counts_grow_by_one_share_up_to_the_most(most, per_power):
+    counts = np.array(growing(most, per_power))
+    assert (counts[0], counts[-1]) == (10, most)
+    assert (np.diff(counts) > 0).all()
+    np.testing.assert_allclose(counts[1:-1] / counts[:-2], 10 ** (1 / per_power), rtol=0.08)

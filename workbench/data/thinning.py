@@ -56,3 +56,9 @@ def spacing(p: Float[np.ndarray, "n 3"]) -> float:
     some = places[:: max(1, len(places) // 400)]
     distances = np.asarray(scipy.spatial.KDTree(places).query(some, k=min(2, len(places)))[0])
     return float(np.median(distances.reshape(len(some), -1)[:, -1])) or 1e-9
+
+
+def growing(most: int, per_power: int = 8) -> tuple[int, ...]:
+    """Return ever larger counts for a run that draws more and more: 10, so many for each power of ten, and `most`."""
+    counts = np.rint(10 ** np.arange(1, np.log10(most) - 1e-9, 1 / per_power)).astype(int)
+    return (*counts.tolist(), most)

@@ -1,0 +1,1 @@
+"""Coordinates name points: where names fail, and what homogeneous ones buy."""

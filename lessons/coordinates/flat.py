@@ -1,0 +1,140 @@
+"""Pictures of the stages in a plane: bearings, lines that become parallel, an object on a plane through it."""
+
+import numpy as np
+
+from lessons.coordinates.state import State, Thing
+from lessons.coordinates.words import lies_on_both
+from workbench.algorithms.parallels import Met, Seen
+from workbench.algorithms.placing import Ranged
+from workbench.geometry.clipping import clip_lines
+from workbench.geometry.homography import transform_pixels
+from workbench.geometry.polylines import between, rectangle, segments
+from workbench.numerals import length
+from workbench.scene import Camera, Chart, Mesh, Points, Primitive, Role, Segments, Table
+
+OFF = Chart("Off the true point", unit="m")
+LAST_ENTRY = Chart("w of the meeting", unit="for a vector of length 1")
+KEPT = Chart("Four points on a line", unit="ratio")
+SIZES = Chart("Wrong size", unit="%")
+ORIGIN = np.zeros(3)
+LOW, HIGH = np.array([-2.0, -1.5]), np.array([8.0, 2.5])  # of the plane w = 1 that is shown, metres
+EYE_SHOWN, RAY = 4.0, 2.2  # metres
+
+
+def ranged(now: Ranged) -> dict[str, Primitive]:
+    """Return measured points beside the true one and their means."""
+    return {
+        "range": Segments(_arc(now), "correspondence", 1.5, name="the true range"),
+        "radar": Points(ORIGIN[None], "neutral", 0.15, name="radar"),
+        "points": Points(_level(now.p), "target", 0.05 if len(now.p) > 500 else 0.08, opacity=0.6, name="measurements"),
+        "true": Points(_level(now.true[None], 0.1), "truth", 0.2, name="true point"),
+        "mean": Points(_level(now.mean[None], 0.1), "wrong", 0.2, name="mean of the points"),
+        "debiased": Points(_level(now.debiased[None], 0.1), "source", 0.15, name="mean, divided"),
+        "off": OFF.scalar(float(np.linalg.norm(now.mean - now.true)), "mean of the points", "wrong"),
+        "expected": OFF.scalar(float(np.linalg.norm(now.expected - now.true)), "expected of it", "correspondence"),
+        "off divided": OFF.scalar(float(np.linalg.norm(now.debiased - now.true)), "divided by exp(−σ²/2)"),
+        "means": Table(
+            "Means",
+            ("of", "off the true point"),
+            (
+                ("the points", length(float(np.linalg.norm(now.mean - now.true)))),
+                ("the same, divided", length(float(np.linalg.norm(now.debiased - now.true)))),
+                ("range and bearing", length(float(np.linalg.norm(now.polar_mean - now.true)))),
+            ),
+        ),
+    }
+
+
+def _arc(now: Ranged) -> np.ndarray:
+    turn = np.linspace(-np.pi / 2, np.pi / 2, 61)
+    return segments(_level(now.true[0] * np.column_stack([np.cos(turn), np.sin(turn)])))
+
+
+def _level(p: np.ndarray, height: float = 0.0) -> np.ndarray:
+    """Return points of a plane at a height."""
+    return np.insert(p, 2, height, axis=1)
+
+
+def met(now: Met) -> dict[str, Primitive]:
+    """Return the plane w = 1, both lines with the planes that they span with the origin, and the vector of their meeting."""
+    scene: dict[str, Primitive] = {
+        "plane": Segments(
+            segments(_level(rectangle(LOW, HIGH), 1.0), closed=True), "neutral", 1.5, name="the plane w = 1"
+        ),
+        "origin": Points(ORIGIN[None], "neutral", 0.06, name="origin"),
+        "rails": Segments(_grid(now.H), "neutral", 1, opacity=0.5),
+    }
+    roles: tuple[Role, Role] = ("target", "source")
+    for k, (name, role) in enumerate(zip(("l", "l′"), roles, strict=True)):
+        a, b, _ = now.lines[k]
+        ends = clip_lines(now.lines[[k]] / np.hypot(a, b), LOW, HIGH) if np.hypot(a, b) > 1e-9 else np.empty((0, 2, 2))
+        if len(ends):
+            p = _level(ends[0], 1.0)
+            scene[f"line/{k + 1}"] = Segments(p[None], role, 5, name=name)
+            scene[f"fan/{k + 1}"] = Mesh(np.vstack([ORIGIN, p]), np.array([[0, 1, 2]]), role, opacity=0.2)
+    horizon = now.horizon / max(float(np.hypot(*now.horizon[:2])), 1e-12)
+    if now.H[2, 0] and len(ends := clip_lines(horizon[None], LOW, HIGH)):
+        scene["horizon"] = Segments(_level(ends[0], 1.0)[None], "highlight", 4, name="horizon")
+    stops = now.places[:, :2] / now.places[:, 2:]
+    scene["stops"] = Points(_level(stops, 1.0), "target", 0.05, name="four points of l")
+    x_h, right = now.x_h, lies_on_both(now)
+    if np.isfinite(x_h).all() and x_h.any():
+        n = x_h / np.linalg.norm(x_h) * (-1.0 if x_h[2] < 0 or (x_h[2] == 0 and x_h[0] < 0) else 1.0)
+        scene["meeting"] = Segments(between(ORIGIN, 8.0 * n), "truth" if right else "wrong", 5, name="l × l′")
+        scene["w"] = LAST_ENTRY.scalar(float(n[2]), "w", "truth" if right else "wrong")
+        if n[2] > 0 and (np.abs(p := n[:2] / n[2]) < 12).all():
+            scene["point"] = Points(np.append(p, 1.0)[None], "truth" if right else "wrong", 0.1, name="meeting")
+    scene["kept"] = KEPT.scalar(now.cross_ratio, "cross-ratio", "truth")
+    scene["lengths"] = KEPT.scalar(now.ratio, "first to third over first to second")
+    return scene
+
+
+def _grid(H: np.ndarray) -> np.ndarray:
+    """Return parallels along x and rungs across them, as a homography shows them."""
+    t = np.linspace(0.0, 1.0, 13)
+    lines = [np.column_stack([40.0 * t**2, np.full(13, y)]) for y in (-1.0, 0.0, 1.0, 2.0)]
+    lines += [
+        np.column_stack([np.full(13, x), -1.0 + 3.0 * t]) for x in (0.0, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 40.0)
+    ]
+    ends = np.concatenate([segments(transform_pixels(H, line)) for line in lines])
+    inside = ((ends >= LOW) & (ends <= HIGH)).all(axis=(1, 2))
+    return _level(ends[inside].reshape(-1, 2), 1.0).reshape(-1, 2, 3)
+
+
+def seen(state: State, now: Seen) -> dict[str, Primitive]:
+    """Return the object, its two pictures on the plane y = 0, and the rays to the eye."""
+    thing = state.subject
+    assert isinstance(thing, Thing)
+    scene: dict[str, Primitive] = {}
+    if len(thing.lines):
+        scene["object"] = Segments(thing.lines, "target", 2.5, name=thing.name)
+        corners = np.unique(thing.lines.reshape(-1, 3).round(9), axis=0)
+    else:
+        scene["object"] = Points(thing.p, "target", 0.008, name=thing.name)
+        corners = thing.p[:: max(1, len(thing.p) // 12)]
+    scene["perspective"] = _picture(thing, now, "source", "by the eye")
+    scene["parallel"] = _picture(thing, None, "truth", "by parallel rays")
+    v = now.eye - corners
+    reach = np.minimum(1.0, RAY / np.linalg.norm(v, axis=1, keepdims=True))
+    scene["rays"] = Segments(
+        between(corners, corners + reach * v), "correspondence", 1.5, opacity=0.7, name="rays to the eye"
+    )
+    if -now.eye[1] < EYE_SHOWN:
+        T = np.eye(4)
+        T[:3, :3] = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+        T[:3, 3] = now.eye
+        K = np.array([[50.0, 0.0, 31.5], [0.0, 50.0, 23.5], [0.0, 0.0, 1.0]])
+        scene["eye"] = Camera(K, 64, 48, T, 0.15, name="eye")
+    scene["near"] = SIZES.scalar(100 * now.near, "near side", "source", log=True)
+    scene["far"] = SIZES.scalar(-100 * now.far, "far side", "other", log=True)
+    return scene
+
+
+def _picture(thing: Thing, now: Seen | None, role: Role, name: str) -> Primitive:
+    """Return the picture of an object on the plane y = 0: through the eye where there is one, else by parallel rays."""
+    p = thing.lines.reshape(-1, 3) if len(thing.lines) else thing.p
+    factor = np.ones(len(p)) if now is None else -now.eye[1] / (p[:, 1] - now.eye[1])
+    flat = np.column_stack([p[:, 0] * factor, np.zeros(len(p)), p[:, 2] * factor])
+    if len(thing.lines):
+        return Segments(flat.reshape(-1, 2, 3), role, 4, name=name)
+    return Points(flat, role, 0.008, name=name)

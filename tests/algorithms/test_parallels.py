@@ -1,0 +1,45 @@
+"""Homogeneous vectors, lines that become parallel, and an eye that steps back."""
+
+import numpy as np
+import pytest
+
+from workbench.algorithms.parallels import scale_last, step_back, turn_parallel
+from workbench.geometry.projective import meet
+
+
+def test_any_factor_names_the_same_point_and_means_need_w_one():
+    found = list(scale_last(np.array([1.0, 2.0, 3.0]), (1.0, 0.5, 0.0), 3 * np.array([0.0, 0.0, 0.0, 1.0])))
+    assert [now.p_h[3] for now in found[:-1]] == [1, 0.5, 0]
+    mean = found[-1].mean_h
+    assert mean is not None
+    np.testing.assert_allclose(mean[:3] / mean[3], [0.25, 0.5, 0.75])  # a quarter of the way, not half
+
+
+def test_the_mean_of_vectors_of_the_page():
+    mean = (np.array([1.0, 0, 1]) + np.array([0.0, 3, 3])) / 2
+    np.testing.assert_allclose(mean[:2] / mean[2], [0.25, 0.75])
+
+
+def test_the_meeting_runs_away_comes_to_infinity_and_back():
+    angles, tilts = np.radians([10.0, 1.0, 1e-6, 0.0]), (0.1, 0.4)
+    found = list(turn_parallel(angles, tilts, 1.0, np.array([0.0, 1, 3, 7]), meet))
+    np.testing.assert_allclose([now.x_h[0] / now.x_h[2] for now in found[:3]], 1 / np.tan(angles[:3]))
+    np.testing.assert_array_equal(found[3].x_h, [-1, 0, 0])
+    for now, tilt in zip(found[4:], tilts, strict=True):
+        np.testing.assert_allclose(now.x_h[:2] / now.x_h[2], [1 / tilt, 0], atol=1e-12)
+        assert now.horizon @ now.x_h == pytest.approx(0, abs=1e-12)
+        np.testing.assert_allclose(now.horizon[:2] / now.horizon[2], [-tilt, 0], atol=1e-12)
+    np.testing.assert_allclose([now.cross_ratio for now in found], 9 / 7)
+    assert found[-1].ratio < 2 < found[0].ratio == pytest.approx(3)
+    for now in found:
+        np.testing.assert_allclose(now.lines[0] @ now.places.T, 0, atol=1e-12)
+
+
+@pytest.mark.parametrize(("times", "near"), [(2, 1.0), (10, 0.111), (20, 0.053), (100, 0.0101)])
+def test_the_near_side_is_too_large(times, near):
+    p = np.array([[1.0, -0.5, 0.0], [1.0, 0.0, 2.0], [1.0, 0.5, 0.0]])
+    now = next(step_back(p, 0.5, [times]))
+    assert now.near == pytest.approx(near, abs=1e-3)
+    np.testing.assert_allclose(now.perspective[:, 0], [1 + now.near, 1, 1 + now.far])
+    np.testing.assert_allclose(now.perspective[1], [1, 2])
+    np.testing.assert_allclose(now.parallel, p[:, [0, 2]])

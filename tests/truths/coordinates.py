@@ -1,0 +1,79 @@
+"""What is true of a run of the coordinates lesson, by vectors and closed forms, from the states alone."""
+
+from typing import Any
+
+import numpy as np
+
+from workbench.algorithms.pan_tilt import Followed
+from workbench.algorithms.parallels import Met
+from workbench.algorithms.placing import Scattered, Walked
+from workbench.algorithms.voyages import Travelled
+
+EARTH = 6_371_008.8
+CAPS = 1 - np.cos(np.pi / 6)  # the share of a sphere's area within 30 degrees of a pole
+
+
+def units(places: np.ndarray) -> np.ndarray:
+    """Unit vectors of places."""
+    lat, lon = np.radians(np.atleast_2d(places)).T
+    return np.column_stack([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)])
+
+
+def apart(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Metres along the Earth between places, by the angle between vectors."""
+    p, q = units(a), units(b)
+    return EARTH * np.arctan2(np.linalg.norm(np.cross(p, q), axis=1), (p * q).sum(axis=1))
+
+
+def between_means(places: np.ndarray) -> float:
+    """Metres from the mean of the numbers to the place below the mean of the vectors."""
+    p, q = units(places.mean(axis=0))[0], units(places).mean(axis=0)
+    return float(EARTH * np.arctan2(np.linalg.norm(np.cross(p, q)), p @ q))
+
+
+def straight_over_shortest(places: np.ndarray, pieces: int = 20_000) -> float:
+    """How many times as long the straight line on the map is."""
+    t = np.linspace(0, 1, pieces)[:, None]
+    way = places[0] + t * (places[-1] - places[0])
+    return float(apart(way[:-1], way[1:]).sum() / apart(places[:1], places[-1:])[0])
+
+
+def in_caps(p: np.ndarray) -> float:
+    """The share of points within 30 degrees of a pole, by their angles with it."""
+    polar = np.degrees(np.arctan2(np.linalg.norm(p[:, :2], axis=1), p[:, 2]))
+    return float(((polar < 30) | (polar > 150)).mean())
+
+
+def put_back(now: Walked) -> float:
+    """How far points are from where their spherical, cylindrical or Cartesian coordinates put them, whichever is least."""
+    a, b, c = now.c.T
+    formulas = (
+        (a * np.sin(b) * np.cos(c), a * np.sin(b) * np.sin(c), a * np.cos(b)),
+        (a * np.cos(b), a * np.sin(b), c),
+        (a, b, c),
+    )
+    return min(float(np.linalg.norm(np.column_stack(p) - now.p, axis=1).max()) for p in formulas)
+
+
+def fastest(miss: float, height: float = 10.0, speed: float = 10.0) -> tuple[float, float]:
+    """The largest rates of pan axis and line of sight, degrees per second, for a miss in degrees."""
+    beside = height * np.tan(np.radians(miss))
+    return float(np.degrees(speed / beside)), float(np.degrees(speed / np.hypot(height, beside)))
+
+
+def is_right(state: Any) -> bool | None:
+    """Whether what a state shows is right, wrong, or not claimed to be either."""
+    now, params = state.now, state.params
+    if isinstance(now, Walked) and len(now.p) == 17:
+        return put_back(now) < 1e-6
+    if isinstance(now, Scattered) and len(now.p) == params.samples:
+        return bool(abs(in_caps(now.p) - CAPS) < 4 * np.sqrt(CAPS * (1 - CAPS) / params.samples))
+    if isinstance(now, Travelled) and now.means is not None:
+        return between_means(state.subject.degrees) < 1e4
+    if isinstance(now, Followed) and now.time >= 1.5999:
+        n = np.array([np.cos(now.tilt) * np.cos(now.pan), np.cos(now.tilt) * np.sin(now.pan), np.sin(now.tilt)])
+        return bool(np.linalg.norm(n - now.p / np.linalg.norm(now.p)) < 1e-6)
+    if isinstance(now, Met) and now.H[2, 0] == 0.4:
+        x = np.cross(*now.lines)
+        return bool(np.linalg.norm(np.cross(x, now.x_h)) < 1e-9 * np.linalg.norm(x) * np.linalg.norm(now.x_h))
+    return None
