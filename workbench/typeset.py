@@ -143,7 +143,7 @@ def math_html(tex: str, block: bool = False) -> str:
 
 @functools.cache
 def math_font_css() -> str:
-    """Return a style sheet with a subset of STIX Two Math as data, below 200 kB, or nothing where the font is missing."""
+    """Return a style sheet with a subset of STIX Two Math as data, some 150 kB, or nothing where the font is missing."""
     data = _font()
     if data is None:
         return ""
@@ -152,7 +152,7 @@ def math_font_css() -> str:
 
 
 def _font() -> bytes | None:
-    kept = cache_folder() / "stix-two-math-subset-2.woff2"
+    kept = cache_folder() / "stix-two-math-subset-3.woff2"
     try:
         return kept.read_bytes()
     except OSError:
@@ -177,11 +177,12 @@ def _subset() -> bytes:
     path = next(Path(package.origin).parent.rglob("STIXTwoMath*.ttf")) if package and package.origin else None
     if path is None:
         raise FileNotFoundError("no font with a MATH table")
-    # letters, Greek, signs, and the styles that formulas have: bold, italic, script, double-struck
+    # letters, Greek, signs, and the styles that formulas have: bold, italic, and capitals in script and double-struck
     chosen = [*range(0x20, 0x7F), *range(0xA0, 0x100), *range(0x391, 0x3D7), 0x3F5, *range(0x2010, 0x2040)]
-    chosen += [*range(0x2070, 0x20A0), *range(0x20D0, 0x20DD), *range(0x2100, 0x2150), *range(0x2190, 0x21A0), 0x21A6]
-    chosen += [*range(0x21D0, 0x21D5), *range(0x2200, 0x2300), *range(0x2308, 0x230C), 0x27E8, 0x27E9]
-    chosen += [*range(0x1D400, 0x1D4D0), *range(0x1D538, 0x1D56C), *range(0x1D6A4, 0x1D756)]
+    chosen += [*range(0x2070, 0x20A0), *range(0x20D0, 0x20DD), *map(ord, "ℂℋℌℍℎℏℐℑℒℓℕ℘ℙℚℛℜℝ™ℤℨÅℬℰℱℳℵ")]
+    chosen += [*range(0x2190, 0x21A0), 0x21A6, *range(0x21D0, 0x21D5), *range(0x2200, 0x2300), *range(0x2308, 0x230C)]
+    chosen += [0x27E8, 0x27E9, *range(0x1D400, 0x1D468), *range(0x1D49C, 0x1D4B6), *range(0x1D538, 0x1D552)]
+    chosen += [*range(0x1D6A4, 0x1D71C)]
     features = ["ssty", "flac", "dtls"]  # what a browser asks of a math font
     options = subset.Options(layout_features=features, hinting=False, notdef_outline=True, drop_tables=["DSIG"])
     subsetter = subset.Subsetter(options)

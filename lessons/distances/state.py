@@ -17,7 +17,6 @@ Neighbours = Literal["4", "8", "16", "march"]
 MOST_OWN = 6000
 IN_PLANE = {"stage": ("balls", "axioms")}
 ON_SURFACE = {"stage": ("surface",)}
-ON_MESH = {"stage": ("surface", "grid")}
 
 
 @dataclass(frozen=True)

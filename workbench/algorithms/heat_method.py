@@ -22,7 +22,12 @@ SHIFT = 1e-10  # of the Laplacian's diagonal, so that it can be factored: consta
 
 
 def mean_edge_length(p: Points, faces: Faces) -> float:
-    """Return the mean length of the edges, m; its square is the time that the paper lets heat flow."""
+    """Return the mean length of the edges, m; its square is the time that the paper lets heat flow.
+
+    >>> p = np.array([[0.0, 0, 0], [3, 0, 0], [0, 4, 0]])
+    >>> mean_edge_length(p, np.array([[0, 1, 2]]))
+    4.0
+    """
     a, b = edges(faces).T
     return float(np.linalg.norm(p[a] - p[b], axis=1).mean())
 
