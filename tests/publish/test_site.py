@@ -88,9 +88,9 @@ def test_a_sweep_is_a_knob_whose_runs_are_shared_with_presets_and_the_default():
     assert found == [
         ("default", "default", True),
         ("half", "half", True),
-        ("angle:0", "angle-0", False),
-        ("place:0.5,0.25,0", "place-0_5_0_25_0", False),
-        ("place:-1,0,0", "place--1_0_0", False),
+        ("angle:0", "angle.0", False),
+        ("place:0.5,0.25,0", "place.0_5_0_25_0", False),
+        ("place:-1,0,0", "place.-1_0_0", False),
     ]
     angle, place = runs.sweep_data(SWEPT)
     assert (angle["label"], angle["unit"], angle["values"]) == ("Angle", "deg", ["0", "90", "180"])
@@ -114,17 +114,17 @@ def test_runs_of_a_sweep_are_published_without_a_recording(tmp_path):
     assert {name for name in files if name.startswith("fake/runs/")} == {
         *(
             f"fake/runs/{name}"
-            for name in ("default.js", "default.html", "fake.rrd", "colors-role.js", "colors-role.html")
+            for name in ("default.js", "default.html", "fake.rrd", "colors.role.js", "colors.role.html")
         )
     }
-    assert data_of(tmp_path, "colors-role")["recording"] is None
-    assert data_of(tmp_path, "colors-role")["command"] == "workbench show fake.py --colors=role"
+    assert data_of(tmp_path, "colors.role")["recording"] is None
+    assert data_of(tmp_path, "colors.role")["command"] == "workbench show fake.py --colors=role"
 
 
 def test_two_runs_that_would_have_one_file_are_refused(tmp_path, rendered):
-    taken = replace(SMALL.presets[0], name="angle-0")
-    with pytest.raises(InputError, match="two of its runs"):
-        site.publish(tmp_path, [replace(SWEPT, presets=(taken,))])
+    shouted = replace(SMALL.presets[0], name=SMALL.presets[0].name.upper(), params=replace(SMALL.params(), angle=31.0))
+    with pytest.raises(InputError, match="two of its runs"):  # where capitals do not count
+        site.publish(tmp_path, [replace(SMALL, presets=(*SMALL.presets, shouted))])
     assert rendered == []
 
 
@@ -246,3 +246,9 @@ def test_every_page_of_every_lesson_is_small_and_its_runs_have_names_of_their_ow
         names = [run.name for run in runs.runs_of(lesson)]
         assert len(set(names)) == len(names)
         assert all(re.fullmatch(r"[a-z0-9_-]+", name) for name in names if ":" not in name), names
+
+
+@pytest.mark.parametrize("name", catalog())
+def test_every_run_of_a_lesson_has_a_file_of_its_own(name):
+    files = [run.file.casefold() for run in runs.runs_of(catalog()[name])]
+    assert len(set(files)) == len(files)

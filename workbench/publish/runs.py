@@ -49,8 +49,8 @@ class Run:
 
     @property
     def file(self) -> str:
-        """The name of its files."""
-        return re.sub(r"[^A-Za-z0-9_-]", "_", self.name.replace(":", "-"))
+        """The name of its files; that of a sweep's value has a dot, which no preset's name has."""
+        return ".".join(re.sub(r"[^A-Za-z0-9_-]", "_", part) for part in self.name.split(":"))
 
 
 def runs_of(lesson: Lesson) -> tuple[Run, ...]:

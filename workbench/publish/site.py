@@ -66,7 +66,7 @@ def publish(
         runs = runs_of(lesson)
         if not all(NAME.fullmatch(name) for name in (lesson.name, *(run.name for run in runs if run.recorded))):
             raise InputError(f"lesson {lesson.name!r}: a name on a site has the signs A-Z a-z 0-9 _ - only")
-        if len({run.file for run in runs}) < len(runs):
+        if len({run.file.casefold() for run in runs}) < len(runs):
             raise InputError(
                 f"lesson {lesson.name!r}: two of its runs would have one file; give them other names or values"
             )

@@ -16,8 +16,9 @@ from workbench.scene import Points, Scene
 
 WORTH = 0.5
 """A union is taken where it has at most this share of all points that would be said."""
-MOST = 24_000
-"""A union of more points is thinned at random to these, each drawn larger: a recording has to stay small."""
+MOST, MOST_SAID = 24_000, 1_200_000
+"""A union of more points, or of which more would be said in all steps together, is thinned at random, and each point drawn
+larger: a recording has to stay small."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +63,7 @@ def _union(clouds: Sequence[Points]) -> Union | None:
         return None
     last = np.zeros(len(first), int)
     last[number] = cloud_of  # the last one counts
-    kept = np.argsort(keys * np.uint64(0xD6E8FEB86659FD93))[:MOST]
+    kept = np.argsort(keys * np.uint64(0xD6E8FEB86659FD93))[: min(MOST, MOST_SAID // len(clouds))]
     kept = kept[np.lexsort((last[kept], cloud_of[first[kept]]))]
     there = np.zeros((len(clouds), len(first)), bool)
     there[cloud_of, number] = True

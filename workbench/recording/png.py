@@ -11,7 +11,7 @@ from workbench.scene import UNKNOWN, Field, color_map
 IMAGE = "/image"
 """Below which suffix of an entity an encoded image stands, and nothing else."""
 _LEVELS = 25
-_TEXELS = 20_000
+_TEXELS = 12_000
 _QUICK = 3  # zlib's level: a third of the time of the default for a tenth more bytes
 
 

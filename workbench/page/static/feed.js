@@ -72,9 +72,9 @@ const feed = window.feed = { // viser's page in the frame looks for it
     const still = first.filter((message) => message.name === undefined && !message.type.startsWith("SetCamera"));
     const root = first.filter((message) => message.name === "" && message.type === "SetOrientationMessage");
     const order = ["SetCameraUpDirectionMessage", "SetCameraPositionMessage", "SetCameraLookAtMessage", "SetCameraFovMessage"];
-    this.send([...root, ...still]);
-    if (camera === this.camera) return;
     const isFirst = !this.camera;
+    this.send([...(isFirst ? root : []), ...still]); // the client puts the camera back where it was when the root is turned
+    if (camera === this.camera) return;
     Object.assign(this, { camera, seen: isFirst ? cameras : order.flatMap(of), turned: false });
     this.aim(isFirst);
   },
