@@ -11,11 +11,14 @@ from tests import fake
 from tests.publish.conftest import TINY
 from workbench.errors import InputError
 from workbench.lesson import Sweep, View, catalog
+from workbench.page.document import RECORDED, SCRIPTS, STATIC, STYLES, bare
 from workbench.page.steps import Steps
 from workbench.publish import runs, site
+from workbench.publish.pages import lesson_page
 from workbench.publish.replay import Renderer
 from workbench.scene import Caption
 from workbench.timeline import Timeline
+from workbench.typeset import math_font_css
 
 SMALL = replace(fake.lesson, presets=fake.lesson.presets[:1])
 
@@ -252,3 +255,12 @@ def test_every_page_of_every_lesson_is_small_and_its_runs_have_names_of_their_ow
 def test_every_run_of_a_lesson_has_a_file_of_its_own(name):
     files = [run.file.casefold() for run in runs.runs_of(catalog()[name])]
     assert len(set(files)) == len(files)
+
+
+@pytest.mark.parametrize("name", catalog())
+def test_a_lesson_s_page_is_within_its_budget(name):
+    """Without what answers say, some thousand bytes, which need runs."""
+    lesson = catalog()[name]
+    known = runs.recorded(lesson, runs.runs_of(lesson)[0], root="../", runs="runs/", answers={})
+    shared = sum(len(bare(STATIC / file).encode()) for file in (*STYLES, *RECORDED, *SCRIPTS)) + len(math_font_css())
+    assert len(lesson_page(lesson, known).encode()) + shared < site.PAGE_BUDGET - 8_000
