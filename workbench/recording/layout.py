@@ -18,6 +18,9 @@ from workbench.scene import Scalar
 from workbench.timeline import plotted_values
 
 RERUN_FOV = 55.0  # degrees, of the viewer's eye, from top to bottom
+LEAST_TILT = np.radians(1.0)
+"""Angle to the up direction below which the viewer takes no eye: it decides by itself from 0.81 degrees on (cos 0.9999), and
+puts -y up in the picture of a scene seen from above; the first drag takes an eye to 0.9 degrees."""
 LATE = 0.5
 """Share of a run after which what appears for the first time stands behind a tab."""
 MOST_ROWS = 5.2
@@ -210,10 +213,17 @@ def _emptiest(x: np.ndarray, y: np.ndarray) -> Any:
 
 
 def _eye(view: View) -> np.ndarray:
-    """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's does."""
-    target = np.array(view.target)
+    """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's does.
+
+    Where it looks along up it is moved further aside, the same way as the lesson's.
+    """
+    target, up = np.array(view.target), np.array(view.up) / np.linalg.norm(view.up)
     share = np.tan(np.radians(view.fov_degrees) / 2) / np.tan(np.radians(RERUN_FOV) / 2)
-    return target + (view.seen_from() - target) * share
+    away = (view.seen_from() - target) * share
+    along = (away @ up) * up
+    aside = away - along
+    least = np.tan(LEAST_TILT) * np.linalg.norm(along) / np.linalg.norm(aside)
+    return target + along + max(1.0, least) * aside
 
 
 def _canvas_view(entity: str, canvas: Canvas, root: str = "") -> Any:
