@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from workbench.lesson import View, catalog
-from workbench.recording.layout import RERUN_FOV, scene_view
+from workbench.recording.contents import Canvas, Contents
+from workbench.recording.layout import HALF_TITLE, RERUN_FOV, one_run, scene_view
+from workbench.scene import Scalar
 
 SEEN = {
     "down": View(eye=(0.0, 0.0, 4.0)),
@@ -52,3 +54,22 @@ def test_a_recording_is_seen_the_way_round_in_which_the_page_shows_it(view):
     half_height = np.linalg.norm(away) * np.tan(np.radians(RERUN_FOV) / 2)
     page_half_height = np.linalg.norm(page_away) * np.tan(np.radians(view.fov_degrees) / 2)
     assert half_height == pytest.approx(page_half_height, rel=1e-3)
+
+
+@pytest.mark.parametrize(("length", "at_once"), [(HALF_TITLE, 2), (HALF_TITLE + 1, 1)])
+def test_charts_stand_beside_each_other_where_their_titles_can_be_read(length, at_once):
+    titles = ["A".ljust(length, "x"), "B".ljust(length, "x")]
+    charts = {title: Canvas(title, 100.0, 60.0, 0) for title in titles}
+    column = one_run(View(), Contents(charts=charts), {"a": np.zeros(3)}).root_container.contents[1]
+    rows = column.contents[0].contents if at_once == 2 else column.contents
+    assert [view.name for view in rows] == titles
+
+
+def test_the_unit_of_a_plot_reads_well_and_its_lowest_value_stands_clear_of_the_first_step():
+    share = Scalar(0.5, "a", chart="a", unit="of the whole", log=True)
+    contents = Contents(scalars={"a": {"a": share}, "b": {"b": Scalar(0.5, "b", chart="b")}})
+    values = {"a": np.array([1.0, 0.1]), "b": np.array([0.0, 4.0])}
+    first, second = one_run(View(), contents, values).root_container.contents[1].contents
+    assert first.name == "a (log10 of the whole)"
+    low, high = second.properties["ScalarAxis"].range.as_arrow_array().to_pylist()[0]
+    assert low <= -0.05 * high

@@ -25,6 +25,10 @@ LATE = 0.5
 """Share of a run after which what appears for the first time stands behind a tab."""
 MOST_ROWS = 5.2
 """Shares of height in the column beside the scene; what is more goes behind a tab."""
+HALF_TITLE = 22
+"""So many characters of a title can be read in half of that column, 1280 pixels across all."""
+CAPTION = 2.2
+"""Share of height, where the scene has 7, in which a caption of three lines can be read."""
 
 Values = Mapping[str, np.ndarray]
 """A run's scalars by path, a value per step."""
@@ -38,7 +42,7 @@ def one_run(view: View, contents: Contents, values: Values) -> Any:
         left.append(legend_view("", contents))
         shares.append(legend_share(contents))
     left.append(caption_view(""))
-    shares.append(1.7)
+    shares.append(CAPTION)
     right = _column(_beside(contents, {"": values}), late=_beside(contents, {"": values}, late=True))
     whole = rrb.Vertical(*left, row_shares=shares)
     return finished(rrb.Horizontal(whole, right, column_shares=[3, 2]) if right is not None else whole)
@@ -141,7 +145,7 @@ def _beside(contents: Contents, runs: Mapping[str, Values], *, late: bool = Fals
     return [
         *_rows(pictures, 1.4, 2),
         *_rows(plots, 1.0, 1 if len(plots) < 3 else 2),
-        *_rows(charts, 1.3, 2),
+        *_rows(charts, 1.3, 2 if len(runs) > 1 or all(len(str(view.name)) <= HALF_TITLE for view in charts) else 1),
         *_rows(tables if contents.tables is not None and (contents.tables > LATE * steps) == late else [], 1.3, 2),
     ]
 
@@ -175,7 +179,7 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
     """Return a plot of scalars over all steps, with a cursor at the current one."""
     unit = next((scalar.unit for scalar in scalars.values() if scalar.unit), "")
     if any(scalar.log for scalar in scalars.values()):
-        unit = f"log10 of {unit or 'the value'}"
+        unit = f"log10 of {unit.removeprefix('of ') or 'the value'}"
     curves = [
         plotted_values(scalar, values[path])
         for values in runs.values()
@@ -187,7 +191,7 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
     y = np.concatenate(curves)
     x, y = (x[np.isfinite(y)], y[np.isfinite(y)]) if np.isfinite(y).any() else (np.zeros(1), np.zeros(1))
     up = value_axis([y])
-    low, high = up.low, up.high
+    low, high = up.low - 0.1 * (up.high - up.low), up.high  # else the lowest number and the first step overprint
     beyond = 1 + steps // 40  # so that the cursor can be seen at the last step too
     end, infinite = rrb.TimeRangeBoundary.absolute(seq=steps - 1 + beyond), rrb.TimeRangeBoundary.infinite()
     return rrb.TimeSeriesView(
