@@ -11,6 +11,7 @@ from workbench.recording.chart import (
     LEGEND_WIDTH,
     RIGHT,
     TOP,
+    WIDTH,
     chart_curves,
     chart_frame,
     color_bar,
@@ -89,3 +90,14 @@ def test_the_colours_of_a_legend_stand_above_its_names():
     places = np.array(names.positions.as_arrow_array().to_pylist())
     assert (ends[..., 1].max(axis=1) < places[:, 1]).all()
     np.testing.assert_allclose(ends[..., 0].mean(axis=1), places[:, 0])
+
+
+def test_the_names_of_many_curves_stay_on_the_canvas():
+    names = ["estimate", "95 % interval", "its lower end", "truth"]
+    words = chart_frame([Curve(np.arange(3.0), np.arange(3.0), name, "errors", "x") for name in names])[1]
+    labels = words.labels.as_arrow_array().to_pylist()
+    across = [words.positions.as_arrow_array().to_pylist()[labels.index(name)][0] for name in names]
+    half = [3.3 * len(name) for name in names]
+    assert across[0] - half[0] >= 0
+    assert across[-1] + half[-1] <= WIDTH
+    assert (np.diff(across) > np.add(half[1:], half[:-1])).all()

@@ -8,6 +8,7 @@ from itertools import islice
 from pathlib import Path
 
 import pytest
+from rerun.chunk import RrdReader
 
 from tests import fake
 from workbench.lesson import catalog
@@ -30,9 +31,22 @@ def test_recording_again_and_again_leaves_no_threads():
     assert counts[-1] <= counts[1]
 
 
-def test_layouts_belong_to_the_lesson():
+def test_the_application_id_has_the_characters_that_every_viewer_takes():
     assert application_id("icp") != application_id("ransac")
-    assert application_id("Chamfer_EMD") == "workbench-chamfer-emd-1"
+    assert application_id("Chamfer_EMD") == "workbench-chamfer-emd"
+
+
+def test_runs_share_an_application_where_they_share_a_layout_and_nowhere_else(tmp_path):
+    """A viewer keeps one layout for each application: the second recording would be shown in that of the first."""
+
+    def application(name: str, **params) -> str:
+        path = tmp_path / f"{name}.rrd"
+        path.write_bytes(record_bytes(Timeline(fake.lesson, fake.Params(**params)).complete()))
+        own, layout = RrdReader(path).recordings()[0], RrdReader(path).blueprints()[0]
+        assert own.application_id == layout.application_id
+        return own.application_id
+
+    assert application("one") == application("again") != application("longer", steps=3)
 
 
 def test_a_rigid_run_of_20k_points_and_50_steps_stays_below_a_megabyte():

@@ -7,7 +7,6 @@ import pytest
 import viser
 
 from workbench.lesson import View, catalog
-from workbench.recording.layout import scene_view
 from workbench.viewer.stage import NARROWEST, Aim, add_floor, eye_of
 
 
@@ -63,9 +62,6 @@ def test_a_view_along_its_up_is_one_picture_with_a_right_and_an_up(view, right, 
         v_right = np.cross(v_ahead, view.up) / np.linalg.norm(np.cross(v_ahead, view.up))
         np.testing.assert_allclose(v_right, right, atol=1e-6)
         np.testing.assert_allclose(np.cross(v_right, v_ahead), upwards, atol=5e-3)
-    position = scene_view("", view, "").properties["EyeControls3D"].position.as_arrow_array().to_pylist()[0]
-    v_ahead = np.array(view.target) - position
-    assert np.linalg.norm(np.cross(v_ahead, view.up)) > 1e-3 * np.linalg.norm(v_ahead)
 
 
 @pytest.mark.parametrize(

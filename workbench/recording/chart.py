@@ -168,9 +168,10 @@ def _words(x: _Scale, y: _Scale, curves: Sequence[Curve]) -> Any:
     places.append(((LEFT + RIGHT) / 2, BOTTOM + 24))
     words.append(curves[0].x_label)
     colors: list[tuple[int, int, int]] = [GREY] * len(places)
-    at = LEFT
-    for curve in curves:
-        room = 18.0 + 6.6 * len(curve.name)
+    rooms = np.array([18.0 + 6.6 * len(curve.name) for curve in curves])
+    rooms *= min(1.0, WIDTH / rooms.sum())  # closer together where they would leave the canvas
+    at = min(LEFT, WIDTH - rooms.sum())
+    for curve, room in zip(curves, rooms, strict=True):
         places.append((at + room / 2, 0.0))
         words.append(curve.name)
         colors.append(PALETTE[curve.color])

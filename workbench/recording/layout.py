@@ -18,10 +18,17 @@ from workbench.scene import Scalar
 from workbench.timeline import plotted_values
 
 RERUN_FOV = 55.0  # degrees, of the viewer's eye, from top to bottom
+LEAST_TILT = np.radians(1.0)
+"""Angle to the up direction below which the viewer takes no eye: it decides by itself from 0.81 degrees on (cos 0.9999), and
+puts -y up in the picture of a scene seen from above; the first drag takes an eye to 0.9 degrees."""
 LATE = 0.5
 """Share of a run after which what appears for the first time stands behind a tab."""
 MOST_ROWS = 5.2
 """Shares of height in the column beside the scene; what is more goes behind a tab."""
+HALF_TITLE = 22
+"""So many characters of a title can be read in half of that column, 1280 pixels across all."""
+CAPTION = 2.2
+"""Share of height, where the scene has 7, in which a caption of three lines can be read."""
 
 Values = Mapping[str, np.ndarray]
 """A run's scalars by path, a value per step."""
@@ -35,7 +42,7 @@ def one_run(view: View, contents: Contents, values: Values) -> Any:
         left.append(legend_view("", contents))
         shares.append(legend_share(contents))
     left.append(caption_view(""))
-    shares.append(1.7)
+    shares.append(CAPTION)
     right = _column(_beside(contents, {"": values}), late=_beside(contents, {"": values}, late=True))
     whole = rrb.Vertical(*left, row_shares=shares)
     return finished(rrb.Horizontal(whole, right, column_shares=[3, 2]) if right is not None else whole)
@@ -138,7 +145,7 @@ def _beside(contents: Contents, runs: Mapping[str, Values], *, late: bool = Fals
     return [
         *_rows(pictures, 1.4, 2),
         *_rows(plots, 1.0, 1 if len(plots) < 3 else 2),
-        *_rows(charts, 1.3, 2),
+        *_rows(charts, 1.3, 2 if len(runs) > 1 or all(len(str(view.name)) <= HALF_TITLE for view in charts) else 1),
         *_rows(tables if contents.tables is not None and (contents.tables > LATE * steps) == late else [], 1.3, 2),
     ]
 
@@ -172,7 +179,7 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
     """Return a plot of scalars over all steps, with a cursor at the current one."""
     unit = next((scalar.unit for scalar in scalars.values() if scalar.unit), "")
     if any(scalar.log for scalar in scalars.values()):
-        unit = f"log10 of {unit or 'the value'}"
+        unit = f"log10 of {unit.removeprefix('of ') or 'the value'}"
     curves = [
         plotted_values(scalar, values[path])
         for values in runs.values()
@@ -184,7 +191,7 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
     y = np.concatenate(curves)
     x, y = (x[np.isfinite(y)], y[np.isfinite(y)]) if np.isfinite(y).any() else (np.zeros(1), np.zeros(1))
     up = value_axis([y])
-    low, high = up.low, up.high
+    low, high = up.low - 0.1 * (up.high - up.low), up.high  # else the lowest number and the first step overprint
     beyond = 1 + steps // 40  # so that the cursor can be seen at the last step too
     end, infinite = rrb.TimeRangeBoundary.absolute(seq=steps - 1 + beyond), rrb.TimeRangeBoundary.infinite()
     return rrb.TimeSeriesView(
@@ -210,10 +217,17 @@ def _emptiest(x: np.ndarray, y: np.ndarray) -> Any:
 
 
 def _eye(view: View) -> np.ndarray:
-    """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's does."""
-    target = np.array(view.target)
+    """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's does.
+
+    Where it looks along up it is moved further aside, the same way as the lesson's.
+    """
+    target, up = np.array(view.target), np.array(view.up) / np.linalg.norm(view.up)
     share = np.tan(np.radians(view.fov_degrees) / 2) / np.tan(np.radians(RERUN_FOV) / 2)
-    return target + (view.seen_from() - target) * share
+    away = (view.seen_from() - target) * share
+    along = (away @ up) * up
+    aside = away - along
+    least = np.tan(LEAST_TILT) * np.linalg.norm(along) / np.linalg.norm(aside)
+    return target + along + max(1.0, least) * aside
 
 
 def _canvas_view(entity: str, canvas: Canvas, root: str = "") -> Any:

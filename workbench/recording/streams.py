@@ -11,21 +11,19 @@ from rerun.recording_stream import RecordingStream
 
 from workbench.recording.canonical import chunks_of, id_of, tidied
 
-LAYOUT = 1
-"""Part of the application id: viewers keep a person's own layout by that, so a new layout needs a new one."""
-
 _one_at_a_time = threading.Lock()
 
 
 def application_id(lesson_name: str) -> str:
-    """Return under which name viewers keep the layout of a lesson's recordings."""
-    return f"workbench-{re.sub('[^a-z0-9]+', '-', lesson_name.lower()).strip('-')}-{LAYOUT}"
+    """Return the name by which viewers tell a lesson's recordings from others; `stream_bytes` adds to it."""
+    return f"workbench-{re.sub('[^a-z0-9]+', '-', lesson_name.lower()).strip('-')}"
 
 
 def stream_bytes(application: str, fill: Callable[[Any], None], layout: Any = None) -> bytes:
     """Return the bytes of a recording that `fill` logs into a stream, with its layout. Wrong shapes raise.
 
-    The recording's id is made from the content.
+    The recording's id is made from the content. The application's ends in a digest of the layout: viewers keep one layout
+    for each application, and would show runs of other presets in that of the first.
     """
     with _one_at_a_time:
         strict = rr.strict_mode()
@@ -33,6 +31,8 @@ def stream_bytes(application: str, fill: Callable[[Any], None], layout: Any = No
         try:
             content = tidied(_logged(_recording(application, "content"), fill))
             beside = [] if layout is None else tidied(_logged(_layout(application), layout._log_to_stream))
+            if beside:
+                application = f"{application}-{id_of(beside)[:8]}"
             stream = _recording(application, id_of([*content, *beside]))
             return _logged(stream, lambda stream: _send(stream, application, chunks_of(content), chunks_of(beside)))
         finally:
