@@ -115,7 +115,8 @@ def _missed(scans: Scans, outcome: Outcome, T_world_source: np.ndarray) -> dict[
         return {}
     p = scans.p_source[:: -(-len(scans.p_source) // MOST_MISSES)]
     true = _moved(scans.T_world_target @ T, p)
-    top = np.array([scans.T_world_target[0, 3], 0.0, float(scans.p_target[:, 2].max()) + 0.15])
+    high = max(float(_moved(T_here, q)[:, 2].max()) for T_here, q in _both(scans, T_world_source))
+    top = np.array([scans.T_world_target[0, 3], 0.0, high + 0.3])
     scene: dict[str, Primitive] = {
         "off": Label(f"{angle(outcome.rotation)} from the truth", top, "truth" if outcome.home else "wrong")
     }

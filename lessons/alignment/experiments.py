@@ -30,7 +30,7 @@ SCALE_CLEAN = replace(SCALE, noisy="target")
 
 VIEW = View(eye=(-0.75, -2.55, 1.1), target=(-0.62, 0.0, 0.12), grid=None, axes=False)
 TOGETHER = View(eye=(-0.95, -2.3, 1.1), target=(-1.1, 0.0, 0.2), grid=None, axes=False)
-WIDE = View(eye=(-3.5, -6.5, 5.0), target=(-0.6, 2.5, -0.4), grid=None, axes=False)
+WIDE = View(eye=(-1.7, -2.9, 1.7), target=(-0.75, 0.0, 0.3), grid=None, axes=False)
 ABOVE = View(eye=(-1.05, -1.5, 2.0), target=(-1.2, 0.0, 0.0), grid=None, axes=False)
 APART = View(eye=(-1.1, -3.6, 1.8), target=(-1.25, 0.0, 0.1), grid=None, axes=False)
 LARGE = View(eye=(-1.1, -4.0, 1.9), target=(-1.1, 0.0, 0.15), grid=None, axes=False)

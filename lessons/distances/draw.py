@@ -9,7 +9,7 @@ from lessons.distances.subjects import true_way
 from lessons.distances.words import caption
 from workbench.algorithms.heat_method import HeatState
 from workbench.geometry.polylines import between, rectangle, segments
-from workbench.scene import Classes, Color, Field, Mesh, Points, Primitive, Scene, Segments
+from workbench.scene import Classes, Color, Field, Label, Mesh, Points, Primitive, Scene, Segments
 
 MOST_EDGES, MOST_ARROWS = 2500, 900
 SQUARE = np.array([-HALF, -HALF]), np.array([HALF, HALF])
@@ -65,7 +65,7 @@ def _ways(state: State) -> dict[str, Primitive]:
     if isinstance(now, Found):
         goal = subject.goal
         if len(now.path) > 1:
-            scene["way"] = Segments(segments(now.path) + 2 * up, "source", 4.0, name="shortest way found")
+            scene["way"] = Segments(segments(now.path) + 2 * up, "highlight", 5.0, name="shortest way found")
             goal = int(np.argmin(np.linalg.norm(subject.p - now.path[-1], axis=1)))
         if goal >= 0:
             scene["goal"] = Points(subject.p[[goal]] + up, "truth", 2.0 * subject.radius, name="goal")
@@ -128,10 +128,14 @@ def _within(line: np.ndarray) -> np.ndarray:
 def _trials(now: Trials) -> dict[str, Primitive]:
     a, b, c = 2 * HALF * now.corners - HALF
     role = "wrong" if now.sides[2] > now.sides[0] + now.sides[1] + 1e-9 else "truth"
+    p = np.stack([a, b, c])
+    out = p - p.mean(axis=0)
+    beyond = flat(p + 0.1 * out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-9))
     return {
+        **{f"letters/{letter}": Label(letter, place, "target") for letter, place in zip("abc", beyond, strict=True)},
         "border": Segments(flat(segments(rectangle(*SQUARE), closed=True)), "neutral", 1.0),
-        "nodes": Points(flat(np.stack([a, b, c])), "target", 0.035, name="a, b, c"),
-        "over b": Segments(flat(segments(np.stack([a, b, c]))), "correspondence", 4.0, name="from a over b to c"),
+        "nodes": Points(flat(p), "target", 0.035, name="a, b, c"),
+        "over b": Segments(flat(segments(p)), "correspondence", 4.0, name="from a over b to c"),
         "straight": Segments(flat(between(a, c)), role, 4.0, name="from a to c"),
     }
 
@@ -162,6 +166,7 @@ def _landmarks(now: Landmarks) -> dict[str, Primitive]:
     return {
         "nodes": Points(show(now.landmarks), "target", 0.02, name="landmarks"),
         "seen": Points(show(seen, 0.01), "source", 0.012, name="measured"),
+        "camera": Label("↓ 4 m to the camera", np.array([0.0, -1.25, 0.0]), "neutral"),
         "rims": Segments(show(np.stack([now.rims[:, :-1], now.rims[:, 1:]], axis=2).reshape(-1, 2, 2)), "correspondence",
                          1.0, opacity=0.6, name="95 % of a measurement"),
         "right": Segments(show(between(seen, ends)), "truth", 2.0, name="to the true landmark"),

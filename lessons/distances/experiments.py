@@ -11,7 +11,7 @@ from workbench.numerals import counted, fixed, length, percent
 
 VIEW = View(eye=(0.0, 0.0, 1.5), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 PLANE = View(eye=(0.0, 0.0, 3.0), target=(0.0, 0.0, 0.0), grid=None, axes=False)
-AHEAD = View(eye=(0.0, 0.0, 3.9), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+AHEAD = View(eye=(0.0, 0.0, 4.5), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 CLOUD = View(eye=(0.0, 0.0, 9.0), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 BALL = View(eye=(1.1, -2.4, 1.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 RABBIT = View(eye=(0.82, -1.5, 0.75), target=(0.0, 0.0, 0.15), grid=None, axes=False)
@@ -100,7 +100,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "sphere", "Along the edges of a sphere",
-        "The orange way zigzags, the green one is a great circle. Most ways along edges are several per cent too long.",
+        "The purple way zigzags, the green one is a great circle. Most ways along edges are several per cent too long.",
         SPHERE, ERRORS, BALL, breaks=True,
     ),
     Preset(

@@ -48,7 +48,8 @@ def _color(state: State) -> Color:
         case Mode():
             return _signed(now.functions[:, now.index], f"eigenvector {now.index + 1}")
         case Heat():
-            return _signed(now.u, "heat")
+            largest = max(float(np.abs(now.u).max()), 1e-300)
+            return Field(now.u / largest, -1.0, 1.0, "heat over the largest", map="diverging")
         case Smoothed():
             off = np.linalg.norm(now.p - state.subject.p, axis=1)
             return Field(1000 * off, 0.0, float(1000 * off.max()) or 1.0, "distance to the clean place", "mm")

@@ -12,6 +12,7 @@ from workbench.numerals import counted, fixed_or_power, percent
 
 VIEW = View(eye=(0.0, 0.0, 3.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 RABBIT = View(eye=(0.82, -1.5, 0.75), target=(0.0, 0.0, 0.15), grid=None, axes=False)
+EAR = View(eye=(0.6, 0.95, 0.8), target=(0.17, 0.08, 0.48), grid=None, axes=False)
 BALL = View(eye=(1.9, -2.2, 1.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 
 SIGN = 2  # the step of a cut that cuts by sign
@@ -102,7 +103,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "blow-up", "A longer step",
         "dt = 2.5 / λmax, two and a half times as long as in the run before. What becomes of the heat? Play it.",
-        BLOW_UP, 0, RABBIT, breaks=True,
+        BLOW_UP, 0, EAR, breaks=True,
     ),
     Preset(
         "shrink", "Smoothing eats volume",

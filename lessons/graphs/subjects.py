@@ -76,7 +76,7 @@ def _built_in(params: Params) -> Subject:
     p /= np.linalg.norm(p, axis=1)[:, None]
     p = p[rng.random(len(p)) < np.where(p[:, 2] > 0, 1.0, 0.25)][: params.points]
     known = {"eigenvalues": _of_the_sphere(len(p)), "of_surface": True}
-    return _cloud("the uneven sphere", p, **known)
+    return replace(_cloud("the uneven sphere", p, **known), radius=0.016)
 
 
 def _of_the_sphere(count: int) -> np.ndarray:

@@ -13,7 +13,7 @@ from workbench.numerals import brief, fixed, percent
 VIEW = View(eye=(2.3, -3.5, 1.7), target=(-0.05, -0.3, 0.0), grid=None, axes=False)
 MIDDLE = View(eye=(2.0, -3.6, 1.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 WIDE = View(eye=(2.6, -4.7, 2.1), target=(0.0, 0.0, 0.0), grid=None, axes=False)
-BEHIND = View(eye=(1.4, -5.0, 2.0), target=(0.5, 0.4, -0.1), grid=None, axes=False)
+BEHIND = View(eye=(1.1, -4.0, 1.6), target=(0.3, 0.3, 0.0), grid=None, axes=False)
 FRONT = View(eye=(0.0, -3.9, 0.25), target=(0.0, 0.0, 0.2), grid=None, axes=False)
 
 FAR = Params(origin=(-12.0, -16.0, -8.0))
@@ -78,7 +78,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "lantern", "Schwarz's lantern",
         "All vertices lie on the cylinder, 11 in a ring, in 121 bands. Then ever more sectors, and three ways to choose the"
         " number of rings.",
-        LANTERN, 0, WIDE, breaks=True,
+        LANTERN, 0, MIDDLE, breaks=True,
     ),
     Preset(
         "throws", "Throws of dice",

@@ -15,7 +15,7 @@ from workbench.geometry.voxels import Grid, counted_surface
 from workbench.scene import Field, Mesh, Picture, Points, Primitive, Scene, Segments
 
 MOST_POINTS, MOST_BOXES, MOST_QUADS = 8000, 260, 26_000
-BEHIND = 1.1  # m along y: where a slice is out of the way
+ASIDE = np.array([0.0, 1.1, 0.85])  # m: a slice that is out of the way is behind and above
 REACH = 0.5  # m: the end of the colour bar of distances
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 RIMS = CUBE[[[a, b] for a in range(8) for b in range(a) if np.abs(CUBE[a] - CUBE[b]).sum() == 1]]
@@ -66,11 +66,11 @@ def _cells(state: State, now: Cells | Fitted) -> dict[str, Primitive]:
 
 
 def _slice(values: np.ndarray, grid: Grid, *, aside: bool) -> Picture:
-    """Return the distances in the layer of cells behind y = 0, as an upright picture there, or out of the way behind all."""
+    """Return the distances in the layer of cells behind y = 0, as an upright picture there, or out of the way."""
     layer = grid.shape[1] // 2
     shown = Field(values[:, layer, ::-1].T.astype(float), -REACH, REACH, "Stored distance", "m", "diverging")
     pose = UPRIGHT.copy()
-    pose[1, 3] = BEHIND if aside else grid.low[1] + grid.spacing[1] * (layer + 0.5)
+    pose[:3, 3] = ASIDE if aside else (0.0, grid.low[1] + grid.spacing[1] * (layer + 0.5), 0.0)
     return Picture(shown, "Slice through the middle", float(grid.spacing[0] * grid.shape[0]), pose)
 
 

@@ -10,9 +10,10 @@ from workbench.algorithms.octree import Level
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import brief, length, percent
 
-VIEW = View(eye=(1.7, -3.2, 1.9), target=(0.0, 0.0, -0.05), grid=None, axes=False)
+VIEW = View(eye=(1.25, -3.85, 2.2), target=(0.05, 0.0, 0.56), grid=None, axes=False)
+ALONE = View(eye=(1.35, -2.6, 1.5), target=(0.0, 0.0, -0.05), grid=None, axes=False)
 PATCH = View(eye=(2.2, 2.0, 1.5), target=(0.15, 0.1, 0.0), grid=None, axes=False)
-NEAR = View(eye=(1.5, -3.3, 1.5), target=(0.2, -0.3, 0.1), grid=None, axes=False)
+NEAR = View(eye=(1.7, -3.8, 1.6), target=(0.1, -0.2, 0.0), grid=None, axes=False)
 WIDE = View(eye=(2.1, -4.2, 2.2), target=(0.0, 0.0, -0.05), grid=None, axes=False)
 
 BINARY = Params(form="voxels", resolution=64)
@@ -35,7 +36,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "binary", "Bits",
         "One bit for each cell, ever smaller cells. Compare volume, area and normals of what comes back with the truth.",
-        BINARY, 4,
+        BINARY, 4, ALONE,
     ),
     Preset(
         "edges", "Sharp edges",
@@ -55,12 +56,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "cloud", "Points alone",
         "From 100 to 100,000 points: the largest hole closes, and slowly. Four times the points, half the distance.",
-        CLOUD, 4,
+        CLOUD, 4, ALONE,
     ),
     Preset(
         "triangles", "Triangles",
         "Vertices on the torus, and flat triangles between them: twice the vertices, half the error.",
-        TRIANGLES, 2,
+        TRIANGLES, 2, ALONE,
     ),
     Preset(
         "octree", "Only where the surface is",

@@ -49,6 +49,20 @@ def test_the_scene_is_large_and_the_controls_do_not_move(visit):
     assert len(places) == 1
 
 
+def test_a_chart_stands_beside_the_scene_once_it_has_a_point(visit):
+    """The Fiedler vector, where the club opens, has cut nothing yet; the cuts come after it."""
+    me = visit("?lesson=graphs&preset=club")
+    me.page.wait_for_function("page.run?.finished && page.k === 1 && page.step()")
+    titles = "beside.of(page.run, page.step()).map((tile) => tile.key)"
+    assert "series Conductance" not in me.page.evaluate(titles)
+    me.act("last")
+    me.page.wait_for_function(f"{titles}.includes('series Conductance')")
+    said = me.page.evaluate(
+        "[measured(1.14e12, ''), measured(-7.59e-4, '%'), measured(1e-9, 'deg'), measured(12.5, '%')]"
+    )
+    assert said == ["1.14 × 10¹²", "−7.59 × 10⁻⁴ %", "1 × 10⁻⁹°", "12.5 %"]
+
+
 def test_a_link_that_cannot_be_used_is_told_and_the_page_lives(visit):
     me = visit("?lesson=icp&start_angle=abc")
     me.page.locator("#caption.wrong", has_text=re.compile("start_angle")).wait_for()

@@ -24,10 +24,17 @@ const beside = {
     if (!run || !step) return [];
     const found = [], charts = new Map();
     for (const one of run.series) charts.set(one.chart, [...(charts.get(one.chart) ?? []), one]);
-    for (const [chart, lines] of charts) found.push(this.series(run, chart, lines));
+    for (const [chart, lines] of charts) if (this.begun(run, chart, lines)) found.push(this.series(run, chart, lines));
     step.shown.map((n) => run.things[n]).filter(Boolean).forEach((thing, i) => found.push(this.thing(thing, i)));
     if (step.code && run.things[step.code.source]) found.push(this.code(run.things[step.code.source], step.code));
     return found.sort((a, b) => Boolean(b.telling) - Boolean(a.telling));
+  },
+
+  // whether a chart over the steps has a point yet among those that are shown; what is pinned is shown whole
+  begun(run, chart, lines) {
+    const upto = run.seen ? Infinity : run.played, has = (v) => (v ?? null) !== null;
+    return lines.some((l) => l.values.some((v, i) => i <= upto && has(v))) ||
+      (run.pinned ?? []).some((l) => l.chart === chart && l.values.some(has));
   },
 
   series(run, chart, lines) {

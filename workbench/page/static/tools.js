@@ -32,10 +32,12 @@ function length(metres) {
   return size >= 1e-6 ? `${number(1e3 * metres)} mm` : `${number(Number((1e6 * metres).toPrecision(2)))} µm`;
 }
 
-// a value with its unit, as a sentence writes it
+// a value with its unit, as a sentence writes it: 1.14 × 10¹², no exponent
 function measured(value, unit) {
   if (unit === "m") return length(value);
-  return unit === "deg" || unit === "°" ? `${number(value)}°` : `${number(value)} ${unit ?? ""}`.trim();
+  const raised = (power) => [...power].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["−0123456789".indexOf(c)]).join("");
+  const said = number(value).replace(/e(−?\d+)$/, (_, power) => ` × 10${raised(power)}`);
+  return unit === "deg" || unit === "°" ? `${said}°` : `${said} ${unit ?? ""}`.trim();
 }
 
 // the number that a person typed, with a point or a comma before its decimals; undefined where it is none
