@@ -95,7 +95,8 @@ class Replay:
     def document(self) -> str:
         """Return the page as one HTML document that needs nothing else."""
         preset, last = self.lesson.preset_of(self.params), len(self.timeline) - 1
-        step = self.lesson.first_step if preset is None or preset.step is None else preset.step
+        is_default = self.params == self.lesson.params()  # which may be a preset too
+        step = self.lesson.first_step if is_default or preset is None or preset.step is None else preset.step
         run = Run(
             name="default" if preset is None else preset.name,
             title="one run" if preset is None else preset.title,

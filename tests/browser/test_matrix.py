@@ -304,7 +304,7 @@ def a_sweep_leads_to_another_run(home: Home) -> None:
 
 def a_run_is_pinned(home: Home) -> None:
     home.find("#pin").press("Enter")
-    home.until("page.run.pinned?.length")
+    home.until("Boolean(page.run.pinned)")
     assert home.find("#pin").get_attribute("aria-pressed") == "true"
     home.find("#pin").press("Enter")
     home.until("!page.run.pinned")
