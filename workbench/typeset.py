@@ -179,7 +179,12 @@ def _subset() -> bytes:
         raise FileNotFoundError("no font with a MATH table")
     # letters, Greek, signs, and the styles that formulas have: bold, italic, and capitals in script and double-struck
     chosen = [*range(0x20, 0x7F), *range(0xA0, 0x100), *range(0x391, 0x3D7), 0x3F5, *range(0x2010, 0x2040)]
-    chosen += [*range(0x2C6, 0x2DE), *range(0x2070, 0x20A0), *range(0x20D0, 0x20DD), *map(ord, "ℂℋℌℍℎℏℐℑℒℓℕ℘ℙℚℛℜℝ™ℤℨÅℬℰℱℳℵ")]
+    chosen += [
+        *range(0x2C6, 0x2DE),
+        *range(0x2070, 0x20A0),
+        *range(0x20D0, 0x20DD),
+        *map(ord, "ℂℋℌℍℎℏℐℑℒℓℕ℘ℙℚℛℜℝ™ℤℨÅℬℰℱℳℵ"),
+    ]
     chosen += [*range(0x2190, 0x21A0), 0x21A6, *range(0x21D0, 0x21D5), *range(0x2200, 0x2300), *range(0x2308, 0x230C)]
     chosen += [0x27E8, 0x27E9, *range(0x1D400, 0x1D468), *range(0x1D49C, 0x1D4B6), *range(0x1D538, 0x1D552)]
     chosen += [*range(0x1D6A4, 0x1D71C)]
