@@ -326,12 +326,11 @@ def test_a_class_is_counted_by_the_weights_of_its_assignment(tmp_path, capsys):
     """Points are out of all that is handed out; what is not asked for counts nothing, and is said."""
     out, came = tmp_path / "out", tmp_path / "came"
     assert main(["handout", "match", "invert_rigid", "--weight", "match=40", "--for", "folder", str(out)]) == 0
-    right_ones = out / "teacher" / "full"
     handed = {"all": ["match", "invert_rigid"], "half": ["match"], "other": ["match"], "empty": []}
     for student, names in handed.items():
         (came / student).mkdir(parents=True)
         for name in names:
-            (came / student / f"{name}.py").write_text((right_ones / f"my_{name}.py").read_text())
+            (came / student / f"{name}.py").write_text((out / "teacher" / "full" / f"my_{name}.py").read_text())
     (came / "empty" / "match.py").write_text("def match(source, target):\n    return None\n")
     (came / "other" / "chamfer.py").write_text("def chamfer(a, b):\n    return 0.0\n")
     assert main(["grade", str(came), "--assignment", str(out / "assignment.json")]) == 1
@@ -347,12 +346,12 @@ def test_a_class_is_counted_by_the_weights_of_its_assignment(tmp_path, capsys):
 
 
 WEIGHTS = ('{"nothing": 1}', '{"match": NaN}', '{"match": "1"}', "[1]", "{}")
-DATED = '"release": null, "due": null, "service": "folder", "sandbox": "auto"'
+DATED = [
+    f'{{"weights": {one}, "release": null, "due": null, "service": "folder", "sandbox": "auto"}}' for one in WEIGHTS
+]
 
 
-@pytest.mark.parametrize(
-    "text", ["", "[]", '{"weights": {"match": 1}}', *(f'{{"weights": {one}, {DATED}}}' for one in WEIGHTS)]
-)
+@pytest.mark.parametrize("text", ["", "[]", '{"weights": {"match": 1}}', *DATED])
 def test_a_file_that_is_no_assignment_is_one_line(tmp_path, capsys, text):
     (tmp_path / "assignment.json").write_text(text)
     (tmp_path / "match.py").write_text("")
