@@ -128,6 +128,7 @@ def shows_the_line_of_code(home: Home) -> None:
     home.says(run[k].caption.text, k)
     home.find(".tile", has_text="Code").press("Enter")
     line = home.find("#large .here")
+    line.first.wait_for()
     assert line.count() == 1
     assert line.get_attribute("data-line") == str(moment_data(moment)["line"])
 

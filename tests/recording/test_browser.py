@@ -87,7 +87,7 @@ def cursor_column(picture: np.ndarray) -> int:
 def shows_a_run(picture: np.ndarray) -> bool:
     scene, curves = scene_of(picture), curves_of(picture)
     return (
-        min(near(scene, "truth"), near(scene, "target")) > 100
+        min(near(scene, "truth"), near(scene, "target")) > 60
         and min(near(curves, "truth"), near(curves, "source")) > 50
         and len(np.unique(scene.reshape(-1, 3), axis=0)) > 500  # a picture, not a note of an error
     )
