@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from lessons.curvature.state import MOST_OWN, Params, Subject, Upward
+from lessons.curvature.state import MOST_OWN, Params, Subject
 from workbench.data.files import stamp
-from workbench.data.framing import box, broad_side_to, extent, likely_up
+from workbench.data.framing import Upward, box, broad_side_to, extent, upward
 from workbench.data.own_meshes import read_surface
 from workbench.data.surfaces import SURFACES, Surface, inside_out, scaled, with_noise
 from workbench.geometry.meshes import edges, on_boundary, vertex_normals
@@ -73,7 +73,7 @@ def front_of(p: np.ndarray, normals: np.ndarray, border: np.ndarray) -> int:
 def _own(path: Path, _stamp: tuple[int, int], *, size: float, turned: bool, up: Upward) -> Subject:
     """Read a mesh, mend what can be mended, stand it up, make it OWN_SIZE long about the origin; anew when it changed."""
     p_file, faces, mended = read_surface(path, MOST_OWN)
-    axis = likely_up(p_file, path.suffix.lower()) if up == "auto" else up
+    axis = upward(p_file, path, up)
     enlarged = size * OWN_SIZE / extent(p_file)
     p = p_file @ broad_side_to(p_file, EYE, axis).T
     low, high = box(p)

@@ -7,14 +7,13 @@ from typing import Annotated, Literal
 import numpy as np
 
 from workbench.algorithms.curvature import Measured
-from workbench.data.framing import Up
+from workbench.data.framing import Upward
 from workbench.data.surfaces import MOST_JITTER, Surface
 from workbench.geometry.meshes import vertices_within
 from workbench.knobs import Knob, Pick
 
 Shape = Literal["torus", "sphere", "cylinder", "saddle", "catenoid", "plane"]
 Mistake = Literal["none", "2 pi on the border", "defect taken for K", "H without the half"]
-Upward = Literal["auto", Up]
 
 MOST_OWN = 200_000
 

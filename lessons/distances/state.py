@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from workbench.algorithms.heat_method import HeatState
-from workbench.data.framing import Up
+from workbench.data.framing import Upward
 from workbench.geometry.metrics import Metric
 from workbench.knobs import Knob, Pick
 
@@ -84,7 +84,7 @@ class Params:
     ] = -1  # fmt: skip
     mesh: Annotated[Path | None, Knob("Own mesh for the stage surface: off, obj, ply, stl, glb")] = None
     cloud: Annotated[Path | None, Knob("Own cloud for the stage roll: ply, pcd, obj, xyz, csv, npz")] = None
-    up: Annotated[Literal["auto", Up], Knob("Which axis of own files is up; auto guesses", of_files=True)] = "auto"
+    up: Annotated[Upward, Knob("Which axis of own files is up; auto guesses", of_files=True)] = "auto"
     seed: Annotated[int, Knob("Where chance puts points", 0, 99)] = 0
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from lessons.distances.state import MOST_OWN, Params, Subject
 from workbench.data import surfaces
 from workbench.data.files import read_cloud, stamp
-from workbench.data.framing import frame, likely_up
+from workbench.data.framing import Upward, own_points
 from workbench.data.own_meshes import read_surface
 from workbench.data.rabbit import rabbit_mesh
 from workbench.data.swiss_roll import rolled, swiss_roll
@@ -127,16 +127,9 @@ def _mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
 
 
 @functools.lru_cache(maxsize=4)
-def _own_mesh(path: Path, _stamp: tuple[int, int], up: str) -> Subject:
+def _own_mesh(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
     p, faces, _ = read_surface(path, MOST_OWN)
-    return _mesh(path.name, _shown(p, path, up), faces)
-
-
-def _shown(p: np.ndarray, path: Path, up: str) -> np.ndarray:
-    if not np.ptp(p, axis=0).max() > 0:
-        raise InputError(f"{path.name}: all its points lie at one place")
-    axis = likely_up(p, path.suffix.lower()) if up == "auto" else up
-    return frame(p, OWN_SIZE, up=axis).shown(p)  # type: ignore[arg-type]
+    return _mesh(path.name, own_points(p, path, up, OWN_SIZE), faces)
 
 
 @functools.lru_cache(maxsize=8)
@@ -150,8 +143,9 @@ def _roll(count: int, k: int, seed: int) -> Subject:
 
 
 @functools.lru_cache(maxsize=4)
-def _own_cloud(path: Path, _stamp: tuple[int, int], up: str, k: int) -> Subject:
-    p = _shown(some_points(read_cloud(path, fewest=31), MOST_CLOUD, np.random.default_rng(0)), path, up)
+def _own_cloud(path: Path, _stamp: tuple[int, int], up: Upward, k: int) -> Subject:
+    p = some_points(read_cloud(path, fewest=31), MOST_CLOUD, np.random.default_rng(0))
+    p = own_points(p, path, up, OWN_SIZE)
     made = _neighbours(path.name, p, k)
     source = int(np.argmin(p[:, 0]))
     return replace(made, source=source, goal=int(np.argmax(np.linalg.norm(p - p[source], axis=1))))

@@ -9,7 +9,7 @@ import numpy as np
 from workbench.algorithms.diffusion import Heat, Smoothed
 from workbench.algorithms.graph_network import Layer, Trained
 from workbench.algorithms.spectral_cut import Cut
-from workbench.data.framing import Up
+from workbench.data.framing import Upward
 from workbench.geometry.graphs import Join, Sparse, one_way_share
 from workbench.geometry.spectra import Laplacian
 from workbench.knobs import Knob, Pick
@@ -67,7 +67,7 @@ class Params:
     edges: Annotated[Path | None, Knob("Own graph: csv or txt, two names and maybe a weight per line")] = None
     mesh: Annotated[Path | None, Knob("Own mesh: off, obj, ply, stl, glb")] = None
     cloud: Annotated[Path | None, Knob("Own cloud: ply, pcd, obj, xyz, csv, npz")] = None
-    up: Annotated[Literal["auto", Up], Knob("Which axis of own points is up; auto guesses", of_files=True)] = "auto"
+    up: Annotated[Upward, Knob("Which axis of own points is up; auto guesses", of_files=True)] = "auto"
     seed: Annotated[int, Knob("Where chance puts points, noise and first weights", 0, 99)] = 0
 
 

@@ -11,7 +11,7 @@ from lessons.graphs.state import MOST_OWN, PAIRS, Params, Subject
 from workbench.data import networks, surfaces
 from workbench.data.edge_lists import read_edges
 from workbench.data.files import read_cloud, read_mesh, stamp
-from workbench.data.framing import frame, likely_up
+from workbench.data.framing import Upward, own_points
 from workbench.data.networks import Network
 from workbench.data.rabbit import rabbit, rabbit_mesh
 from workbench.data.thinning import some_points
@@ -116,7 +116,7 @@ def _nearest(p: np.ndarray, to: np.ndarray) -> int:
 
 
 @functools.lru_cache(maxsize=4)
-def _own(path: Path, _stamp: tuple[int, int], *, kind: str, up: str, seed: int) -> Subject:
+def _own(path: Path, _stamp: tuple[int, int], *, kind: str, up: Upward, seed: int) -> Subject:
     """Read an own file; anew when it changed."""
     if kind == "edges":
         given = read_edges(path, MOST_NODES)
@@ -131,10 +131,7 @@ def _own(path: Path, _stamp: tuple[int, int], *, kind: str, up: str, seed: int) 
             raise InputError(f"{path.name}: no triangle with three different corners")
     else:
         p = some_points(read_cloud(path, fewest=21), MOST_CLOUD, np.random.default_rng(seed))
-    if not np.ptp(p, axis=0).max() > 0:
-        raise InputError(f"{path.name}: all its points lie at one place")
-    axis = likely_up(p, path.suffix.lower()) if up == "auto" else up
-    p = frame(p, OWN_SIZE, up=axis).shown(p)  # type: ignore[arg-type]
+    p = own_points(p, path, up, OWN_SIZE)
     return _mesh(path.name, p, faces) if len(faces) else _cloud(path.name, p)
 
 

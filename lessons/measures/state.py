@@ -9,7 +9,7 @@ import numpy as np
 
 from workbench.algorithms.measures import Cells, Sums
 from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
-from workbench.data.framing import Unit, Up
+from workbench.data.framing import Unit, Upward
 from workbench.geometry.sampling import Draw
 from workbench.geometry.voxels import Grid
 from workbench.knobs import Gizmo, Knob
@@ -18,7 +18,6 @@ Shape = Literal["rabbit", "sphere", "box", "torus", "lantern", "two spheres"]
 Method = Literal["faces", "voxels", "chance", "lines", "samples", "dimensions"]
 Pick = Literal["by area", "all alike"]
 Place = Literal["with the root", "without the root", "normalised"]
-Upward = Literal["auto", Up]
 ROUND: tuple[Shape, ...] = ("sphere", "torus", "two spheres")
 
 

@@ -6,16 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
-from lessons.measures.state import Params, Subject, Upward
+from lessons.measures.state import Params, Subject
 from workbench.data import measurables
-from workbench.data.files import read_mesh, read_voxels, stamp
-from workbench.data.framing import UPRIGHT, Unit, box, extent, likely_up
+from workbench.data.files import read_voxels, stamp
+from workbench.data.framing import UPRIGHT, Unit, Upward, box, extent, upward
 from workbench.data.measurables import Measurable
+from workbench.data.own_meshes import read_welded
 from workbench.data.rabbit import rabbit_mesh
 from workbench.errors import InputError
 from workbench.geometry.containment import columns, windings
 from workbench.geometry.measures import encloses, signed_volume, surface_area
-from workbench.geometry.meshes import welded
 from workbench.geometry.voxels import Grid, counted_volume, grid_over, marched_surface, occupied
 
 RABBIT, SPACING = 2.0, 0.04  # times as large as it is made, with edges of so many metres before
@@ -128,13 +128,8 @@ def _spoilt(subject: Subject, params: Params) -> np.ndarray:
 
 @functools.lru_cache(maxsize=4)
 def _own(path: Path, _stamp: tuple[int, int], up: Upward, unit: Unit) -> Subject:
-    p_file, faces = read_mesh(path)
-    if len(faces) > MOST_OWN:
-        raise InputError(f"{path.name}: {len(faces):,} faces; at most {MOST_OWN:,} are measured, simplify it first")
-    p, faces = welded(p_file, faces)
-    if not surface_area(p, faces) > 0:
-        raise InputError(f"{path.name}: its faces have no area")
-    axis = likely_up(p, path.suffix.lower()) if up == "auto" else up
+    p, faces = read_welded(path, MOST_OWN, "measured")
+    axis = upward(p, path, up)
     low, high = box(p)
     p = (p - (low + high) / 2) @ UPRIGHT[axis].T
     note = "" if encloses(faces) else " It is open or its faces disagree which side is outside: no volume is its own."

@@ -10,13 +10,12 @@ import numpy as np
 from workbench.algorithms.kd_tree import Tree, Visit
 from workbench.algorithms.neural_field import Activation, Target, Trained
 from workbench.algorithms.octree import Level
-from workbench.data.framing import Up
+from workbench.data.framing import Upward
 from workbench.geometry.voxels import Grid
 from workbench.knobs import Gizmo, Knob
 
 Form = Literal["cloud", "mesh", "voxels", "distances", "octree", "k-d tree", "patches", "neural"]
 Shape = Literal["torus", "box", "rabbit", "plate", "two boxes"]
-Upward = Literal["auto", Up]
 SHAPED = {"form": ("cloud", "mesh", "voxels", "distances", "octree", "neural")}
 NEURAL = {"form": ("neural",)}
 

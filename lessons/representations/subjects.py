@@ -7,16 +7,17 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from lessons.representations.state import Params, Shape, Subject, Surface, Upward
+from lessons.representations.state import Params, Shape, Subject, Surface
 from workbench.data import solids, surfaces
-from workbench.data.files import read_mesh, stamp
-from workbench.data.framing import UPRIGHT, box, extent, likely_up
+from workbench.data.files import stamp
+from workbench.data.framing import UPRIGHT, Upward, box, extent, upward
+from workbench.data.own_meshes import read_welded
 from workbench.data.rabbit import rabbit_mesh
 from workbench.errors import InputError
 from workbench.geometry import signed_distances
 from workbench.geometry.containment import windings
 from workbench.geometry.measures import encloses, signed_volume, surface_area
-from workbench.geometry.meshes import face_normals, welded
+from workbench.geometry.meshes import face_normals
 from workbench.geometry.motions import exp_so3
 from workbench.geometry.sampling import points_on_faces, unit_points
 from workbench.geometry.signed_distances import face_tree, mesh_sdf, torus_sdf
@@ -178,13 +179,8 @@ def _of_mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
 
 @functools.lru_cache(maxsize=4)
 def _own(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
-    p_file, faces = read_mesh(path)
-    if len(faces) > MOST_OWN:
-        raise InputError(f"{path.name}: {len(faces):,} faces; at most {MOST_OWN:,} are stored, simplify it first")
-    p, faces = welded(p_file, faces)
-    if not surface_area(p, faces) > 0:
-        raise InputError(f"{path.name}: its faces have no area")
-    axis = likely_up(p, path.suffix.lower()) if up == "auto" else up
+    p, faces = read_welded(path, MOST_OWN, "stored")
+    axis = upward(p, path, up)
     low, high = box(p)
     scale = OWN_SIZE / extent(p)
     return _of_mesh(path.name, scale * (p - (low + high) / 2) @ UPRIGHT[axis].T, faces)

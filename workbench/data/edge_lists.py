@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
-from workbench.data.files import stamp
+from workbench.data.files import text_rows
 from workbench.errors import InputError
 
 MOST_EDGES = 200_000
@@ -42,14 +42,7 @@ def read_edges(path: Path, most_nodes: int) -> EdgeList:
     Raises:
         InputError: If the file is missing, of another kind, not understood, or too large.
     """
-    stamp(path)
-    if path.suffix.lower() not in KINDS:
-        raise InputError(f"{path.name}: edges are read from text files ({', '.join(KINDS)})")
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise InputError(f"{path.name}: not UTF-8 text") from None
-    rows = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] not in "#%"]
+    rows = text_rows(path, "edges", KINDS, "#%")
     if len(rows) > MOST_EDGES:
         raise InputError(f"{path.name}: {len(rows):,} lines; at most {MOST_EDGES:,} edges are read")
     number: dict[str, int] = {}

@@ -259,6 +259,28 @@ def _content(path: Path) -> tuple[bytes, str]:
     return content, Path(path.stem).suffix.lower()
 
 
+def text_rows(path: Path, what: str, kinds: tuple[str, ...], comments: str = "#") -> list[tuple[int, str]]:
+    """Return the lines of a text file with their numbers from 1, without empty ones and comments.
+
+    Args:
+        path: The file.
+        what: What is read from it, for a refusal.
+        kinds: The endings that its name may have, in lower case.
+        comments: A line that begins with one of these signs is a comment.
+
+    Raises:
+        InputError: If it is no file, too large, of another kind, or no UTF-8.
+    """
+    stamp(path)
+    if path.suffix.lower() not in kinds:
+        raise InputError(f"{path.name}: {what} are read from text files ({', '.join(kinds)})")
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except UnicodeDecodeError:
+        raise InputError(f"{path.name}: not UTF-8 text") from None
+    return [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] not in comments]
+
+
 def stamp(path: Path) -> tuple[int, int]:
     """Return when a file was changed and its size: what is read from it may be kept as long as they stay.
 

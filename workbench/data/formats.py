@@ -205,7 +205,7 @@ def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
         separator = "," if "," in rows[0] else None
     first = [word.strip().strip("\"'") for word in rows[0].split(separator)]
     columns = [0, 1, 2]
-    if not _is_number(first[0]) or not all(_is_number(word) for word in first[:3]):
+    if not is_number(first[0]) or not all(is_number(word) for word in first[:3]):
         letters = [re.split(r"[^a-z]", word.lower())[0] for word in first]
         if not all(axis in letters for axis in "xyz"):
             raise InputError(f"{name}: no columns x, y, z in its first line: {rows[0].strip()[:60]!r}")
@@ -230,12 +230,13 @@ def _numbers(rows: list[str], separator: str | None, columns: list[int], name: s
     except (ValueError, IndexError):
         for row in rows:
             words = row.split(separator)
-            if len(words) <= max(columns) or not all(_is_number(words[c]) for c in columns):
+            if len(words) <= max(columns) or not all(is_number(words[c]) for c in columns):
                 raise InputError(f"{name}: x, y, z are not three numbers in the row {row.strip()[:60]!r}") from None
         raise InputError(f"{name}: the table of points is not understood") from None
 
 
-def _is_number(word: str) -> bool:
+def is_number(word: str) -> bool:
+    """Whether a word of a file can be read as a number."""
     try:
         float(word)
     except ValueError:

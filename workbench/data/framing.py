@@ -5,16 +5,19 @@ them do not shrink the rest.
 """
 
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
 
+from workbench.errors import InputError
 from workbench.geometry.motions import apply, exp_so3, motion
 
 Unit = Literal["m", "cm", "mm", "km"]
 METRES: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0}
 Up = Literal["z", "y", "-y", "x"]
+Upward = Literal["auto", Up]
 UPRIGHT: dict[Up, np.ndarray] = {  # R_world_file: takes the axis of the file that points up to the world's +Z
     "z": np.eye(3),
     "y": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
@@ -87,6 +90,22 @@ def extent(p: Float[np.ndarray, "n d"], far: float = 0.0) -> float:
     """Return the longest edge of that box; of the box of all points where it has none."""
     low, high = box(p, far)
     return float((high - low).max()) or float(np.ptp(p, axis=0).max())
+
+
+def upward(p: Float[np.ndarray, "n 3"], path: Path, up: Upward) -> Up:
+    """Return the axis of a file that points up: the one that a person named, or the likely one."""
+    return likely_up(p, path.suffix.lower()) if up == "auto" else up
+
+
+def own_points(p: Float[np.ndarray, "n 3"], path: Path, up: Upward, width: float) -> np.ndarray:
+    """Return the points of a person's file as the picture has them: upright, about the origin, `width` metres long.
+
+    Raises:
+        InputError: If all of them lie at one place; names the file.
+    """
+    if not np.ptp(p, axis=0).max() > 0:
+        raise InputError(f"{path.name}: all its points lie at one place")
+    return frame(p, width, up=upward(p, path, up)).shown(p)
 
 
 def likely_up(p: Float[np.ndarray, "n 3"], kind: str) -> Up:

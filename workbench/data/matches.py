@@ -7,6 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.data.arrays import read_arrays
+from workbench.data.formats import is_number
 from workbench.errors import InputError
 
 MOST_BYTES = 100 * 10**6
@@ -84,7 +85,7 @@ def _from_text(path: Path) -> Matches:
     kept = [
         line.replace(",", " ").replace(";", " ").split() for line in lines if line.strip() and line.strip()[0] != "#"
     ]
-    if kept and not _is_number(kept[0][0]):
+    if kept and not is_number(kept[0][0]):
         kept = kept[1:]  # a line of names
     widths = {len(words) for words in kept}
     if len(widths) != 1 or widths <= {0, 1, 2, 3}:
@@ -115,11 +116,3 @@ def _truth(path: Path, arrays: dict[str, np.ndarray], name: str) -> np.ndarray |
     if matrix.shape != (3, 3) or matrix.dtype.kind not in "fiu" or not np.isfinite(matrix).all() or not matrix.any():
         raise InputError(f"{path.name}: {name} is no 3 x 3 matrix of finite numbers")
     return matrix / np.linalg.norm(matrix)
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True

@@ -7,6 +7,7 @@ from numpy import ndarray
 
 from workbench.data.files import read_mesh
 from workbench.errors import InputError
+from workbench.geometry.measures import surface_area
 from workbench.geometry.meshes import check_mesh, welded
 from workbench.geometry.repair import oriented, split_where_sheets_touch, without_repeats
 from workbench.numerals import counted
@@ -46,3 +47,26 @@ def read_surface(path: Path, most: int) -> tuple[Float[ndarray, "v 3"], Int[ndar
         (split, f"{counted(split, 'vertex', 'vertices')} added where sheets only touch, one for each sheet"),
     )
     return placed, faces, tuple(words for count, words in done if count)
+
+
+def read_welded(path: Path, most: int, done: str) -> tuple[Float[ndarray, "v 3"], Int[ndarray, "f 3"]]:
+    """Read a mesh as it is, equal vertices made one.
+
+    Args:
+        path: A mesh file, as `read_mesh` takes it.
+        most: So many faces it may have.
+        done: What is done with them, for a refusal: "measured".
+
+    Returns:
+        Vertices in the unit of the file, and faces.
+
+    Raises:
+        InputError: If it is too large, or has no area; names the file.
+    """
+    p, faces = read_mesh(path)
+    if len(faces) > most:
+        raise InputError(f"{path.name}: {len(faces):,} faces; at most {most:,} are {done}, simplify it first")
+    p, faces = welded(p, faces)
+    if not surface_area(p, faces) > 0:
+        raise InputError(f"{path.name}: its faces have no area")
+    return p, faces

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from workbench.data.files import stamp
+from workbench.data.files import text_rows
+from workbench.data.formats import is_number
 from workbench.errors import InputError
 
 MOST_PLACES = 2000
@@ -49,18 +50,11 @@ def read_places(path: Path) -> Places:
     Raises:
         InputError: If the file is missing, of another kind, not understood, or has fewer than two places.
     """
-    stamp(path)
-    if path.suffix.lower() not in KINDS:
-        raise InputError(f"{path.name}: places are read from text files ({', '.join(KINDS)})")
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise InputError(f"{path.name}: not UTF-8 text") from None
-    rows = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and not line.lstrip().startswith("#")]
+    rows = text_rows(path, "places", KINDS)
     names, degrees = list[str](), list[tuple[float, float]]()
     for i, line in rows:
         cells = _cells(line)
-        if i == rows[0][0] and len(cells) > 1 and not _is_number(cells[0]) and not _is_number(cells[1]):
+        if i == rows[0][0] and len(cells) > 1 and not is_number(cells[0]) and not is_number(cells[1]):
             continue
         degrees.append(_place(cells, path.name, i))
         names.append(" ".join(cells[2:])[:40] or f"place {len(degrees)}")
@@ -74,16 +68,8 @@ def _cells(line: str) -> list[str]:
     return [cell.strip() for cell in next(csv.reader([line], delimiter=mark, skipinitialspace=True))]
 
 
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
-
-
 def _place(cells: list[str], name: str, line: int) -> tuple[float, float]:
-    if len(cells) < 2 or not (_is_number(cells[0]) and _is_number(cells[1])):
+    if len(cells) < 2 or not (is_number(cells[0]) and is_number(cells[1])):
         raise InputError(f"{name}, line {line}: a latitude, a longitude and maybe a name are wanted")
     latitude, longitude = float(cells[0]), float(cells[1])
     if not abs(latitude) <= 90:
