@@ -16,7 +16,7 @@ from workbench.recording.replay import Replay
 from workbench.scene import PALETTE, Role
 
 pytestmark = pytest.mark.browser
-WIDTH, HEIGHT = 1000, 640
+WIDTH, HEIGHT = 1000, 690
 LOOKS = 480  # how often a picture is looked at before it is given up
 
 
@@ -72,7 +72,7 @@ def near(picture: np.ndarray, role: Role, tolerance: int = 40) -> int:
 
 
 def scene_of(picture: np.ndarray) -> np.ndarray:
-    return picture[40:380, :595]
+    return picture[40:410, :595]
 
 
 def curves_of(picture: np.ndarray) -> np.ndarray:
@@ -87,7 +87,7 @@ def cursor_column(picture: np.ndarray) -> int:
 def shows_a_run(picture: np.ndarray) -> bool:
     scene, curves = scene_of(picture), curves_of(picture)
     return (
-        min(near(scene, "truth"), near(scene, "target")) > 60
+        min(near(scene, "truth"), near(scene, "target")) > 100
         and min(near(curves, "truth"), near(curves, "source")) > 50
         and len(np.unique(scene.reshape(-1, 3), axis=0)) > 500  # a picture, not a note of an error
     )

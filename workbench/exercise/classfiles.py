@@ -30,8 +30,7 @@ def class_csv(results: Sequence[Result], worth: Mapping[str, float] | None = Non
         worth: The points of an assignment's exercises, in its order. Every student's points are out of all of them, and
             other exercises count nothing. None counts the points of the checks, out of what was handed in.
     """
-    names = list(dict.fromkeys(item["exercise"] for result in results for item in _items(result) if item["exercise"]))
-    names = names if worth is None else list(worth)
+    names = list(worth or dict.fromkeys(i["exercise"] for result in results for i in _items(result) if i["exercise"]))
     rows = [["student", "points", "possible", *names, "trouble"]]
     for result in results:
         points: dict[str, float] = {}
@@ -41,7 +40,7 @@ def class_csv(results: Sequence[Result], worth: Mapping[str, float] | None = Non
                 points[item["exercise"]] = points.get(item["exercise"], 0.0) + factor * item["points"]
         possible = sum(item["possible"] for item in _items(result)) if worth is None else sum(worth.values())
         cells = [f"{points[name]:g}" if name in points else "" for name in names]
-        other = dict.fromkeys(item["exercise"] for item in _items(result) if item["exercise"] not in (*names, None))
+        other = dict.fromkeys(item["exercise"] for item in _items(result) if item["exercise"] not in (None, *names))
         trouble = "; ".join(filter(None, [_trouble(result), *(f"{name} is not asked for" for name in other)]))
         rows.append([result["student"], f"{sum(points.values()):g}", f"{possible:g}", *cells, trouble])
     return _csv(rows)

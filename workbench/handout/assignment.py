@@ -68,7 +68,7 @@ class Assignment:
 
     def factor(self, exercise: Exercise) -> float:
         """Return what a point of an exercise's checks is worth in this assignment."""
-        return self.weights[self.exercises.index(exercise)] / exercise.points
+        return self.worth[exercise.name] / exercise.points
 
     def identity(self, what: str) -> str:
         """Return a UUID that is the same whenever the same is handed out, so that uploading again replaces."""

@@ -128,7 +128,7 @@ def readme(assignment: Assignment) -> str:
     ]
     told = f" It {' and '.join(dates)}." if dates else ""
     where = " Set these dates there too: the zip cannot." if dates and assignment.service == "gradescope" else ""
-    table = [f"| {e.name} | {w:g} |" for e, w in zip(assignment.exercises, assignment.weights, strict=True)]
+    table = [f"| {name} | {points:g} |" for name, points in assignment.worth.items()]
     lines = [f"# {assignment.title}", "", f"{assignment.points:g} points.{told}{where}", ""]
     lines += ["| exercise | points |", "|---|---|", *table, "", *steps(assignment), ""]
     lines += ["`teacher` holds solutions, and so do the files of the grader: neither is for students."]
