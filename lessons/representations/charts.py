@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lessons.representations.state import Built, Cells, Fitted, Growth, Searched, State
+from lessons.representations.state import Built, Cells, Fitted, Growth, Joined, Searched, State
 from lessons.representations.words import field_error, form_of, size
 from workbench.algorithms.octree import Level
 from workbench.numerals import angle, length, percent
@@ -13,6 +13,7 @@ MEMORY = Chart("Error for its bytes", "log₁₀ bytes", "log₁₀ error (mm)")
 ERROR = Chart("Error of the surface", unit="mm")
 AREA = Chart("Area over the true area", unit="times")
 LOSS = Chart("Loss")
+PIECES = Chart("Pieces of the graph", unit="pieces")
 CELLS = Chart("Cells of the octree", "level", "log₁₀ cells")
 LOOKED = Chart("Points looked at, 3 dimensions", "log₁₀ points", "points looked at")
 SHARE = Chart("Share looked at, of 4,000 points", "dimensions", "%")
@@ -37,6 +38,10 @@ def beside(state: State) -> dict[str, Primitive]:
             scene["area"] = AREA.scalar(surface.area, _NAMED.get(state.params.form, "surface"))
             scene["true area"] = AREA.scalar(1.0, "truth", "truth")
             scene["surface table"] = _table(state)
+    if isinstance(now, Joined) and now.k:
+        scene["mean error"] = ERROR.scalar(_mm(now.mean), "middles of edges", log=True)
+        scene["worst error"] = ERROR.scalar(_mm(now.worst), "at worst", "wrong", log=True)
+        scene["pieces"] = PIECES.scalar(now.pieces, "joined")
     if isinstance(now, Cells) and np.isfinite(now.walls) and state.subject is not None:
         scene["walls"] = AREA.scalar(now.walls / state.subject.area, "walls of cells", "wrong")
     if isinstance(now, Cells) and field_error(state) is not None:

@@ -5,7 +5,7 @@ import functools
 import numpy as np
 
 from lessons.representations.charts import beside
-from lessons.representations.state import Built, Cells, Cloud, Fitted, Patches, Searched, State, Subject
+from lessons.representations.state import Built, Cells, Cloud, Fitted, Joined, Patches, Searched, State, Subject
 from lessons.representations.words import caption, subject_name
 from workbench.algorithms.kd_tree import Tree
 from workbench.algorithms.octree import Level
@@ -14,7 +14,7 @@ from workbench.geometry.polylines import segments, sphere_rings
 from workbench.geometry.voxels import Grid, counted_surface
 from workbench.scene import Field, Mesh, Picture, Points, Primitive, Scene, Segments
 
-MOST_POINTS, MOST_BOXES, MOST_QUADS = 8000, 260, 26_000
+MOST_POINTS, MOST_BOXES, MOST_QUADS, MOST_EDGES = 8000, 260, 26_000, 12_000
 ASIDE = np.array([0.0, 1.1, 0.85])  # m: a slice that is out of the way is behind and above
 REACH = 0.5  # m: the end of the colour bar of distances
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
@@ -30,6 +30,8 @@ def draw(state: State) -> Scene:
         scene["truth"] = _truth(state.subject)
     if isinstance(now, Cloud):
         scene |= _cloud(now)
+    elif isinstance(now, Joined):
+        scene |= _joined(now)
     elif isinstance(now, Cells | Fitted):
         scene |= _cells(state, now)
     elif isinstance(now, Level):
@@ -45,7 +47,10 @@ def draw(state: State) -> Scene:
 
 
 @functools.lru_cache(maxsize=8)
-def _truth(subject: Subject) -> Mesh:
+def _truth(subject: Subject) -> Mesh | Points:
+    if not len(subject.faces):
+        p = subject.p[every(len(subject.p), MOST_POINTS)]
+        return Points(p, "truth", 0.006, opacity=0.3, name=subject_name(subject))
     return Mesh(subject.p, subject.faces, "truth", opacity=0.18, name=subject_name(subject))
 
 
@@ -55,6 +60,17 @@ def _cloud(now: Cloud) -> dict[str, Primitive]:
         "points": Points(p, "source", float(np.clip(0.5 / np.sqrt(len(p)), 0.006, 0.025)), name="points"),
         "hole": Segments(sphere_rings(now.hole, now.worst), "wrong", 2, name="the largest hole"),
     }
+
+
+def _joined(now: Joined) -> dict[str, Primitive]:
+    scene: dict[str, Primitive] = {
+        "points": Points(now.p[every(len(now.p), MOST_POINTS)], "source", 0.008, name="points")
+    }
+    if now.k:
+        shown = now.edges[every(len(now.edges), MOST_EDGES)]
+        scene["edges"] = Segments(now.p[shown], "correspondence", 1, name="edges to the nearest")
+        scene["bridge"] = Segments(now.p[now.edges[[now.bridge]]], "wrong", 4, name="the edge that is farthest off")
+    return scene
 
 
 def _cells(state: State, now: Cells | Fitted) -> dict[str, Primitive]:

@@ -23,6 +23,7 @@ UNION = Params(shape="two boxes")
 CLOUD = Params(form="cloud", points=100_000)
 TRIANGLES = Params(form="mesh")
 OCTREE = Params(form="octree", depth=7)
+NEIGHBOURS = Params(form="neighbours", shape="rabbit", points=600, neighbours=10)
 SEARCH = Params(form="k-d tree", points=1000)
 TWENTY = Params(form="k-d tree", dimensions=20)
 CUBIC = Params(form="patches")
@@ -67,6 +68,11 @@ PRESETS: tuple[Preset[Params], ...] = (
         "octree", "Only where the surface is",
         "Cells that the surface may cross are cut in eight. Compare what the tree takes with bits for all cells.",
         OCTREE, 4, WIDE,
+    ),
+    Preset(
+        "neighbours", "Who is whose neighbour",
+        "600 points, each joined to ever more of its nearest ones: pieces become one, and edges leave the surface.",
+        NEIGHBOURS, 5, breaks=True,
     ),
     Preset(
         "search", "The nearest of a thousand",

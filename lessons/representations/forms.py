@@ -13,6 +13,7 @@ from lessons.representations.state import (
     Fitted,
     Form,
     Growth,
+    Joined,
     Params,
     Patches,
     Searched,
@@ -26,6 +27,8 @@ from workbench.algorithms.neural_field import new_network, train_field
 from workbench.algorithms.octree import grow_octree
 from workbench.data import surfaces
 from workbench.geometry.bezier import bezier_patch, de_casteljau, raised_patch, torus_patches
+from workbench.geometry.graphs import components, directed_graph, edges_of, joined
+from workbench.geometry.graphs import neighbours as nearest
 from workbench.geometry.level_sets import EdgeCrossings, edge_crossings, level_surface
 from workbench.geometry.sampling import points_on_faces
 from workbench.geometry.simplification import clustered, halved
@@ -71,13 +74,42 @@ def grown(state: State, size: int, error: float) -> State:
 
 def cloud(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield ever more points of the surface."""
-    u, state = np.random.default_rng(params.seed).random((params.points, 3)), State(params=params, subject=subject)
-    p = points_on_faces(subject.p, subject.faces, u)
+    p, state = spread(params, subject), State(params=params, subject=subject)
     counts = CLOUD_FROM * 2 ** np.arange(0, 11)
-    for count in (*counts[counts < params.points].tolist(), params.points):
+    for count in (*counts[counts < len(p)].tolist(), len(p)):
         mean, worst, hole = covered(subject, p[:count])
         now = Cloud(p=p[:count], mean=mean, worst=worst, hole=hole)
         state = grown(replace(state, now=now), 12 * count, mean)
+        yield state
+
+
+def spread(params: Params, subject: Subject) -> np.ndarray:
+    """Return points of the surface as chance has them, or of an own cloud as many of its own."""
+    rng = np.random.default_rng(params.seed)
+    if len(subject.faces):
+        return points_on_faces(subject.p, subject.faces, rng.random((params.points, 3)))
+    return rng.permutation(subject.p)[: params.points]
+
+
+def neighbours(params: Params, subject: Subject, functions: Functions) -> Steps:
+    """Yield points alone, and then each joined to ever more of its nearest ones."""
+    p = spread(params, subject)
+    now = Joined(p=p, k=0, edges=np.empty((0, 2), int), pieces=len(p))
+    state = State(params=params, subject=subject, now=now, bytes=12 * len(p))
+    yield state
+    if len(p) < 3:
+        return
+    most = min(params.neighbours, len(p) - 1)
+    rows, _ = nearest(p, most)
+    for k in range(1, most + 1):
+        graph = joined(directed_graph(rows[:, :k]), "union")
+        edges = edges_of(graph)
+        away = np.abs(subject.distance(p[edges].mean(axis=1)))
+        now = Joined(
+            p=p, k=k, edges=edges, pieces=int(components(graph).max()) + 1,
+            mean=float(away.mean()), worst=float(away.max()), bridge=int(away.argmax()),
+        )  # fmt: skip
+        state = grown(replace(state, now=now), 12 * len(p) + 4 * k * len(p), now.mean)
         yield state
 
 
@@ -236,11 +268,12 @@ def evaluated(bezier_patch: BezierPatch, control: np.ndarray, uv: np.ndarray) ->
 
 def kd_tree(params: Params, subject: Subject | None, functions: Functions) -> Steps:
     """Yield the cuts of a k-d tree, then the cells that a search looks into."""
-    rng, d = np.random.default_rng(params.seed), params.dimensions
-    tree = build_tree(rng.uniform(-1, 1, (params.points, d)), np.full(d, -1.0), np.full(d, 1.0))
+    rng, d = np.random.default_rng(params.seed), params.dimensions if subject is None else 3
+    p = rng.uniform(-1, 1, (params.points, d)) if subject is None else spread(params, subject)
+    tree = build_tree(p, np.full(d, -1.0), np.full(d, 1.0))
     query = np.concatenate([params.query, rng.uniform(-1, 1, d)])[:d]
     deepest = int(tree.depth.max())
-    state = State(params=params, subject=None, bytes=12 * params.points)
+    state = State(params=params, subject=None, bytes=4 * p.size)
     for depth in sorted({0, 1, 2, 3, 4, 6, deepest}):
         if depth <= deepest:
             yield replace(state, now=Built(tree=tree, depth=depth))
@@ -277,6 +310,7 @@ def _nothing() -> tuple[np.ndarray, np.ndarray]:
 
 FORMS: dict[Form, Callable[..., Steps]] = {
     "cloud": cloud,
+    "neighbours": neighbours,
     "mesh": mesh,
     "voxels": voxels,
     "distances": distances,
@@ -289,7 +323,7 @@ FORMS: dict[Form, Callable[..., Steps]] = {
 
 def others(params: Params, subject: Subject) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Return bytes and errors of the other forms that are quickly made, at a few sizes."""
-    found = _references(subject, only(params, "shape", "mesh"))
+    found = {} if params.cloud else _references(subject, only(params, "shape", "mesh"))
     return {form: points for form, points in found.items() if form != params.form}
 
 

@@ -28,15 +28,16 @@ def run(
     """Yield one form, finer at each step, and in the end beside other forms."""
     functions = Functions(bezier_patch=bezier_patch, edge_crossings=edge_crossings)
     if params.form == "k-d tree":
-        yield from FORMS[params.form](params, None, functions)
+        own = subject_of(params, box_sdf) if params.cloud else None
+        yield from FORMS[params.form](params, own, functions)
         return
-    shaped = replace(params, shape="torus", mesh=None) if params.form == "patches" else params
+    shaped = replace(params, shape="torus", mesh=None, cloud=None) if params.form == "patches" else params
     subject = subject_of(shaped, box_sdf)
     state = None
     for state in FORMS[params.form](params, subject, functions):
         yield state
-    if state is not None:
-        yield replace(state, others=others(shaped, subject))
+    if state is not None and (beside := others(shaped, subject)):
+        yield replace(state, others=beside)
 
 
 lesson = Lesson(

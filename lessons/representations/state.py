@@ -14,9 +14,9 @@ from workbench.data.framing import Upward
 from workbench.geometry.voxels import Grid
 from workbench.knobs import Gizmo, Knob
 
-Form = Literal["cloud", "mesh", "voxels", "distances", "octree", "k-d tree", "patches", "neural"]
+Form = Literal["cloud", "neighbours", "mesh", "voxels", "distances", "octree", "k-d tree", "patches", "neural"]
 Shape = Literal["torus", "box", "rabbit", "plate", "two boxes"]
-SHAPED = {"form": ("cloud", "mesh", "voxels", "distances", "octree", "neural")}
+SHAPED = {"form": ("cloud", "neighbours", "mesh", "voxels", "distances", "octree", "neural")}
 NEURAL = {"form": ("neural",)}
 
 
@@ -33,8 +33,9 @@ class Params:
     points: Annotated[
         int,
         Knob("Points at the end, of a mesh vertices at most", 100, 100_000, step=100,
-             needs={"form": ("cloud", "mesh", "k-d tree")}),
+             needs={"form": ("cloud", "neighbours", "mesh", "k-d tree")}),
     ] = 4000  # fmt: skip
+    neighbours: Annotated[int, Knob("How many each point is joined to", 1, 16, needs={"form": ("neighbours",)})] = 8
     thickness: Annotated[
         float,
         Knob("Of the plate, in cells of the last grid", 0.2, 2, unit="cells", step=0.1, needs={"shape": ("plate",)}),
@@ -57,7 +58,8 @@ class Params:
         Knob("Whose nearest point is looked for", -1, 1, unit="m", by=Gizmo(0.3), needs={"form": ("k-d tree",)}),
     ] = (0.35, -0.6, 0.25)  # fmt: skip
     mesh: Annotated[Path | None, Knob("Own mesh instead: off, obj, ply, stl, glb")] = None
-    up: Annotated[Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)] = "auto"
+    cloud: Annotated[Path | None, Knob("Own points instead: ply, pcd, obj, xyz, csv, npz")] = None
+    up: Annotated[Upward, Knob("Which axis of an own file points up; auto guesses", of_files=True)] = "auto"
     seed: Annotated[int, Knob("What chance draws, and how the plate lies", 0, 99)] = 0
 
 
@@ -67,8 +69,8 @@ class Subject:
 
     Attributes:
         name: What it is called in sentences.
-        p: Vertices of a fine mesh of it.
-        faces: Counterclockwise seen from outside.
+        p: Vertices of a fine mesh of it; of an own cloud its points.
+        faces: Counterclockwise seen from outside; none of a cloud.
         distance: The true distance of points to it, negative inside; nowhere negative where it is open.
         field: What is stored as its distance.
         inside: Which points it encloses.
@@ -126,6 +128,19 @@ class Cloud:
     mean: float
     worst: float
     hole: np.ndarray
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Joined:
+    """Points, each joined to its k nearest: edges (e, 2), pieces, how far middles of edges are off, m, whose is worst."""
+
+    p: np.ndarray
+    k: int
+    edges: np.ndarray
+    pieces: int
+    mean: float = 0.0
+    worst: float = 0.0
+    bridge: int = -1
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -212,7 +227,7 @@ class State:
 
     params: Params
     subject: Subject | None
-    now: Cloud | Cells | Level | Patches | Built | Searched | Fitted | None = None
+    now: Cloud | Joined | Cells | Level | Patches | Built | Searched | Fitted | None = None
     surface: Surface | None = None
     bytes: int = 0
     sizes: tuple[int, ...] = ()

@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from lessons.representations.state import Params, Shape, Subject, Surface
+from lessons.representations.state import Form, Params, Shape, Subject, Surface
 from workbench.data import solids, surfaces
-from workbench.data.files import stamp
-from workbench.data.framing import UPRIGHT, Upward, box, extent, upward
+from workbench.data.files import read_cloud, stamp
+from workbench.data.framing import UPRIGHT, Upward, box, extent, own_points, upward
 from workbench.data.own_meshes import read_welded
 from workbench.data.rabbit import rabbit_mesh
+from workbench.data.thinning import some_points
 from workbench.errors import InputError
 from workbench.geometry import signed_distances
 from workbench.geometry.containment import windings
@@ -31,6 +32,8 @@ PLATE = 0.6  # m, half of its long sides
 PAIR_HALF, PAIR_APART = np.array([0.325, 0.3, 0.3]), np.array([0.275, 0.0, 0.0])
 OWN_SIZE = 1.6  # m of the picture that an own mesh is long
 MOST_OWN = 50_000  # faces
+MOST_CLOUD = 20_000  # points of an own cloud
+OF_CLOUDS: tuple[Form, ...] = ("cloud", "neighbours", "k-d tree")
 SPREAD = 2048  # points at which surfaces are compared
 STEP = 1e-4  # m, of the true normals' differences
 
@@ -41,6 +44,15 @@ def subject_of(params: Params, box_sdf: BoxSdf) -> Subject:
     Raises:
         InputError: If an own file cannot be used, or it has no inside where one is needed.
     """
+    if params.cloud is not None:
+        if params.mesh is not None:
+            raise InputError("--mesh and --cloud are both given: one of them is stored")
+        if params.form not in OF_CLOUDS:
+            forms = ", ".join(OF_CLOUDS)
+            raise InputError(
+                f"{params.cloud.name} is points, which have no faces and no inside; --form is one of {forms}"
+            )
+        return _own_cloud(params.cloud, stamp(params.cloud), params.up)
     if params.mesh is not None:
         subject = _own(params.mesh, stamp(params.mesh), params.up)
         if not subject.closed and params.form not in ("cloud", "mesh"):
@@ -184,3 +196,19 @@ def _own(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
     low, high = box(p)
     scale = OWN_SIZE / extent(p)
     return _of_mesh(path.name, scale * (p - (low + high) / 2) @ UPRIGHT[axis].T, faces)
+
+
+@functools.lru_cache(maxsize=4)
+def _own_cloud(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
+    """Return points whose truth is nothing but themselves."""
+    p = some_points(read_cloud(path, fewest=2), MOST_CLOUD, np.random.default_rng(0))
+    p = own_points(p, path, up, OWN_SIZE)
+    tree = scipy.spatial.cKDTree(p)
+
+    def distance(q: np.ndarray) -> np.ndarray:
+        return np.asarray(tree.query(q)[0])
+
+    return Subject(
+        name=path.name, p=p, faces=np.empty((0, 3), int), distance=distance, field=distance,
+        inside=lambda q: np.zeros(len(q), dtype=bool), area=float("nan"), volume=float("nan"), on=p, quick=False,
+    )  # fmt: skip

@@ -8,6 +8,7 @@ from lessons.representations.state import (
     Cloud,
     Fitted,
     Growth,
+    Joined,
     Params,
     Patches,
     Searched,
@@ -31,10 +32,13 @@ def caption(state: State) -> Caption:
     if state.others:
         return _others(state)
     if isinstance(now, Cloud):
+        surface = "The surface is" if state.params.cloud is None else "The points of the file are"
         return Caption(
-            f"{len(now.p):,} points, {size(state.bytes)}. The surface is {length(now.mean, 2)} from the nearest of them on"
+            f"{len(now.p):,} points, {size(state.bytes)}. {surface} {length(now.mean, 2)} from the nearest of them on"
             f" average, {length(now.worst, 2)} in the largest hole. What lies between points, nobody knows."
         )
+    if isinstance(now, Joined):
+        return _joined(state, now)
     if isinstance(now, Cells):
         return _cells(state, now) if surface is None else Caption(_came_back(state, surface))
     if isinstance(now, Level):
@@ -83,6 +87,20 @@ def _sizes(surface: Surface) -> str:
     if np.isfinite(surface.volume):
         text += f"; volume: {more(surface.volume)}"
     return f"{text}; normals {angle(surface.tilt, 2)} off." if np.isfinite(surface.tilt) else f"{text}."
+
+
+def _joined(state: State, now: Joined) -> Caption:
+    if not now.k:
+        return Caption(
+            f"{counted(len(now.p), 'point')}, {size(state.bytes)}. They do not say who is whose neighbour on the surface."
+        )
+    whom = "its nearest one" if now.k == 1 else f"its {now.k} nearest"
+    off = "off the surface" if state.params.cloud is None else "from the nearest point of the file"
+    return Caption(
+        f"Each point joined to {whom}: {counted(len(now.edges), 'edge')}, {counted(now.pieces, 'piece')},"
+        f" {size(state.bytes)}. Middles of edges are {length(now.mean, 2)} {off} on average,"
+        f" {length(now.worst, 2)} at worst."
+    )
 
 
 def _cells(state: State, now: Cells) -> Caption:
@@ -218,7 +236,7 @@ def _others(state: State) -> Caption:
     names = ", ".join(_NAMES[name] for name in state.others)
     if surface is not None and not len(surface.p):
         return Caption(f"{size(state.bytes)}, and no surface came back. Beside it in the chart: {names}.", "wrong")
-    error = now.mean if isinstance(now, Cloud) else state.errors[-1]
+    error = now.mean if isinstance(now, Cloud | Joined) else state.errors[-1]
     off = "off by nothing but rounding" if error < ROUND_OFF else f"{length(error, 2)} off on average"
     text = f"{capital(subject.name)} in {size(state.bytes)}, {off}"
     if lost(state) and surface is not None:

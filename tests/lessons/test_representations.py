@@ -8,7 +8,7 @@ import pytest
 
 from lessons.representations.forms import FORMS, Functions, cube
 from lessons.representations.lesson import lesson, run
-from lessons.representations.state import Cells, Fitted, Params, Patches, Searched, State
+from lessons.representations.state import Cells, Fitted, Joined, Params, Patches, Searched, State
 from lessons.representations.subjects import HALF, measured, subject_of
 from tests.runs import finished
 from workbench.algorithms.octree import Level
@@ -110,6 +110,18 @@ def test_four_times_the_points_half_the_distance():
     assert slope(last, 2) == pytest.approx(-0.5, abs=0.03)
     at = dict(zip(last.sizes, last.errors, strict=True))
     assert at[1_200_000] == pytest.approx(3.9e-3, rel=0.05)
+
+
+def test_more_neighbours_make_one_piece_and_leave_the_surface():
+    graphs = [state.now for state in of("neighbours")[:-1] if isinstance(state.now, Joined)]
+    assert [graph.k for graph in graphs] == list(range(11))
+    pieces = np.array([graph.pieces for graph in graphs])
+    assert (np.diff(pieces) <= 0).all()
+    assert pieces[5] == 1 < pieces[3]
+    means = [graph.mean for graph in graphs[1:]]
+    assert (np.diff(means) > 0).all()
+    assert graphs[10].worst > 1.5 * graphs[5].worst > 1.5 * graphs[1].worst
+    assert of("neighbours")[-2].bytes == 600 * (12 + 40)
 
 
 def test_twice_the_vertices_half_the_error():

@@ -82,6 +82,37 @@ def test_files_that_are_none(tmp_path):
         next(run(Params(mesh=tmp_path / "big.ply")))
 
 
+def test_own_points_are_stored_as_points(tmp_path):
+    p = np.random.default_rng(0).normal(size=(300, 3)) * [2000, 500, 100] + 1e5
+    np.savetxt(tmp_path / "scan.csv", p, delimiter=",")
+    *_, last = run(Params(cloud=tmp_path / "scan.csv", form="cloud", points=200))
+    assert last.now.hole in last.subject.p
+    assert np.ptp(last.subject.p, axis=0).max() == pytest.approx(OWN_SIZE)
+    assert not last.others
+    text = caption_of(lesson.draw(last)).text
+    assert "200 points, 2.4 kB. The points of the file are" in text
+    *_, last = run(Params(cloud=tmp_path / "scan.csv", form="neighbours", points=500, neighbours=6))
+    assert len(last.now.p) == 300
+    assert "from the nearest point of the file" in caption_of(lesson.draw(last)).text
+    *_, found, last = run(Params(cloud=tmp_path / "scan.csv", form="k-d tree", points=300, dimensions=9))
+    assert found.now.tree.p.shape == (300, 3)
+    assert found.now.visits[-1].distance == pytest.approx(
+        np.linalg.norm(found.now.tree.p - found.now.query, axis=1).min()
+    )
+    assert last.growth is not None
+
+
+def test_points_are_no_solid(tmp_path):
+    (tmp_path / "few.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
+    for form in ("distances", "mesh", "voxels", "octree", "neural"):
+        with pytest.raises(InputError, match=r"few\.xyz is points, .* cloud, neighbours, k-d tree"):
+            next(run(Params(cloud=tmp_path / "few.xyz", form=form)))
+    with pytest.raises(InputError, match="both given"):
+        next(run(Params(cloud=tmp_path / "few.xyz", mesh=tmp_path / "few.ply", form="cloud")))
+    for form in ("cloud", "neighbours", "k-d tree"):
+        assert all(caption_of(lesson.draw(state)).text for state in run(Params(cloud=tmp_path / "few.xyz", form=form)))
+
+
 # real meshes ----------------------------------------------------------------------------------------------------------
 
 

@@ -24,13 +24,16 @@ def half_size(params: Params) -> np.ndarray:
 
 
 def distance(params: Params, q: np.ndarray) -> np.ndarray:
-    """How far points are from the true surface, negative inside; of the rabbit without a sign, to half a millimetre."""
+    """How far points are from the true surface, negative inside; of the rabbit without a sign."""
     if shape_of(params) == "torus":
         along = np.where(q[:, :2].any(axis=1, keepdims=True), q[:, :2], [1.0, 0.0])  # from the axis any way is as far
         on_ring = 0.6 * along / np.linalg.norm(along, axis=1, keepdims=True)
         return np.linalg.norm(q - np.column_stack([on_ring, np.zeros(len(q))]), axis=1) - 0.25
     if params.shape == "rabbit":
-        return np.asarray(dense_rabbit().query(q)[0])
+        triangles, tree, of = dense_rabbit()
+        near = of[tree.query(q, 6)[1]]
+        found = trimesh.triangles.closest_point(triangles[near.ravel()], np.repeat(q, 6, axis=0)).reshape(-1, 6, 3)
+        return np.linalg.norm(found - q[:, None], axis=2).min(axis=1)
     half = half_size(params)
     if params.shape == "plate":
         turn = 1.5 * np.random.default_rng(params.seed).normal(size=3)
@@ -41,10 +44,12 @@ def distance(params: Params, q: np.ndarray) -> np.ndarray:
 
 
 @lru_cache(maxsize=1)
-def dense_rabbit() -> scipy.spatial.cKDTree:
+def dense_rabbit() -> tuple[np.ndarray, scipy.spatial.cKDTree, np.ndarray]:
+    """Its triangles, points spread over them, and on which triangle each lies."""
     p, faces = rabbit_mesh(0.04)
     p = 1.6 * (p - (p.min(axis=0) + p.max(axis=0)) / 2)
-    return scipy.spatial.cKDTree(points_on_faces(p, faces, np.random.default_rng(9).random((300_000, 3))))
+    spread, of = trimesh.sample.sample_surface(trimesh.Trimesh(p, faces, process=False), 300_000, seed=9)
+    return p[faces], scipy.spatial.cKDTree(spread), np.asarray(of)
 
 
 def sizes(params: Params) -> tuple[float, float]:

@@ -39,15 +39,9 @@ def says_more(text: str, share: float) -> bool:
     return (which == "more") == (share > 1) and says_percent(said, abs(share - 1))
 
 
-def close_length(run: Run, text: str, metres: float) -> bool:
-    """Two digits; of the rabbit, whose distance is known to half a millimetre, that much more."""
-    loose = 6e-4 if run.params.shape == "rabbit" else 0.0
-    return near_length(text, metres, 2) or any(near_length(text, metres + d, 2) for d in (-loose, -loose / 2))
-
-
 def _errors(run: Run, k: int, m: re.Match[str]) -> bool:
     mean, worst = errors(run.states[k])
-    return close_length(run, m[1], mean) and close_length(run, m[2], worst)
+    return near_length(m[1], mean, 2) and near_length(m[2], worst, 2)
 
 
 def _volume(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -60,6 +54,20 @@ def _cloud(run: Run, k: int, m: re.Match[str]) -> bool:
     away = np.asarray(scipy.spatial.KDTree(state.now.p).query(state.subject.on)[0])
     said = near_length(m[3], away.mean(), 2) and near_length(m[4], away.max(), 2)
     return said and number(m[1]) == len(state.now.p) and says_size(m[2], 12 * len(state.now.p))
+
+
+def _edges(run: Run, k: int, m: re.Match[str]) -> bool:
+    now = run.states[k].now
+    count = 1 if m[1] == "nearest one" else int(m[1].split(" ")[0])
+    _, rows = scipy.spatial.KDTree(now.p).query(now.p, count + 1)
+    pairs = np.unique(np.sort(np.column_stack([np.repeat(rows[:, 0], count), rows[:, 1:].ravel()]), axis=1), axis=0)
+    n, ones = len(now.p), np.ones(len(pairs))
+    pieces, _ = scipy.sparse.csgraph.connected_components(
+        scipy.sparse.coo_array((ones, pairs.T), (n, n)), directed=False
+    )
+    away = np.abs(distance(run.params, now.p[pairs].mean(axis=1)))
+    said = number(m[2]) == len(pairs) and number(m[3]) == pieces and says_size(m[4], 4 * n * (3 + count))
+    return said and near_length(m[5], away.mean(), 2) and near_length(m[6], away.max(), 2)
 
 
 def _bits(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -150,6 +158,8 @@ def _control_points(run: Run, k: int, m: re.Match[str]) -> bool:
 CAPTIONS = [
     Claim(rf"{VALUE} points, {SIZE}\. The surface is {WAY} from the nearest of them on average, {WAY} in the"
           r" largest hole", _cloud),
+    Claim(rf"joined to its (nearest one|\d+ nearest): {VALUE} edges?, {VALUE} pieces?, {SIZE}\. Middles of edges are {WAY}"
+          rf" off the surface on average, {WAY} at worst", _edges),
     Claim(rf"{WAY} off on average, {WAY} at worst", _errors),
     Claim(r"nothing but rounding is off", lambda run, k, m: errors(run.states[k])[1] < 1e-9),
     Claim(rf"Area: {MORE}", lambda run, k, m:
@@ -204,6 +214,12 @@ LINES = {
     "union": [
         Claim(r"The surface is fine", lambda run, k, m:
               errors(run.states[-1])[0] < 0.1 * float(run.states[-1].now.grid.spacing[0])),
+    ],
+    "neighbours": [
+        Claim(r"pieces become one", lambda run, k, m:
+              run.states[1].now.pieces > 1 == run.states[-1].now.pieces),
+        Claim(r"edges leave the surface", lambda run, k, m:
+              float(distance(run.params, run.states[-1].now.p[run.states[-1].now.edges].mean(axis=1)).max()) > 0.05),
     ],
     "cloud": [
         Claim(r"Four times the points, half the distance", lambda run, k, m: all(
