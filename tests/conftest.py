@@ -4,6 +4,10 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from workbench.threads import ONE_EACH
+
+os.environ |= ONE_EACH  # before numpy is imported; workers inherit it
+
 import pytest
 from beartype import BeartypeConf
 from jaxtyping import install_import_hook

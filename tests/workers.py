@@ -7,7 +7,10 @@ import re
 
 from xdist.scheduler import LoadScopeScheduling
 
-RUN_LESSONS = re.compile(r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers|page/test_article)\.py::\w+\[(\w+)")
+RUN_LESSONS = re.compile(
+    r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers|page/test_article|page/test_links|page/test_thumbnail)\.py::"
+    r"\w+\[(\w+)"
+)
 OF_A_LESSON = re.compile(r"tests/lessons/test_(\w+?)(?:_(?:own|slots|drawn|run))?\.py::")
 HOMES_OF_A_LESSON = re.compile(r"(tests/browser/test_matrix\.py::\w+\[\w+)-")
 AUDITS = re.compile(r"tests/test_verdicts\.py::")

@@ -5,9 +5,12 @@ import sys
 import warnings
 from typing import Any
 
+from workbench.threads import one_each
+
 
 def main() -> int:
     """Carry out the command line and return the exit code."""
+    one_each()
     with warnings.catch_warnings():
         _tell_in_one_line()
         return _carry_out()

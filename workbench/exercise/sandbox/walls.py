@@ -16,6 +16,7 @@ from typing import IO
 
 from workbench.errors import InputError
 from workbench.exercise.sandbox import bubblewrap, python
+from workbench.threads import ONE_EACH
 
 START_SECONDS = 30.0
 """How long Python and numpy may take to start."""
@@ -69,7 +70,7 @@ class Wall:
         child = f"{bubblewrap.CHILD}/child.py" if boxed else str(python.INSIDE / "child.py")
         quiet = ["-W", "ignore::RuntimeWarning"]  # numpy's are not what the student printed
         environment = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": bubblewrap.FOLDER if boxed else folder}
-        environment |= {f"{library}_NUM_THREADS": "1" for library in ("OPENBLAS", "OMP", "MKL")}
+        environment |= ONE_EACH
         command = [files.executable, "-I", "-S", "-B", "-u", *quiet, child, json.dumps(settings)]
         if boxed:
             known = [word for pair in environment.items() for word in ("--setenv", *pair)]
