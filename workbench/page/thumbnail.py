@@ -48,7 +48,7 @@ def telling_step(lesson: Lesson, timeline: Timeline) -> int:
 def picture_of(scene: Scene, view: View, size: tuple[int, int] = SIZE) -> bytes:
     """Return a scene as a WebP image with a transparent ground."""
     file = io.BytesIO()
-    drawn(scene, view, size).save(file, "WEBP", quality=82, method=6)
+    drawn(scene, view, size).save(file, "WEBP", quality=82)  # what method 6 saves, 3 %, takes a hundred times as long
     return file.getvalue()
 
 
