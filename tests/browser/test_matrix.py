@@ -97,7 +97,7 @@ def is_stepped_and_played_by_keys(home: Home) -> None:
 
     def shows(k: int) -> None:
         home.says(run[k].caption.text, k)
-        assert home.find("#count").inner_text() == f"{k} / {last}"
+        home.until("said => $('#count').innerText === said", f"{k} / {last}")
 
     home.press("Tab")
     assert home.ask("document.activeElement.className") == "skip"

@@ -143,8 +143,11 @@ def test_a_file_that_does_not_load_names_the_line(student, head, said):
 
 def test_a_missing_function_and_a_missing_file_are_told(tmp_path):
     (tmp_path / "my.py").write_text("x = 1\n")
-    with pytest.raises(StudentError, match="defines no function centroid"):
-        Student(tmp_path / "my.py", "centroid").start()
+    with (
+        pytest.raises(StudentError, match="defines no function centroid"),
+        Student(tmp_path / "my.py", "centroid") as one,
+    ):
+        one.start()
     with pytest.raises(InputError, match="cannot be read"):
         Student(tmp_path / "other.py", "centroid")
 
@@ -162,6 +165,15 @@ def test_nothing_is_left_behind(student, tmp_path):
     function.close()
     assert process is not None
     assert process.poll() is not None
+
+
+def test_a_run_that_goes_on_does_not_start_what_was_closed(student):
+    function = student("return p[0]")
+    function(POINTS)
+    function.close()
+    with pytest.raises(StudentError, match="no longer in use"):
+        function(POINTS)
+    assert function._process is None
 
 
 CHEATS = {

@@ -85,20 +85,22 @@ def test_files_that_are_none(tmp_path):
 def test_own_points_are_stored_as_points(tmp_path):
     p = np.random.default_rng(0).normal(size=(300, 3)) * [2000, 500, 100] + 1e5
     np.savetxt(tmp_path / "scan.csv", p, delimiter=",")
-    *_, last = run(Params(cloud=tmp_path / "scan.csv", form="cloud", points=200))
+
+    def ends(**options: Any) -> list[Any]:
+        return list(run(Params(cloud=tmp_path / "scan.csv", **options)))
+
+    last = ends(form="cloud", points=200)[-1]
     assert last.now.hole in last.subject.p
     assert np.ptp(last.subject.p, axis=0).max() == pytest.approx(OWN_SIZE)
     assert not last.others
-    text = caption_of(lesson.draw(last)).text
-    assert "200 points, 2.4 kB. The points of the file are" in text
-    *_, last = run(Params(cloud=tmp_path / "scan.csv", form="neighbours", points=500, neighbours=6))
+    assert "200 points, 2.4 kB. The points of the file are" in caption_of(lesson.draw(last)).text
+    last = ends(form="neighbours", points=500, neighbours=6)[-1]
     assert len(last.now.p) == 300
     assert "from the nearest point of the file" in caption_of(lesson.draw(last)).text
-    *_, found, last = run(Params(cloud=tmp_path / "scan.csv", form="k-d tree", points=300, dimensions=9))
-    assert found.now.tree.p.shape == (300, 3)
-    assert found.now.visits[-1].distance == pytest.approx(
-        np.linalg.norm(found.now.tree.p - found.now.query, axis=1).min()
-    )
+    *_, found, last = ends(form="k-d tree", points=300, dimensions=9)
+    tree, query = found.now.tree, found.now.query
+    assert tree.p.shape == (300, 3)
+    assert found.now.visits[-1].distance == pytest.approx(np.linalg.norm(tree.p - query, axis=1).min())
     assert last.growth is not None
 
 

@@ -31,7 +31,7 @@ def distance(params: Params, q: np.ndarray) -> np.ndarray:
         return np.linalg.norm(q - np.column_stack([on_ring, np.zeros(len(q))]), axis=1) - 0.25
     if params.shape == "rabbit":
         triangles, tree, of = dense_rabbit()
-        near = of[tree.query(q, 6)[1]]
+        near = of[np.asarray(tree.query(q, 6)[1])]
         found = trimesh.triangles.closest_point(triangles[near.ravel()], np.repeat(q, 6, axis=0)).reshape(-1, 6, 3)
         return np.linalg.norm(found - q[:, None], axis=2).min(axis=1)
     half = half_size(params)
@@ -48,8 +48,8 @@ def dense_rabbit() -> tuple[np.ndarray, scipy.spatial.cKDTree, np.ndarray]:
     """Its triangles, points spread over them, and on which triangle each lies."""
     p, faces = rabbit_mesh(0.04)
     p = 1.6 * (p - (p.min(axis=0) + p.max(axis=0)) / 2)
-    spread, of = trimesh.sample.sample_surface(trimesh.Trimesh(p, faces, process=False), 300_000, seed=9)
-    return p[faces], scipy.spatial.cKDTree(spread), np.asarray(of)
+    found = trimesh.sample.sample_surface(trimesh.Trimesh(p, faces, process=False), 300_000, seed=9)
+    return p[faces], scipy.spatial.cKDTree(found[0]), np.asarray(found[1])
 
 
 def sizes(params: Params) -> tuple[float, float]:

@@ -59,7 +59,7 @@ def _cloud(run: Run, k: int, m: re.Match[str]) -> bool:
 def _edges(run: Run, k: int, m: re.Match[str]) -> bool:
     now = run.states[k].now
     count = 1 if m[1] == "nearest one" else int(m[1].split(" ")[0])
-    _, rows = scipy.spatial.KDTree(now.p).query(now.p, count + 1)
+    rows = np.asarray(scipy.spatial.KDTree(now.p).query(now.p, count + 1)[1])
     pairs = np.unique(np.sort(np.column_stack([np.repeat(rows[:, 0], count), rows[:, 1:].ravel()]), axis=1), axis=0)
     n, ones = len(now.p), np.ones(len(pairs))
     pieces, _ = scipy.sparse.csgraph.connected_components(

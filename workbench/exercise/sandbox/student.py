@@ -75,6 +75,7 @@ class Student:
         self._process: subprocess.Popen | None = None
         self._pipe: Pipe | None = None
         self._printed: IO[bytes] | None = None
+        self._closed = False
 
     def __call__(self, *args: Any, **options: Any) -> Any:
         """Return what the student's function returns for these arguments, as plain values.
@@ -112,9 +113,10 @@ class Student:
         """Start the process and load the student's file.
 
         Raises:
-            StudentError: If the file does not load or lacks the function.
+            StudentError: If the file does not load or lacks the function, or all was closed.
         """
         self._end()
+        self._must_be_open()
         self._pipe = Pipe()
         self._printed = self._printed or anonymous()
         folder = "/" if self.wall.holds else tempfile.mkdtemp(prefix="exercise-")
@@ -134,6 +136,9 @@ class Student:
                 os.rmdir(
                     folder
                 )  # the process stays in it: a folder that is no more takes no files, and none stays behind
+        if self._closed:  # by another thread just now: nobody would end the process
+            self.close()
+        self._must_be_open()
         self._ask({"do": "start"}, START_SECONDS)
         modules = [list(pair) for pair in self.submission.modules.items()]
         self._ask({"do": "load", "source": self.source, "name": self.name, "modules": modules}, LOAD_SECONDS)
@@ -146,11 +151,16 @@ class Student:
             return ""
 
     def close(self) -> None:
-        """End the process and everything it started; nothing of it is left."""
+        """End the process and everything it started; nothing of it is left, and a run that goes on cannot start it again."""
+        self._closed = True
         self._end()
         if self._printed is not None:
             self._printed.close()
             self._printed = None
+
+    def _must_be_open(self) -> None:
+        if self._closed:
+            raise StudentError(f"{self.name} was not called: its file is no longer in use", "died")
 
     def __enter__(self) -> "Student":
         """Return itself; leaving the block ends the process."""
@@ -205,7 +215,7 @@ class Student:
         line = line if isinstance(line, int) and not isinstance(line, bool) else 0
         where = f"{self.submission.file}, line {line}: " if line else f"{self.submission.file}: "
         if loading:
-            self.close()
+            self._end()
             return StudentError(f"{where}the file does not load: {error}: {said}", "load", error, line)
         if error == "WireError":
             return StudentError(f"{where}{self.name} returned what is no result: {said}", "result", "", line)
