@@ -10,11 +10,13 @@ from workbench.algorithms.fit_studies import Basin, Lines, Rivals, Spread
 from workbench.algorithms.least_squares import Descent
 from workbench.algorithms.robust import LOSSES
 from workbench.algorithms.round_shapes import CYLINDER
+from workbench.data.thinning import every
 from workbench.geometry.algebraic_fits import ALGEBRAIC
 from workbench.geometry.clipping import plane_in_box
 from workbench.geometry.cylinders import across
+from workbench.geometry.lines_planes import line_angle
 from workbench.geometry.polylines import between, circle, fan, segments, sphere_rings
-from workbench.numerals import brief, fixed
+from workbench.numerals import angle, brief, fixed
 from workbench.scene import Chart, Classes, Field, Mesh, Picture, Points, Primitive, Role, Scene, Segments, Table
 
 COST = Chart("Sum of squares", unit="m²")
@@ -106,14 +108,11 @@ def _walked(state: State, walked: Walked) -> dict[str, Primitive]:
         at = solid(feet(subject, now.unknown))
         scene["distances"] = Segments(_near(between(solid(subject.p), at)), "correspondence", 1.5, name="distances")
     if now.phase == "linearised" and subject.p.shape[1] == 2:
-        n = now.jacobian[:, :2]
-        across_n, at = 0.07 * np.column_stack([-n[:, 1], n[:, 0]]), feet(subject, now.unknown)
-        scene["tangents"] = Segments(
-            _near(between(solid(at - across_n), solid(at + across_n))),
-            "highlight",
-            3.0,
-            name="tangents: the linear problem",
-        )
+        some = every(len(subject.p), 9)
+        n, at = now.jacobian[some, :2], feet(subject, now.unknown)[some]
+        along = 0.25 * np.column_stack([-n[:, 1], n[:, 0]])
+        ends = _near(between(solid(at - along, 0.01), solid(at + along, 0.01)))
+        scene["tangents"] = Segments(ends, "highlight", 3.0, name="tangents")
     if now.trial is not None and now.phase in ("tried", "rejected"):
         dashed = outline(subject, now.trial)[::2]
         scene["trial"] = Segments(dashed, "highlight", 3.0, name="trial" if now.phase == "tried" else "taken back")
@@ -153,7 +152,7 @@ def _spread(subject: Subject, now: Spread) -> dict[str, Primitive]:
     scene["ellipse"] = Segments(segments(ellipse), "highlight", 4.0, name="95 % of centres, by the covariance")
     if len(now.radii):
         near = np.abs(now.centers).max(axis=1) < REACH
-        scene["centers"] = Points(solid(now.centers[near]), "other", 0.012, name="centres, measured anew")
+        scene["centers"] = Points(solid(now.centers[near]), "other", 0.0035, name="centres, measured anew")
         low, high = predicted_span(now)
         edges = np.linspace(max(2 * low - high, 0.0), max(2 * high - low, 1e-6), 40)
         kept = np.clip(now.radii, edges[0], edges[-1])
@@ -187,6 +186,8 @@ def _rivals(state: State, now: Rivals) -> dict[str, Primitive]:
     scene = _points(subject)
     if subject.photograph is not None:
         scene["photograph"] = _photograph(subject)
+        assert subject.p_true is not None
+        scene["rim"] = Points(solid(subject.p_true), "other", 0.008, name="all of the rim")
     names = list(now.circles)
     for name in names if now.arcs else names[-1:]:
         lines = outline(subject, now.circles[name])
@@ -233,9 +234,13 @@ def _lines(subject: Subject, now: Lines) -> dict[str, Primitive]:
             1.5,
             name="distances",
         )
+    if names:
+        rows = tuple((name, angle(float(np.degrees(line_angle(line))))) for name, line in now.lines.items())
+        truth = ("truth", angle(float(np.degrees(line_angle(subject.truth)))))
+        scene["table"] = Table("Angles of these points", ("distances", "angle"), (*rows, truth))
     for name, angles in now.angles.items():
-        every = np.concatenate(list(now.angles.values()))
-        edges = np.linspace(np.percentile(every, 0.5), np.percentile(every, 99.5), 50)
+        both = np.percentile(np.concatenate(list(now.angles.values())), [0.5, 99.5])
+        edges = np.linspace(both[0], both[1] + 1e-6, 50)
         scene[f"angles {name}"] = ANGLES.histogram(angles, edges, name, COLORS[name])
     return scene
 

@@ -26,7 +26,8 @@ SMALL = Params(arc=360.0, method="Gauss-Newton", rest="a trillionth")
 
 VIEW = View(eye=(0.2, -0.01, 3.4), target=(0.2, 0.0, 0.0), grid=None, axes=False)
 WIDE = View(eye=(0.0, -0.01, 9.5), target=(0.0, 0.0, 0.0), grid=None, axes=False)
-NEAR = View(eye=(0.0, -0.01, 3.4), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+BROAD = View(eye=(0.0, -0.01, 12.5), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+CENTER = View(eye=(0.0, -0.001, 0.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 ROUND = View(eye=(2.6, -2.8, 2.0), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 TABLE = View(eye=(1.7, -2.6, 1.5), target=(0.0, 0.0, 0.1), grid=None, axes=False)
 
@@ -37,13 +38,13 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset("repetition", "Measured three hundred times",
            "The ellipse is what the covariance says of the centre. The blue dots are centres of fits to points"
            " measured anew.",
-           HOME, -1),
+           Params(start_radius=0.8), -1, CENTER),
     Preset("twenty", "Twenty degrees",
            "On so short an arc the radius is nearly free. Compare the histogram with the bell of the covariance.",
            SHORT, -1, WIDE, breaks=True),
     Preset("alike", "Neighbours err alike",
            "Errors of the same size, but ten neighbours share theirs. The covariance takes them as independent.",
-           ALIKE, 10, breaks=True),
+           ALIKE, 10, CENTER, breaks=True),
     Preset("escape", "Away, downhill all the way",
            "From beyond the points, no step raises the sum of squares. Watch R, and the grey line of the best"
            " straight line.",
@@ -53,13 +54,13 @@ PRESETS: tuple[Preset[Params], ...] = (
            JUMPS, 1, WIDE, breaks=True),
     Preset("basin", "Where one may start",
            "625 centres to start from, on a quarter of a circle. Green ones come home.",
-           Params(stage="basin", start_radius=1.0), -1, WIDE),
+           Params(stage="basin", start_radius=1.0), -1, BROAD),
     Preset("basin-full", "All the way round",
            "Points all round the circle: Levenberg-Marquardt may start anywhere in the picture.",
-           Params(stage="basin", start_radius=1.0, arc=360.0), -1, WIDE),
+           Params(stage="basin", start_radius=1.0, arc=360.0), -1, BROAD),
     Preset("basin-jumps", "Without damping",
            "The same points and starts without damping: how many come home now, and where from?",
-           Params(stage="basin", start_radius=1.0, arc=360.0, method="Gauss-Newton"), -1, WIDE),
+           Params(stage="basin", start_radius=1.0, arc=360.0, method="Gauss-Newton"), -1, BROAD),
     Preset("large-errors", "Large errors, small steps",
            "Gauss-Newton is quick where residuals are small. Here they are not, and each step gains as little as the"
            " last.",

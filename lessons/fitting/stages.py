@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.fitting.state import Now, Params, Subject, Trusted, Walked
+from lessons.fitting.subjects import windows
 from workbench.algorithms.fit_studies import (
     Basin,
     Lines,
@@ -31,7 +32,6 @@ LARGEST = 50.0  # metres of radius up to which a covariance says anything
 GRID, WALL = 25, 4.0  # starts to a side, metres
 SHOWN_ITERATIONS = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
 ARCS, MOST_DRAWS = (360.0, 270.0, 180.0, 120.0, 90.0, 60.0, 45.0, 30.0, 20.0), 2000
-WINDOWS = 12  # round the coin
 ROUNDS, CALM = 100, 0.01  # of a reweighted fit: at most, and by which share of the corner distances still change
 FIRST_ROUNDS, EVERY = 6, 6  # that become steps: all up to that one, then some
 PLANE_PLACES = np.stack([*np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), np.zeros((9, 9))], axis=-1).reshape(-1, 3)
@@ -94,8 +94,8 @@ def basin(params: Params, subject: Subject) -> Iterator[Basin]:
 def rivals(params: Params, subject: Subject, rng: np.random.Generator) -> Iterator[Rivals]:
     """Yield the circles of the points, and medians over draws from ever shorter arcs, or over windows of a coin's rim."""
     if subject.photograph is not None:
-        found = windows(subject.p, params.arc)
-        return compare_circles(found[0], iter([(params.arc, found)]))
+        assert subject.p_true is not None
+        return compare_circles(subject.p, iter([(params.arc, windows(subject.p_true, params.arc))]))
     arcs = [] if subject.truth is None else [arc for arc in ARCS if arc > params.arc] + [params.arc]
 
     def drawn(arc: float) -> np.ndarray:
@@ -103,14 +103,6 @@ def rivals(params: Params, subject: Subject, rng: np.random.Generator) -> Iterat
         return arc_points(np.radians(arc), params.points) + errors(rng, shape, params.noise)
 
     return compare_circles(subject.p, ((arc, drawn(arc)) for arc in arcs))
-
-
-def windows(rim: np.ndarray, arc: float) -> np.ndarray:
-    """Return arcs of a rim that begin in so many places, the first about +x; (k, n, 2)."""
-    n = len(rim)
-    count = max(round(n * arc / 360.0), 4)
-    first = np.arange(WINDOWS) * n // WINDOWS - count // 2
-    return rim[(first[:, None] + np.arange(count)) % n]
 
 
 def lines(params: Params, subject: Subject, rng: np.random.Generator) -> Iterator[Lines]:

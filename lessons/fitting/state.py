@@ -79,7 +79,7 @@ class Subject:
         p: The points, (n, 2) or (n, 3), metres; of a coin in radii of its whole rim.
         kind: What is fitted to them; None for lines and planes.
         truth: The true unknowns; None where nobody knows.
-        p_true: The points without their errors, where known.
+        p_true: The points without their errors, where known; of a coin all its rim.
         straight: The best straight line (a, b, c), for points in the plane.
         best: The unknowns with the least squares, where known.
         scale: Metres of what was measured per metre of the picture.

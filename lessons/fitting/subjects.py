@@ -18,6 +18,7 @@ from workbench.geometry.lines_planes import fit_hyperplane
 
 MOST_POINTS, MOST_PIXELS = 2000, 900
 WIDTH = 2.0  # metres that own points are long in the picture
+WINDOWS = 12  # round the coin
 RAYS, FARTHEST = 360, 45.0  # round a coin; pixels
 IN_PLANE = (".xyz", ".txt", ".csv", ".tsv", ".dat")
 TRUE = {
@@ -125,15 +126,25 @@ def coin_of(params: Params) -> Subject:
     whole = fit_algebraic(rim)
     if not (np.isfinite(whole).all() and 0.0 < whole[2] < 4 * FARTHEST):
         raise InputError("no rim is found round this pixel: pick one inside something bright and round")
-    p = (rim - whole[:2]) * [1.0, -1.0] / whole[2]  # y is up in the picture
     x, y, radius = whole
+    rim = (rim - whole[:2]) * [1.0, -1.0] / radius  # y is up in the picture
+    p = windows(rim, params.arc)[0]
     return _round(
         p,
         ROUND_SHAPES["circle"],
         truth=TRUE["circle"],
+        p_true=rim,
         photograph=photograph,
         middle=(float(x), float(y), float(radius)),
     )
+
+
+def windows(rim: np.ndarray, arc: float) -> np.ndarray:
+    """Return arcs of a rim, degrees long, that begin in so many places, the first about +x; (k, n, 2)."""
+    n = len(rim)
+    count = max(round(n * arc / 360.0), 4)
+    first = np.arange(WINDOWS) * n // WINDOWS - count // 2
+    return rim[(first[:, None] + np.arange(count)) % n]
 
 
 @functools.cache
