@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.algorithms.models import LINE, PLANE, rms_distance
-from workbench.algorithms.robust import HUBER, Settled, huber_loss, huber_weights, reweighted_fit
+from workbench.algorithms.robust import HUBER, LOSSES, Settled, huber_loss, huber_weights, reweighted_fit
 from workbench.data.robust import line_scene, plane_scene
 
 
@@ -65,3 +65,32 @@ def test_one_round_only_says_so():
     scene = plane_scene(np.random.default_rng(0), count=200, outlier_ratio=0.5, sigma=0.01)
     *_, end = reweighted_fit(scene.p, PLANE, HUBER, corner=0.02, max_iterations=1)
     assert end.stop is Settled.MAX_ITERATIONS
+
+
+@pytest.mark.parametrize("loss", LOSSES.values(), ids=LOSSES)
+@settings(max_examples=25, deadline=None)
+@given(distance=st.floats(-10, 10), corner=st.floats(0.05, 5))
+def test_all_weights_are_slopes_divided_by_distances(loss, distance, corner):
+    r, h = np.array([distance]), 1e-5
+    slope = (loss.cost(r + h, corner) - loss.cost(r - h, corner)) / (2 * h)
+    np.testing.assert_allclose(loss.weights(r, corner) * r, slope, atol=1e-4)
+
+
+@pytest.mark.parametrize("loss", LOSSES.values(), ids=LOSSES)
+def test_efficient_corners_cost_five_per_cent(loss):
+    """Asymptotic efficiency at normal errors, (E ψ')² / E ψ², by sums; Holland and Welsch 1977, table 1."""
+    x = np.linspace(-8, 8, 20_001)
+    density = np.exp(-(x**2) / 2) / np.sqrt(2 * np.pi) * (x[1] - x[0])
+    corner = loss.efficient_corner if np.isfinite(loss.efficient_corner) else 1.0
+    pull = loss.weights(x, corner) * x
+    efficiency = (pull * x * density).sum() ** 2 / (pull**2 * density).sum()
+    assert efficiency == pytest.approx(1.0 if loss.name == "squares" else 0.95, abs=2e-4)
+
+
+def test_tukey_ends_where_it_starts():
+    scene = plane_scene(np.random.default_rng(0), count=300, outlier_ratio=0.5, sigma=0.01)
+    errors = []
+    for start in (None, PLANE.refit(scene.p[scene.is_inlier])):
+        *_, end = reweighted_fit(scene.p, PLANE, LOSSES["Tukey"], corner=0.05, start=start)
+        errors.append(rms_distance(PLANE, end.estimate, scene.p_true))
+    assert errors[1] < 0.005 < 0.05 < errors[0]
