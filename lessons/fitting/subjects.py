@@ -7,9 +7,10 @@ import numpy as np
 
 from lessons.fitting.state import Params, Subject
 from workbench.algorithms.round_shapes import CYLINDER, ROUND_SHAPES, RoundName, RoundShape, fit_round
-from workbench.data.files import read_cloud, read_image, stamp, text_rows
+from workbench.data.files import read_image
 from workbench.data.fit_scenes import arc_points, cap_points, errors, outlying_plane, pipe_points
-from workbench.data.framing import METRES, frame
+from workbench.data.flat_points import read_flat_or_cloud
+from workbench.data.framing import METRES, box
 from workbench.data.rims import rim_points
 from workbench.data.thinning import evenly
 from workbench.errors import InputError
@@ -20,7 +21,7 @@ MOST_POINTS, MOST_PIXELS = 2000, 900
 WIDTH = 2.0  # metres that own points are long in the picture
 WINDOWS = 12  # round the coin
 RAYS, FARTHEST = 360, 45.0  # round a coin; pixels
-IN_PLANE = (".xyz", ".txt", ".csv", ".tsv", ".dat")
+LARGEST = 3.0  # times as large as the points a circle may be that they are shown by
 TRUE = {
     "circle": np.array([0.0, 0.0, 1.0]),
     "sphere": np.array([0.0, 0.0, 0.0, 1.0]),
@@ -67,52 +68,27 @@ def _round(p: np.ndarray, kind: RoundShape, truth: np.ndarray | None = None, **m
 
 
 def own(params: Params, path: Path) -> Subject:
-    """Return a person's points, 2 m long in the picture."""
-    p = _own_points(path, stamp(path))
-    p = p[evenly(len(p), MOST_POINTS)]
-    if not np.ptp(p, axis=0).max() > 0:
+    """Return a person's points: about the origin, where their closed-form circle or sphere has the radius 1 m."""
+    shape: RoundName = params.shape if params.stage == "descent" else "circle"
+    p = read_flat_or_cloud(path, fewest=6)
+    p, what = p[evenly(len(p), MOST_POINTS)], "plane" if params.stage == "robust" else shape
+    wanted = 2 if what == "circle" else 3
+    if wanted != p.shape[1]:
+        raise InputError(f"{path.name} has {p.shape[1]} columns, and a {what} needs {wanted}")
+    size = np.ptp(p, axis=0).max()
+    if not size > 0:
         raise InputError(f"{path.name}: all its points lie at one place")
-    flat, columns = (p.shape[1] == 2), p.shape[1]
-    wanted = 3 if params.stage == "robust" or (params.stage == "descent" and params.shape != "circle") else 2
-    if wanted != columns:
-        what = "a plane" if params.stage == "robust" else f"a {params.shape if params.stage == 'descent' else 'circle'}"
-        raise InputError(f"{path.name} has {columns} columns, and {what} needs {wanted}")
-    placed = frame(np.column_stack([p, np.zeros(len(p))]) if flat else p, WIDTH)
-    shown = placed.shown(np.column_stack([p, np.zeros(len(p))]) if flat else p)[:, :columns]
-    scale = METRES[params.cloud_unit] / placed.scale
-    if params.stage == "robust":
-        return Subject(p=shown, scale=scale)
-    subject = _round(shown, ROUND_SHAPES[params.shape if params.stage == "descent" else "circle"], scale=scale)
-    if np.linalg.matrix_rank(shown - shown.mean(axis=0), tol=1e-9) < columns:
-        raise InputError(
-            f"{path.name}: the points lie on a {'line' if flat else 'plane'}, and nothing round fits them best"
-        )
-    return subject
-
-
-@functools.lru_cache(maxsize=4)
-def _own_points(path: Path, _stamp: tuple[int, int]) -> np.ndarray:
-    """Return the points of a file, two columns of a text file as places in the plane."""
-    if path.suffix.lower() not in IN_PLANE:
-        return read_cloud(path, fewest=6)
-    rows = [line.replace(",", " ").replace(";", " ").split() for _, line in text_rows(path, "points", IN_PLANE)]
-    if not rows or max(len(row) for row in rows) != 2:
-        return read_cloud(path, fewest=6)
-    try:
-        p = np.array([[float(word) for word in row] for row in rows[not _is_number(rows[0][0]) :]])
-    except ValueError:
-        raise InputError(f"{path.name}: two numbers x y are wanted on each line") from None
-    if p.ndim != 2 or p.shape[1:] != (2,) or len(p) < 6 or not np.isfinite(p).all():
-        raise InputError(f"{path.name}: six lines at least of two finite numbers x y are wanted")
-    return p
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
+    low, high = box(p)
+    center, unit = (low + high) / 2, size / WIDTH
+    if what != "plane" and np.linalg.matrix_rank(p - p.mean(axis=0), tol=1e-9 * size) < wanted:
+        flat = "line" if wanted == 2 else "plane"
+        raise InputError(f"{path.name}: the points lie on a {flat}, and nothing round fits them best")
+    if what in ("circle", "sphere"):
+        found = fit_algebraic(p)
+        if found[-1] < LARGEST * size:
+            center, unit = found[:-1], found[-1]
+    shown, scale = (p - center) / unit, METRES[params.cloud_unit] * unit
+    return Subject(p=shown, scale=scale) if what == "plane" else _round(shown, ROUND_SHAPES[shape], scale=scale)
 
 
 def coin_of(params: Params) -> Subject:

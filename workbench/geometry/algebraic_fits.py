@@ -23,9 +23,10 @@ def fit_algebraic(p: Float[np.ndarray, "*k n d"], kind: Algebraic = "Taubin") ->
 
     Raises:
         ValueError: If a set has fewer than d + 1 points, or "Hyper" is asked for a sphere.
+        LinAlgError: If "Kåsa" is asked for a set exactly on a line or plane.
 
     Note:
-        Points on a line give a very large circle, or numbers that are not finite.
+        Points on a line give the others a very large circle, or numbers that are not finite.
     Reference: Al-Sharadqah and Chernov, Error analysis for circle fitting algorithms, 2009, sections 4, 5, 7 and 8;
         Chernov, Circular and linear regression, 2010, chapter 5.
     """
@@ -53,9 +54,10 @@ def fit_algebraic(p: Float[np.ndarray, "*k n d"], kind: Algebraic = "Taubin") ->
     else:
         a = _least_constrained(np.concatenate([z[..., None], q, np.ones((*z.shape, 1))], axis=-1), kind)
         A, B, D = a[..., 0], a[..., 1:-1], a[..., -1]
-    center = -B / (2.0 * A[..., None])
-    radius = np.sqrt(np.maximum(np.square(B).sum(-1) - 4.0 * A * D, 0.0)) / (2.0 * np.abs(A))
-    circle = np.concatenate([center, radius[..., None]], axis=-1) * unit[..., 0]
+    with np.errstate(divide="ignore", invalid="ignore"):  # a line has A = 0
+        center = -B / (2.0 * A[..., None])
+        radius = np.sqrt(np.maximum(np.square(B).sum(-1) - 4.0 * A * D, 0.0)) / (2.0 * np.abs(A))
+        circle = np.concatenate([center, radius[..., None]], axis=-1) * unit[..., 0]
     circle[..., :-1] += origin[..., 0, :]
     return circle
 
