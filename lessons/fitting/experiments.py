@@ -45,9 +45,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset("alike", "Neighbours err alike",
            "Errors of the same size, but ten neighbours share theirs. The covariance takes them as independent.",
            ALIKE, 10, CENTER, breaks=True),
-    Preset("escape", "Away, downhill all the way",
-           "From beyond the points, no step raises the sum of squares. Watch R, and the grey line of the best"
-           " straight line.",
+    Preset("escape", "Downhill all the way",
+           "The start lies beyond the points. No step raises the sum of squares: watch it beside the grey curve, and R.",
            ESCAPE, 5, WIDE, breaks=True),
     Preset("jumps", "Every step taken",
            "The same start without damping: Gauss-Newton takes each step, whatever becomes of the sum of squares.",
@@ -160,7 +159,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         choices=(
             "it comes home, only later",
             "it rests on another circle",
-            "it grows without end, while the sum falls",
+            "it grows without end",
         ),
     ),
     Question(
