@@ -46,7 +46,7 @@ def draw(state: State) -> Scene:
         case Spread():
             return scene | _points(state.subject) | _spread(state.subject, state.now)
         case Basin():
-            return scene | _points(state.subject) | _basin(state.now)
+            return scene | _points(state.subject, 0.12, 0.05) | _basin(state.now)
         case Rivals():
             return scene | _rivals(state, state.now)
         case Lines():
@@ -60,9 +60,9 @@ def solid(p: np.ndarray, z: float = 0.0) -> np.ndarray:
     return p if p.shape[-1] == 3 else np.concatenate([p, np.full((*p.shape[:-1], 1), z)], axis=-1)
 
 
-def _points(subject: Subject) -> dict[str, Primitive]:
-    radius = float(np.clip(0.2 / np.sqrt(len(subject.p)), 0.01, 0.025))
-    scene: dict[str, Primitive] = {"points": Points(solid(subject.p), "target", radius, name="points")}
+def _points(subject: Subject, z: float = 0.0, least: float = 0.01) -> dict[str, Primitive]:
+    radius = max(float(np.clip(0.2 / np.sqrt(len(subject.p)), 0.01, 0.025)), least)
+    scene: dict[str, Primitive] = {"points": Points(solid(subject.p, z), "target", radius, name="points")}
     if subject.truth is not None and subject.kind is not None:
         scene["truth"] = Segments(outline(subject, subject.truth), "truth", 2.0, name="truth")
     return scene

@@ -28,6 +28,7 @@ VIEW = View(eye=(0.2, -0.01, 3.4), target=(0.2, 0.0, 0.0), grid=None, axes=False
 WIDE = View(eye=(0.0, -0.01, 9.5), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 BROAD = View(eye=(0.0, -0.01, 12.5), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 CENTER = View(eye=(0.0, -0.001, 0.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+HALF = View(eye=(0.45, -0.003, 1.8), target=(0.45, 0.0, 0.0), grid=None, axes=False)
 ROUND = View(eye=(2.6, -2.8, 2.0), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 TABLE = View(eye=(1.7, -2.6, 1.5), target=(0.0, 0.0, 0.1), grid=None, axes=False)
 
@@ -44,7 +45,7 @@ PRESETS: tuple[Preset[Params], ...] = (
            SHORT, -1, WIDE, breaks=True),
     Preset("alike", "Neighbours err alike",
            "Errors of the same size, but ten neighbours share theirs. The covariance takes them as independent.",
-           ALIKE, 10, CENTER, breaks=True),
+           ALIKE, 10, HALF, breaks=True),
     Preset("escape", "Downhill all the way",
            "The start lies beyond the points. No step raises the sum of squares: watch it beside the grey curve, and R.",
            ESCAPE, 5, WIDE, breaks=True),

@@ -119,11 +119,11 @@ def least_cost(state: State) -> float:
 def _stopped(state: State, now: Descent) -> Caption:
     assert now.stop is not None
     scale, least, straight = state.subject.scale, least_cost(state), straight_cost(state)
-    cost = square(now.cost, scale)
-    text = f"Stop after {counted(now.iteration, 'iteration')}: {now.stop.message}."
+    after = counted(now.iteration, "iteration")
     if now.stop in (Stop.SINGULAR, Stop.DIVERGED):
-        return Caption(f"{text} It is wrong.", "wrong")
-    text += f" R = {radius_of(state, now.unknown)}, sum of squares {cost}"
+        return Caption(f"Stop after {after}: {now.stop.message}. It is wrong.", "wrong")
+    rests = "rests at" if now.stop is Stop.CONVERGED else "is, with no more iterations allowed,"
+    text = f"After {after} the sum of squares {rests} {square(now.cost, scale)}, R = {radius_of(state, now.unknown)}"
     is_least = now.cost <= (1.0 + LEAST) * least + 1e-12
     if abs(now.unknown[-1]) > FAR and now.cost < 1.5 * straight:
         text += f": the best straight line has {square(straight, scale)} as well, and that is what this circle is."
@@ -133,10 +133,11 @@ def _stopped(state: State, now: Descent) -> Caption:
     if np.isnan(least):
         return Caption(f"{text}.")
     if not is_least:
-        return Caption.verdict(f"{text}; the least is {square(least, scale)}.", right=False)
+        settled = now.stop is Stop.CONVERGED
+        return Caption.verdict(f"{text}; the least is {square(least, scale)}.", right=False, settled=settled)
     truth = state.subject.truth
     off = "" if truth is None else f" R is {length(abs(abs(float(now.unknown[-1])) - float(truth[-1])))} off the truth."
-    return Caption(f"{text}, the least there is: right.{off}", "good")
+    return Caption(f"{text}: the least there is, right.{off}", "good")
 
 
 def predicted_span(now: Spread) -> tuple[float, float]:

@@ -117,13 +117,18 @@ def biased(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 CAPTIONS = (
-    Claim(rf"sum of squares ({SQUARE}), the least there is: right\. R is ({LENGTH}) off the truth\.", least_of_all),
     Claim(
-        rf"sum of squares ({SQUARE}): the best straight line has ({SQUARE}) as well, and that is what this circle is\."
+        rf"({SQUARE}), R = {LENGTH}: the least there is, right\.(?: R is ({LENGTH}) off the truth\.)?",
+        least_of_all,
+    ),
+    Claim(
+        rf"({SQUARE}), R = {LENGTH}: the best straight line has ({SQUARE}) as well, and that is what this circle is\."
         rf"(?: A circle of ({SQUARE}) exists\. It looks settled, and it is wrong\.| Nothing round fits better\.)",
         no_circle,
     ),
-    Claim(rf"sum of squares ({SQUARE}); the least is ({SQUARE})\. It looks settled, and it is wrong\.", another_end),
+    Claim(
+        rf"({SQUARE}), R = {LENGTH}; the least is ({SQUARE})\. It (?:looks settled, and it )?is wrong\.", another_end
+    ),
     Claim(
         r"the linear problem has no one solution\. It is wrong\.|the numbers are not finite any more\. It is wrong\.",
         no_end,
