@@ -1,0 +1,2 @@
+"""x"""
+from workbench.geometry.epipolar import fit_fundamental as eight_point  # noqa

@@ -1,0 +1,1 @@
+from workbench.geometry.essential import essential_to_poses  # noqa

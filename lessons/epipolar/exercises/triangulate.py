@@ -1,0 +1,1 @@
+from workbench.geometry.triangulation import triangulate  # noqa
