@@ -74,7 +74,9 @@ def _motions(now: Related) -> Table:
 def _depths(state: State, now: Related) -> dict[str, Primitive]:
     """Return how far the depths of the points are off, and how far noise alone would put them."""
     true, T = state.views.p_first, state.T_true
-    assert true is not None and now.p_first is not None and T is not None
+    assert true is not None
+    assert T is not None
+    assert now.p_first is not None
     order = np.argsort(true[:, 2])
     z, off = true[order, 2], (state.length * now.p_first[:, 2] - true[:, 2])[order]
     scene: dict[str, Primitive] = {"depth errors": DEPTH.dots(z, np.abs(off), "points", "source")}

@@ -1,7 +1,6 @@
 """What one step looks like: both pictures upright, below them the street with both cameras, and the numbers beside."""
 
 import functools
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +15,7 @@ from workbench.geometry.cameras import camera_center
 from workbench.geometry.clipping import clip_lines
 from workbench.geometry.epipolar import epipolar_lines, epipoles, fundamental_from_cameras
 from workbench.geometry.homography import transform_pixels
-from workbench.geometry.motions import apply, inverse
+from workbench.geometry.motions import inverse
 from workbench.geometry.polylines import between, fan, sphere_rings
 from workbench.geometry.rectification import fitted, warp
 from workbench.geometry.triangulation import camera_matrix, triangulation_covariances
@@ -24,7 +23,7 @@ from workbench.lesson import View
 from workbench.numerals import length
 from workbench.scene import Camera, Label, Mesh, Picture, Points, Primitive, Scene, Segments
 
-VIEW = View(eye=(-17.0, -13.0, 11.0), target=(0.5, 5.0, 4.2), fov_degrees=34.0, grid=None, axes=False)
+VIEW = View(eye=(14.0, -16.0, 11.0), target=(0.5, 5.0, 4.2), fov_degrees=34.0, grid=None, axes=False)
 WIDTH, APART, ABOVE = 8.6, 0.35, 3.3  # of a picture, between both, and their middle above the target, metres
 LAYER = 0.04  # metres from a picture to what is drawn on it
 SHOWN_LINES, SHOWN_ELLIPSOIDS, SHOWN_POINTS = 8, 10, 400
@@ -188,14 +187,22 @@ def _followed(now: Followed, p_center: np.ndarray, T_world_first: np.ndarray) ->
         "ray": Segments(between(np.zeros(3), end), "highlight", 3, T_world_first, name="ray of the pixel"),
         "marks": Points(p, "highlight", 0.14, T_world_first),
         "rays": Segments(
-            between(np.broadcast_to(p_center, p.shape), p), "correspondence", 1, T_world_first, name="seen by the second"
+            between(np.broadcast_to(p_center, p.shape), p),
+            "correspondence",
+            1,
+            T_world_first,
+            name="seen by the second",
         ),
     }
     for depth, place in zip(now.depths[near], p, strict=True):
-        scene[f"mark/{depth:g}"] = Label(length(float(depth)), place + np.array([0.0, -0.35, 0.0]), "highlight", T_world_first)
+        scene[f"mark/{depth:g}"] = Label(
+            length(float(depth)), place + np.array([0.0, -0.35, 0.0]), "highlight", T_world_first
+        )
     if now.stage != "ray":
         corners = np.stack([np.zeros(3), end, p_center])
-        scene["plane"] = Mesh(corners, fan(3), "highlight", T_world_first, opacity=0.35, flat=True, name="epipolar plane")
+        scene["plane"] = Mesh(
+            corners, fan(3), "highlight", T_world_first, opacity=0.35, flat=True, name="epipolar plane"
+        )
         scene["baseline"] = Segments(between(np.zeros(3), p_center), "neutral", 4, T_world_first, name="baseline")
     return scene
 

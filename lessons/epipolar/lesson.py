@@ -44,15 +44,15 @@ def run(
     length, T = drawn_length(views), views.T_second_first
     if T is not None and np.any(T[:3, 3]):
         T = motion(T[:3, :3], length * T[:3, 3] / np.linalg.norm(T[:3, 3]))
-    known: dict[str, Any] = dict(
-        params=params,
-        views=views,
-        uv_first=np.minimum(np.array(params.pixel, float) * views.strides[0], [w - 1.0, h - 1.0]),
-        K_first=with_f(views.K_first, params.f_error),
-        K_second=with_f(views.K_second, params.f_error),
-        length=length,
-        T_true=T,
-    )
+    known: dict[str, Any] = {
+        "params": params,
+        "views": views,
+        "uv_first": np.minimum(np.array(params.pixel, float) * views.strides[0], [w - 1.0, h - 1.0]),
+        "K_first": with_f(views.K_first, params.f_error),
+        "K_second": with_f(views.K_second, params.f_error),
+        "length": length,
+        "T_true": T,
+    }
     if T is not None:
         for now in follow_ray(known["uv_first"], DEPTHS, T, views.K_first, views.K_second):
             yield State(**known, now=now)
@@ -111,7 +111,9 @@ def drawn_length(views: TwoViews) -> float:
         return float(np.linalg.norm(views.T_second_first[:3, 3])) or 1.0
     uv_first, uv_second = views.matches[:, :2], views.matches[:, 2:]
     xy = normalize(uv_first, views.K_first), normalize(uv_second, views.K_second)
-    Ts = essential_motions(essential_from_fundamental(fit_fundamental(uv_first, uv_second), views.K_first, views.K_second))
+    Ts = essential_motions(
+        essential_from_fundamental(fit_fundamental(uv_first, uv_second), views.K_first, views.K_second)
+    )
     depths = max((midpoints(T, *xy)[:, 2] for T in Ts), key=lambda z: int((z > 0).sum()))
     middle = float(np.nanmedian(np.abs(depths)))
     return SHOWN_DEPTH / middle if 0 < middle < np.inf else 1.0

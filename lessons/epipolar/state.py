@@ -23,7 +23,9 @@ GOOD_TURN, GOOD_DIRECTION = 1.0, 5.0  # degrees within which a pose is called ri
 class Params:
     """Two cameras, the matches between their pictures, and what is made of them."""
 
-    scene: Annotated[Literal["street", "plane"], Knob("Where the matches lie: everywhere, or on level ground")] = "street"
+    scene: Annotated[Literal["street", "plane"], Knob("Where the matches lie: everywhere, or on level ground")] = (
+        "street"
+    )
     baseline: Annotated[
         float, Knob("How far the second camera stands from the first; 0: it only turned", 0, 2, unit="m", step=0.01)
     ] = 1.0
@@ -41,9 +43,12 @@ class Params:
     keep_upright: Annotated[bool, Knob("Rectify along the mean x axis of the cameras, whoever is left")] = True
     pixel: Annotated[
         tuple[int, int],
-        Knob("The pixel (u, v) that is followed: click the first picture", 0, LARGEST - 1, unit="px", by=Pick("first/picture")),
+        Knob("The pixel (u, v) that is followed: click the first picture", 0, LARGEST - 1, unit="px",
+             by=Pick("first/picture")),
     ] = (318, 119)  # fmt: skip
-    own_matches: Annotated[Path | None, Knob("Own matches: npz (x1, x2; K; R, t if known) or lines of u v u' v'")] = None
+    own_matches: Annotated[Path | None, Knob("Own matches: npz (x1, x2; K; R, t if known) or lines of u v u' v'")] = (
+        None
+    )
     first_image: Annotated[Path | None, Knob("The first image of own matches, to be shown")] = None
     second_image: Annotated[Path | None, Knob("Their second image")] = None
     intrinsics: Annotated[Path | None, Knob("K of both cameras, a text file: fx fy cx cy, or three rows")] = None

@@ -4,10 +4,10 @@ import numpy as np
 
 from lessons.epipolar.state import State, rms
 from workbench.algorithms.two_views import Followed, Related
-from workbench.geometry.epipolar import epipoles
+from workbench.geometry.epipolar import epipoles, fundamental_from_cameras
 from workbench.geometry.motions import rotation_angle
 from workbench.geometry.rectification import growth, torn
-from workbench.numerals import angle, brief, coordinates, counted, length, percent, pixels
+from workbench.numerals import angle, brief, coordinates, counted, fixed, length, percent, pixels
 from workbench.scene import Caption
 
 FLAT = 1e-9  # of the singular value before: what is left of one that was dropped
@@ -52,14 +52,17 @@ def _followed(state: State, now: Followed) -> str:
     pixel = f"Pixel {coordinates(state.uv_first, 0)}"
     if now.stage == "plane":
         return (
-            f"{pixel}, its ray and the second camera's centre span a plane. It cuts the second picture in a line: whatever the"
-            " depth, the partner is on it."
+            f"{pixel}, its ray and the second camera's centre span a plane. It cuts the second picture in a line: whatever"
+            " the depth, the partner is on it."
         )
     if now.stage == "pencil":
-        second = epipole(state, 1)
+        assert state.T_true is not None
+        u, v, w = epipoles(fundamental_from_cameras(state.views.K_first, state.views.K_second, state.T_true))[1]
+        far = abs(w) * 1e6 < max(abs(u), abs(v))
+        where = "at infinity" if far else f"at column {fixed(u / w, 0)}, row {fixed(v / w, 0)}"
         return (
             "Every pixel has such a plane, and all planes hold the baseline. So all lines meet in one point, the epipole"
-            f" {second}: there the second camera sees the first."
+            f" {where}: there the second camera sees the first."
         )
     z, uv = float(now.depths[-1]), now.uv_second[-1]
     where = "Infinitely far along its ray" if np.isinf(z) else f"{length(z)} deep along its ray"
@@ -71,28 +74,13 @@ def _followed(state: State, now: Followed) -> str:
     return text if np.isfinite(z) else f"{text} Here its line ends: at the vanishing point of the ray."
 
 
-def epipole(state: State, k: int) -> str:
-    """Write where the epipole of a picture is by the true cameras."""
-    from workbench.geometry.epipolar import fundamental_from_cameras
-
-    assert state.T_true is not None
-    e = epipoles(fundamental_from_cameras(state.views.K_first, state.views.K_second, state.T_true))[k]
-    if abs(e[2]) * 1e6 < np.abs(e[:2]).max():
-        return "at infinity"
-    return f"at {coordinates(e[:2] / e[2], 0)}"
-
-
 def _equations(state: State, now: Related) -> str:
     n, values = len(state.views.matches), now.singular_values
     text = f"{counted(n, 'match', 'matches')}, as many equations for the nine numbers of F"
     text += ", in coordinates about 0 and of size 1." if state.params.normalise else ", in raw pixels."
     ratio = values[7] / values[0]
-    return (
-        f"{text} The eighth singular value is {percent(ratio)} of the first: as far the equations can tell F from what is next"
-        " to it."
-        if ratio > 1e-4
-        else f"{text} The eighth singular value is {brief(1e6 * ratio)} millionths of the first."
-    )
+    said = percent(ratio) if ratio > 1e-4 else f"{brief(1e6 * ratio)} millionths"
+    return f"{text} The eighth singular value is {said} of the first: the smaller, the more answers fit nearly as well."
 
 
 def _rank_three(state: State, now: Related) -> str:
@@ -139,7 +127,7 @@ def _pose(state: State, now: Related) -> str:
 def _points(state: State, now: Related) -> str:
     n = len(state.views.matches)
     text = f"The motion with the most points in front is kept, {max(now.in_front):,} of {n:,}"
-    if state.views.p_first is None or now.p_first is None:
+    if state.views.p_first is None or now.p_first is None or not state.moved:
         return f"{text}. The length of its baseline is made up: no picture tells it."
     miss = np.median(np.abs(state.length * now.p_first[:, 2] - state.views.p_first[:, 2]))
     return f"{text}: {off(state)}. Depths are {length(float(miss))} off in the median, with the baseline's true length."
