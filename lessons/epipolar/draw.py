@@ -23,8 +23,8 @@ from workbench.lesson import View
 from workbench.numerals import length
 from workbench.scene import Camera, Label, Mesh, Picture, Points, Primitive, Scene, Segments
 
-VIEW = View(eye=(14.0, -16.0, 11.0), target=(0.5, 5.0, 4.2), fov_degrees=34.0, grid=None, axes=False)
-WIDTH, APART, ABOVE = 8.6, 0.35, 3.3  # of a picture, between both, and their middle above the target, metres
+VIEW = View(eye=(14.0, -16.0, 11.0), target=(0.5, 5.0, 4.7), fov_degrees=34.0, grid=None, axes=False)
+WIDTH, APART, ABOVE = 8.6, 0.35, 2.75  # of a picture, between both, and their middle above the target, metres
 LAYER = 0.04  # metres from a picture to what is drawn on it
 SHOWN_LINES, SHOWN_ELLIPSOIDS, SHOWN_POINTS = 8, 10, 400
 DEEP, REACH = 14.0, 45.0  # metres that a ray is drawn, and from the first camera that anything is
@@ -48,10 +48,10 @@ class Side:
         with np.errstate(invalid="ignore"):
             return ((uv >= -0.5) & (uv <= np.array(self.size) - 0.5)).all(axis=1)
 
-    def lines(self, lines: np.ndarray) -> np.ndarray:
+    def lines(self, lines: np.ndarray, layer: int = 2) -> np.ndarray:
         """Return the parts of lines (a, b, c) on the picture as segments in the world."""
         known = lines[np.isfinite(lines).all(axis=1)]
-        return self.places(clip_lines(known, np.full(2, -0.5), np.array(self.size) - 0.5), 2)
+        return self.places(clip_lines(known, np.full(2, -0.5), np.array(self.size) - 0.5), layer)
 
 
 def draw(state: State) -> Scene:
@@ -125,9 +125,7 @@ def _pictures(state: State) -> dict[str, Primitive]:
     if not isinstance(now, Followed) or now.stage == "pencil":
         for k, (word, points) in enumerate((("first", first), ("second", second))):
             scene[f"{word}/matches"] = Points(sides[k].places(points), "target", 0.06, name="matches" if k else "")
-        scene["second/lines"] = Segments(
-            sides[1].lines(epipolar_lines(F, first[rows])), "source", 1.5, name="lines of some matches"
-        )
+        scene["second/lines"] = Segments(sides[1].lines(epipolar_lines(F, first[rows])), "source", 1.5)
         scene["first/lines"] = Segments(sides[0].lines(epipolar_lines(F.T, second[rows])), "source", 1.5, opacity=0.6)
         for k, (word, epipole) in enumerate(zip(("first", "second"), epipoles(F), strict=True)):
             with np.errstate(divide="ignore", invalid="ignore"):
@@ -137,7 +135,7 @@ def _pictures(state: State) -> dict[str, Primitive]:
     scene["second/line"] = Segments(sides[1].lines(epipolar_lines(F, uv)), "highlight", 4, name="its line")
     if F_true is not None and not isinstance(now, Followed):
         scene["second/true line"] = Segments(
-            sides[1].lines(epipolar_lines(F_true, uv)), "truth", 2, name="its true line"
+            sides[1].lines(epipolar_lines(F_true, uv), 3), "truth", 2, name="its true line"
         )
     return scene
 
@@ -153,8 +151,8 @@ def _space(state: State) -> dict[str, Primitive]:
     }
     centers = [np.zeros(3)]
     for path, T, role, name in (
-        ("true camera", state.T_true, "truth", "second camera"),
-        ("camera", state.T_second_first, "source", "second camera, estimated"),
+        ("true camera", state.T_true, "truth", "true second camera"),
+        ("camera", state.T_second_first, "source", "estimated"),
     ):
         if T is not None:
             T_world_second = T_world_first @ inverse(T)
@@ -164,15 +162,15 @@ def _space(state: State) -> dict[str, Primitive]:
         return scene | _followed(now, centers[-1], T_world_first)
     shown = evenly(len(views.matches), SHOWN_POINTS)
     if views.p_first is not None:
-        scene["true points"] = Points(views.p_first[shown], "truth", 0.06, T_world_first, name="points")
+        scene["true points"] = Points(views.p_first[shown], "truth", 0.06, T_world_first)
     if now.p_first is None:
         return scene
     p = state.length * now.p_first[shown]
     near = np.linalg.norm(np.nan_to_num(p, nan=np.inf), axis=1) < REACH
-    scene["points"] = Points(p[near], "source", 0.07, T_world_first, name="points, estimated")
+    scene["points"] = Points(p[near], "source", 0.07, T_world_first, name="estimated points")
     if views.p_first is not None:
         ends = between(views.p_first[shown][near], p[near])
-        scene["misses"] = Segments(ends, "wrong", 1, T_world_first, opacity=0.5, name="how far they are off")
+        scene["misses"] = Segments(ends, "wrong", 1, T_world_first, opacity=0.5, name="their errors")
     if now.stage == "points":
         scene["uncertainty"] = _ellipsoids(state, p[near][every(int(near.sum()), SHOWN_ELLIPSOIDS)], T_world_first)
     return scene
@@ -230,4 +228,4 @@ def _scenery(known: bool) -> dict[str, Primitive]:
         return {}
     scene = street()
     rails = np.array([[[x, -2.0, 0.06], [x, 22.0, 0.06]] for x in (-0.75, 0.75)])
-    return {"street": Segments(np.concatenate([scene.edges, rails]), "neutral", 1, opacity=0.5, name="street")}
+    return {"street": Segments(np.concatenate([scene.edges, rails]), "neutral", 1, opacity=0.5)}

@@ -14,9 +14,9 @@ HOME = Params()
 RAW = Params(normalise=False, route="eight-point")
 PLANE = Params(scene="plane", route="eight-point")
 TURNED = Params(baseline=0.0)
-SHORT = Params(baseline=0.1)
+SHORT = Params(baseline=0.05)
 HALF = Params(baseline=0.5, heading=0.0)
-WRONG_F = Params(f_error=10.0, route="eight-point")
+WRONG_F = Params(heading=0.0, f_error=20.0)
 PENCIL, EQUATIONS, RANK_TWO = 7, 8, 10
 DEPTH = 8.0  # metres, of the point whose uncertainty is asked for
 
@@ -43,7 +43,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "plane", "Everything on the ground",
-        "All matches lie in one plane. The lines are as near as in any run; the motion has nothing to do with the camera.",
+        "All matches lie in one plane. The lines fit them, and the motion has nothing to do with the camera's.",
         PLANE, -1, breaks=True,
     ),
     Preset(
@@ -52,8 +52,8 @@ PRESETS: tuple[Preset[Params], ...] = (
         TURNED, 5, breaks=True,
     ),
     Preset(
-        "short", "Ten centimetres",
-        "A tenth of the baseline: lines as near, rotation as good. Direction and depths pay.",
+        "short", "Five centimetres",
+        "A twentieth of the baseline: lines as near, rotation as good. Direction and depths pay.",
         SHORT, -1, breaks=True,
     ),
     Preset(
@@ -77,8 +77,8 @@ PRESETS: tuple[Preset[Params], ...] = (
         Params(heading=180.0, keep_upright=False), -1,
     ),
     Preset(
-        "wrong-f", "A focal length 10 % too long",
-        "F needs no K; what is made of it does. Compare the lines, the second singular value, the motion and the rows.",
+        "wrong-f", "A focal length 20 % too long",
+        "The matches of the run straight to the side, and another K. Compare the lines, the rows and the motion.",
         WRONG_F, -1, breaks=True,
     ),
     Preset(
@@ -153,11 +153,12 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "predict-f",
-        "One believes in a focal length that is 10 % too long. What does F say to it: do the lines still fit the matches?",
+        "One believes in a focal length that is 20 % too long, and refines the motion with it. Do the lines still fit the"
+        " matches?",
         answer=lines_fit,
         why=lambda states: (
-            f"They are {pixels(states[-1].to_lines(states[-1].views.matches))} from them: F comes from pixels alone. K"
-            f" enters with E, and the rotation is {angle(states[-1].turn_error)} off."
+            f"They are {pixels(states[-1].to_lines(states[-1].views.matches))} from them. The motion takes the error in: it is"
+            f" {angle(states[-1].turn_error)} off in rotation, and nothing in the pictures tells."
         ),
         params=WRONG_F,
         choices=("as well as ever", "visibly worse"),

@@ -75,7 +75,7 @@ def judged(candidate: Function, pair: Pair, good: float, fair: float) -> Verdict
         off = float(np.sqrt(np.square(offs).mean()))
     if not np.isfinite(off):
         return fail(
-            f"F has no lines: it is {number(F[0])} in its first row. Right is a matrix of finite numbers. {HINT}"
+            f"F has no lines: it is {number(F[0])} in its first row, right is a matrix of finite numbers. {HINT}"
         )
     k = int(np.abs(offs[1]).argmax())
     told = beside(

@@ -137,7 +137,8 @@ def u_and_v_swapped(
     P_first: np.ndarray, P_second: np.ndarray, uv_first: np.ndarray, uv_second: np.ndarray
 ) -> np.ndarray:
     """Reads (row, column)."""
-    return triangulation.triangulate(P_first, P_second, uv_first[:, ::-1], uv_second[:, ::-1])
+    x_h = null_vectors(equations(P_first, P_second, uv_first[:, ::-1], uv_second[:, ::-1]))
+    return x_h[:, :3] / x_h[:, 3:]
 
 
 @mistake("You gave each camera the other one's pixels.")
@@ -145,7 +146,8 @@ def cameras_exchanged(
     P_first: np.ndarray, P_second: np.ndarray, uv_first: np.ndarray, uv_second: np.ndarray
 ) -> np.ndarray:
     """Mixes up the pictures."""
-    return triangulation.triangulate(P_second, P_first, uv_first, uv_second)
+    x_h = null_vectors(equations(P_second, P_first, uv_first, uv_second))
+    return x_h[:, :3] / x_h[:, 3:]
 
 
 @mistake("The sign in your equations is wrong: u P₃ + P₁ in place of u P₃ − P₁. It comes from u = P₁ p / P₃ p.")
