@@ -21,7 +21,7 @@ from workbench.geometry.rectification import fitted, warp
 from workbench.geometry.triangulation import camera_matrix, triangulation_covariances
 from workbench.lesson import View
 from workbench.numerals import length
-from workbench.scene import Camera, Label, Mesh, Picture, Points, Primitive, Scene, Segments
+from workbench.scene import Camera, Label, Mesh, Picture, Points, Primitive, Role, Scene, Segments
 
 VIEW = View(eye=(14.0, -16.0, 11.0), target=(0.5, 5.0, 4.7), fov_degrees=34.0, grid=None, axes=False)
 WIDTH, APART, ABOVE = 8.6, 0.35, 2.75  # of a picture, between both, and their middle above the target, metres
@@ -46,7 +46,7 @@ class Side:
     def inside(self, uv: np.ndarray) -> np.ndarray:
         """Tell which pixels the picture has."""
         with np.errstate(invalid="ignore"):
-            return ((uv >= -0.5) & (uv <= np.array(self.size) - 0.5)).all(axis=1)
+            return np.asarray(((uv >= -0.5) & (uv <= np.array(self.size) - 0.5)).all(axis=1))
 
     def lines(self, lines: np.ndarray, layer: int = 2) -> np.ndarray:
         """Return the parts of lines (a, b, c) on the picture as segments in the world."""
@@ -104,7 +104,8 @@ def _pictures(state: State) -> dict[str, Primitive]:
     """Return both pictures with matches, the followed pixel, its line, and the lines of some matches."""
     now, views, sides = state.now, state.views, _sides(state)
     scene: dict[str, Primitive] = {}
-    for k, (word, role) in enumerate((("first", "target"), ("second", "source"))):
+    roles: tuple[tuple[str, Role], ...] = (("first", "target"), ("second", "source"))
+    for k, (word, role) in enumerate(roles):
         picture = sides[k].picture
         scene[f"{word}/picture"] = picture
         scene[f"{word}/edge"] = Segments(picture.border(LAYER), role, 2)
@@ -116,8 +117,9 @@ def _pictures(state: State) -> dict[str, Primitive]:
         scene["second/pixels"] = Points(sides[1].places(now.uv_second[seen], 3), "highlight", 0.1)
         if now.stage == "ray":
             return scene
-    true = state.T_true is not None and state.moved
-    F_true = fundamental_from_cameras(views.K_first, views.K_second, state.T_true) if true else None
+    F_true = None
+    if state.T_true is not None and state.moved:
+        F_true = fundamental_from_cameras(views.K_first, views.K_second, state.T_true)
     F = F_true if isinstance(now, Followed) else now.F
     assert F is not None
     rows = evenly(len(views.matches), SHOWN_LINES)
@@ -149,17 +151,17 @@ def _space(state: State) -> dict[str, Primitive]:
         "first/camera": Camera(views.K_first, w, h, T_world_first, 1.3, color="target", name="first camera"),
         **_scenery(views.depth is not None),
     }
-    centers = [np.zeros(3)]
-    for path, T, role, name in (
+    cameras: tuple[tuple[str, np.ndarray | None, Role, str], ...] = (
         ("true camera", state.T_true, "truth", "true second camera"),
         ("camera", state.T_second_first, "source", "estimated"),
-    ):
+    )
+    for path, T, role, name in cameras:
         if T is not None:
             T_world_second = T_world_first @ inverse(T)
             scene[path] = Camera(views.K_second, *views.sizes[1], T_world_second, 1.3, color=role, name=name)
-            centers.append(camera_center(T))
     if isinstance(now, Followed):
-        return scene | _followed(now, centers[-1], T_world_first)
+        assert state.T_true is not None
+        return scene | _followed(now, camera_center(state.T_true), T_world_first)
     shown = evenly(len(views.matches), SHOWN_POINTS)
     if views.p_first is not None:
         scene["true points"] = Points(views.p_first[shown], "truth", 0.06, T_world_first)

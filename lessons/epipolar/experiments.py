@@ -157,8 +157,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         " matches?",
         answer=lines_fit,
         why=lambda states: (
-            f"They are {pixels(states[-1].to_lines(states[-1].views.matches))} from them. The motion takes the error in: it is"
-            f" {angle(states[-1].turn_error)} off in rotation, and nothing in the pictures tells."
+            f"They are {pixels(states[-1].to_lines(states[-1].views.matches))} from them. The motion takes the error in: it"
+            f" is {angle(states[-1].turn_error)} off in rotation, and nothing in the pictures tells."
         ),
         params=WRONG_F,
         choices=("as well as ever", "visibly worse"),

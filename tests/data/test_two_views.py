@@ -1,17 +1,18 @@
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
 
 from workbench.data.matches import read_matches
-from workbench.data.two_views import own_views, read_intrinsics, street_views
+from workbench.data.two_views import What, own_views, read_intrinsics, street_views
 from workbench.errors import InputError
 from workbench.geometry.cameras import project
 from workbench.geometry.epipolar import fundamental_from_cameras, sampson_distances
 from workbench.geometry.motions import apply, exp_so3, inverse
 
 
-def street(what="street", count=60, sigma=0.0, baseline=1.0, heading=0.0, seed=0):
+def street(what: What = "street", count=60, sigma=0.0, baseline=1.0, heading=0.0, seed=0):
     return street_views(what, count, sigma, baseline, heading, np.random.default_rng(seed))
 
 
@@ -53,7 +54,7 @@ def test_pictures_agree_at_matches():
 def test_every_knob_has_its_matches():
     for baseline in (0.0, 2.0):
         for heading in (0.0, 90.0, 180.0):
-            for what in ("street", "plane"):
+            for what in get_args(What):
                 assert len(street(what, 500, baseline=baseline, heading=np.radians(heading)).matches) == 500
     with pytest.raises(InputError, match="in common"):
         street(count=10**5)

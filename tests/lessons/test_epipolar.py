@@ -1,5 +1,6 @@
 """Every claim of the epipolar lesson in numbers: presets, questions, page and slots."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -20,6 +21,10 @@ from workbench.scene import Caption, Points, Segments, caption_of
 
 def states(params: Params) -> tuple[Any, ...]:
     return finished(lesson.name, params).states()
+
+
+def steps_of(found: Iterable[Any]) -> list[Any]:
+    return list(found)
 
 
 def of(name: str) -> tuple[Any, ...]:
@@ -43,7 +48,7 @@ def clean(state: Any) -> float:
 
 def test_home_finds_the_motion():
     for seed in range(5):
-        last = list(run(Params(seed=seed)))[-1]
+        last = steps_of(run(Params(seed=seed)))[-1]
         turn, direction = errors(last) or (np.inf, np.inf)
         assert turn < 0.7
         assert direction < 3
@@ -73,10 +78,10 @@ def test_raw_pixels_miss_by_pixels_and_rank_two_makes_it_worse():
     assert clean(raw[10]) > 3 > 10 * clean(home[10])
     three, two, normal = [], [], []
     for seed in range(10):
-        found = list(run(Params(heading=0.0, normalise=False, route="eight-point", seed=seed)))
+        found = steps_of(run(Params(heading=0.0, normalise=False, route="eight-point", seed=seed)))
         three.append(clean(found[9]))
         two.append(clean(found[10]))
-        normal.append(clean(list(run(Params(heading=0.0, route="eight-point", seed=seed)))[10]))
+        normal.append(clean(steps_of(run(Params(heading=0.0, route="eight-point", seed=seed)))[10]))
     assert np.median(two) > 1.4 * np.median(three) > 4 * np.median(normal)
     assert raw[8].now.singular_values[7] / raw[8].now.singular_values[0] < 1e-5
     assert end("raw").tone == "wrong"
@@ -155,7 +160,9 @@ def test_the_second_camera_left_of_the_first():
 def test_a_wrong_focal_length_hides_in_the_motion():
     off = []
     for seed in range(8):
-        wrong, fine = (list(run(replace(lesson.preset("wrong-f").params, f_error=e, seed=seed))) for e in (20.0, 0.0))
+        wrong, fine = (
+            steps_of(run(replace(lesson.preset("wrong-f").params, f_error=e, seed=seed))) for e in (20.0, 0.0)
+        )
         np.testing.assert_array_equal(wrong[10].now.F, fine[10].now.F)
         off.append(((errors(wrong[-1]) or (0, 0))[0], (errors(fine[-1]) or (0, 0))[0]))
         for values in ([state.to_lines(state.views.matches) for state in (wrong[-1], fine[-1])],
@@ -215,7 +222,7 @@ def test_wrong_functions_show():
     from workbench.geometry.essential import essential_to_poses
     from workbench.geometry.triangulation import triangulate
 
-    transposed = list(run(Params(), eight_point=lambda a, b: fit_fundamental(a, b).T))
+    transposed = steps_of(run(Params(), eight_point=lambda a, b: fit_fundamental(a, b).T))
     assert transposed[10].to_lines(transposed[10].views.matches) > 3
     assert last_tone(eight_point=lambda a, b: np.eye(3)) == "wrong"
     turned = rotation_about("y", 1.0)
@@ -228,8 +235,8 @@ def test_wrong_functions_show():
     assert last_tone(essential_to_poses=turn) == "wrong"
     assert last_tone(triangulate=lambda P, Q, a, b: -triangulate(P, Q, a, b)) == "wrong"
     with pytest.raises(InputError, match="eight_point"):
-        list(run(Params(), eight_point=lambda a, b: np.full((3, 3), np.inf)))
-    nothing = list(run(Params(), triangulate=lambda P, Q, a, b: np.full((len(a), 3), np.nan)))
+        steps_of(run(Params(), eight_point=lambda a, b: np.full((3, 3), np.inf)))
+    nothing = steps_of(run(Params(), triangulate=lambda P, Q, a, b: np.full((len(a), 3), np.nan)))
     assert all(lesson.draw(state) for state in nothing)
 
 

@@ -103,11 +103,12 @@ def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.nd
     first, second = _photograph(T_first_world.tobytes()), _photograph(T_second_world.tobytes())
     uv = np.random.default_rng(0).integers(0, SIZE, (CANDIDATES, 2))
     z = first.depth[uv[:, 1], uv[:, 0]]
-    uv, z = uv[(z > NEAREST) & (z < FARTHEST)].astype(float), z[(z > NEAREST) & (z < FARTHEST)]
+    between = np.flatnonzero((z > NEAREST) & (z < FARTHEST))
+    uv, z = uv[between].astype(float), z[between]
     _, n_first = pixel_rays(uv, np.eye(4), K)
     p_first = n_first / n_first[:, 2:] * z[:, None]
     uv_second = project(p_first, T_second_first, K)
-    inside = (uv_second >= 1.0).all(axis=1) & (uv_second <= np.array(SIZE) - 2.0).all(axis=1)
+    inside = np.asarray(((uv_second >= 1.0) & (uv_second <= np.array(SIZE) - 2.0)).all(axis=1))
     column, row = np.where(inside[:, None], uv_second, 0.0).round().astype(int).T
     seen = inside & (np.abs(second.depth[row, column] / depths(p_first, T_second_first) - 1.0) < 0.02)
     if what == "plane":
@@ -176,7 +177,7 @@ def own_views(
 
 
 def _shown(file: Path | None, uv: np.ndarray) -> tuple[np.ndarray | None, tuple[int, int], int]:
-    """Return a picture as it is shown, its whole size, and which of its pixels are; without one, the size that matches need."""
+    """Return a picture as it is shown, its whole size, and its stride; without one, the size that its pixels need."""
     if file is None:
         w, h = np.ceil(1.05 * np.maximum(uv.max(axis=0), 10.0) + 1.0).astype(int).tolist()
         return None, (w, h), 1
