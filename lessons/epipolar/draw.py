@@ -23,8 +23,8 @@ from workbench.lesson import View
 from workbench.numerals import length
 from workbench.scene import Camera, Label, Mesh, Picture, Points, Primitive, Role, Scene, Segments
 
-VIEW = View(eye=(14.0, -16.0, 11.0), target=(0.5, 5.0, 4.7), fov_degrees=34.0, grid=None, axes=False)
-WIDTH, APART, ABOVE = 8.6, 0.35, 2.75  # of a picture, between both, and their middle above the target, metres
+VIEW = View(eye=(14.0, -16.0, 11.0), target=(0.5, 5.0, 5.2), fov_degrees=34.0, grid=None, axes=False)
+WIDTH, APART, ABOVE = 8.6, 0.35, 2.3  # of a picture, between both, and their middle above the target, metres
 LAYER = 0.04  # metres from a picture to what is drawn on it
 SHOWN_LINES, SHOWN_ELLIPSOIDS, SHOWN_POINTS = 8, 10, 400
 DEEP, REACH = 14.0, 45.0  # metres that a ray is drawn, and from the first camera that anything is
@@ -186,15 +186,9 @@ def _followed(now: Followed, p_center: np.ndarray, T_world_first: np.ndarray) ->
     scene: dict[str, Primitive] = {
         "ray": Segments(between(np.zeros(3), end), "highlight", 3, T_world_first, name="ray of the pixel"),
         "marks": Points(p, "highlight", 0.14, T_world_first),
-        "rays": Segments(
-            between(np.broadcast_to(p_center, p.shape), p),
-            "correspondence",
-            1,
-            T_world_first,
-            name="seen by the second",
-        ),
+        "rays": Segments(between(np.broadcast_to(p_center, p.shape), p), "correspondence", 1, T_world_first),
     }
-    for depth, place in zip(now.depths[near], p, strict=True):
+    for depth, place in zip(now.depths[near][::2], p[::2], strict=True):
         scene[f"mark/{depth:g}"] = Label(
             length(float(depth)), place + np.array([0.0, -0.35, 0.0]), "highlight", T_world_first
         )
@@ -203,7 +197,7 @@ def _followed(now: Followed, p_center: np.ndarray, T_world_first: np.ndarray) ->
         scene["plane"] = Mesh(
             corners, fan(3), "highlight", T_world_first, opacity=0.35, flat=True, name="epipolar plane"
         )
-        scene["baseline"] = Segments(between(np.zeros(3), p_center), "neutral", 4, T_world_first, name="baseline")
+        scene["baseline"] = Segments(between(np.zeros(3), p_center), "neutral", 4, T_world_first)
     return scene
 
 

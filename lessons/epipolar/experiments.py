@@ -43,8 +43,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "plane", "Everything on the ground",
-        "All matches lie in one plane. The lines fit them, and the motion has nothing to do with the camera's.",
-        PLANE, -1, breaks=True,
+        "All matches lie in one plane. Look at the eighth singular value, then at how the lines fit, then at the motion.",
+        PLANE, EQUATIONS, breaks=True,
     ),
     Preset(
         "turned", "Only turned",
@@ -125,7 +125,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=HOME,
         step=12,
-        choices=("none", "one", "two", "all four"),
+        choices=("none", "a single one", "two", "all four"),
     ),
     Question(
         "predict-baseline",
@@ -149,7 +149,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " eighth singular value is hardly larger than the ninth."
         ),
         params=PLANE,
-        choices=("below 2°", "2° to 20°", "more than 20°"),
+        choices=("below 2°", "2° to 20°", "beyond 20°"),
     ),
     Question(
         "predict-f",

@@ -15,4 +15,3 @@ GIVEAWAYS = {
         r"nothing in the pictures tells",
     ),
 }
-INNOCENT = {"predict-four": r"Points in front prove the pose"}

@@ -98,10 +98,6 @@ LINES = {
     "oblique": (Claim(r"by more than half a right angle", lambda run, k, m: turned_over(run) > 45),),
     "left": (Claim(r"Left and right are swapped", lambda run, k, m: run.states[0].views.T_second_first[0, 3] > 0.9),),
     "upside-down": (Claim(r"rows correspond, upside down", lambda run, k, m: turned_over(run) > 150),),
-    "plane": (
-        Claim(r"The lines fit them", lambda run, k, m: last_distance(run) < 2 * run.params.noise),
-        Claim(r"the motion has nothing to do with the camera", lambda run, k, m: last_errors(run)[1] > 15),
-    ),
     "short": (
         Claim(r"lines as near", lambda run, k, m: last_distance(run) < 1.3 * run.params.noise),
         Claim(r"rotation as good", lambda run, k, m: last_errors(run)[0] < 1.0),

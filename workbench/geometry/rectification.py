@@ -85,7 +85,7 @@ def rectify(
 
 
 def torn(H: Float[np.ndarray, "3 3"], size: tuple[int, int]) -> bool:
-    """Tell whether a homography takes a part of a picture of this width and height through infinity."""
+    """Return whether a homography takes a part of a picture of this width and height through infinity."""
     w = homogeneous(_corners(size)) @ H[2]
     return not bool((w > 1e-9 * np.abs(w).max()).all())
 
