@@ -15,13 +15,14 @@ from workbench.geometry.polylines import between, segments
 from workbench.lesson import View
 from workbench.scene import Camera, Color, Field, Label, Mesh, Picture, Points, Primitive, Scene, Segments
 
-VIEW = View(eye=(-0.78, -0.42, 0.36), target=(0.08, 0.3, 0.03), fov_degrees=40.0, grid=None, axes=False)
-SCREEN = (VIEW.facing(0.34, 0.03, -0.55), 0.62)
+VIEW = View(eye=(0.64, -0.5, 0.365), target=(0.0, 0.22, 0.06), fov_degrees=40.0, grid=None, axes=False)
+SCREEN = (VIEW.facing(-0.42, 0.12, -0.45), 0.66)
 """Where the enlarged picture stands, behind the boards, and its width in metres."""
 LAYER = 0.004  # metres from the picture to what is drawn on it
 LONGER = 20  # times, residuals
 MOST = 90.0  # pixels that a lengthened residual is drawn at most
 DEPTH = 0.1  # metres, of the frustum
+FAINT = 0.15  # opacity of the boards that are not shown
 T_WORLD_CAMERA = inverse(look_at(np.zeros(3), np.array([0.0, 1.0, 0.0])))
 
 
@@ -42,12 +43,14 @@ def _boards(state: State) -> dict[str, Primitive]:
             scene[f"true boards/{view}"] = Segments(outline, "truth", 2.5, _placed(T, scale), name="true boards")
     if now.K is not None and now.K[0, 0] > 0 and now.K[1, 1] > 0:
         scene["camera"] = Camera(now.K, w, h, T_WORLD_CAMERA, 0.9 * DEPTH, color="source", name="camera as found")
-    for view, T in zip(subject.views, now.Ts_camera_board, strict=False):
+    for i, (view, T) in enumerate(zip(subject.views, now.Ts_camera_board, strict=False)):
         T_world_board = _placed(T, scale)
         scene[f"boards/{view}"] = Segments(outline, "source", 2.0, T_world_board, name="boards as found")
         if subject.K is not None:
             p, faces, colors = _squares()
-            scene[f"squares/{view}"] = Mesh(p, faces, colors, T_world_board, flat=True)
+            scene[f"squares/{view}"] = Mesh(
+                p, faces, colors, T_world_board, 1.0 if i == state.shown else FAINT, flat=True
+            )
     Ts = now.Ts_camera_board if len(now.Ts_camera_board) else subject.Ts_camera_board
     if len(Ts):
         middle = subject.p_board.mean(axis=0) * scale

@@ -59,7 +59,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "stretched", "A stretched print",
-        "The printer made x 2 % longer and nobody knows: fx and fy come out more than 1 % apart, though pixels are square.",
+        "The printer made x 2 % longer and nobody knows: fx and fy come out over half a per cent apart, though pixels"
+        " are square.",
         STRETCHED, -1, breaks=True,
     ),
     Preset(
@@ -178,6 +179,6 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " views alike."
         ),
         params=BENT,
-        choices=("within its ±", "up to 2.5 times its ±", "more than that"),
+        choices=("within its ±", "up to 2.5 times its ±", "over 2.5 times its ±"),
     ),
 )

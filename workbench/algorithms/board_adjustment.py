@@ -20,7 +20,7 @@ from workbench.tracing import traced
 
 SHARED = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
 """What all views share, in the order of covariances."""
-_CAMERA, _POSE, _RESIDUAL = slice(0, 9), slice(9, 15), 15  # rows of a view's block
+_POSE, _RESIDUAL = slice(9, 15), 15  # rows of a view's block
 
 
 class Stop(Enum):
@@ -149,7 +149,11 @@ def adjust(
             stop = Stop.STUCK if damping > 1e8 else None
 
 
-@np.errstate(all="ignore")  # a point at depth 0 or beyond all numbers gives a cost that is not finite, and is rejected
+_QUIETLY = np.errstate(all="ignore")
+"""A point at depth 0 or beyond all numbers gives a cost that is not finite: such a step is rejected."""
+
+
+@_QUIETLY
 def linearised(
     shared: Float[np.ndarray, "9"],
     R_camera_board: Float[np.ndarray, "k 3 3"],
@@ -203,6 +207,7 @@ def linearised(
     return out
 
 
+@_QUIETLY
 def loss(block: Float[np.ndarray, "k 16 m"], corner: float | None) -> tuple[float, Float[np.ndarray, "k n"]]:
     """Return the sum of the loss of all residuals, and the weight of each corner: squares, or Cauchy's loss.
 
@@ -217,6 +222,7 @@ def loss(block: Float[np.ndarray, "k 16 m"], corner: float | None) -> tuple[floa
     return float(corner**2 * np.log1p(scaled).sum()), 1.0 / (1.0 + scaled)
 
 
+@_QUIETLY
 def solved(
     normal: Float[np.ndarray, "k 16 16"], free: Bool[np.ndarray, "9"], damping: float
 ) -> tuple[Float[np.ndarray, "9"], Float[np.ndarray, "k 6"]] | None:
@@ -255,6 +261,7 @@ def turns(w: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k 3 3"]:
     return np.eye(3) + np.sinc(angle / np.pi) * W + 0.5 * np.sinc(0.5 * angle / np.pi) ** 2 * W @ W
 
 
+@_QUIETLY
 def _normal(block: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return (block * np.tile(weights, 2)[:, None, :]) @ np.swapaxes(block, 1, 2)
 
@@ -277,6 +284,7 @@ def _information(normal: np.ndarray, free: np.ndarray) -> np.ndarray:
     return A - (B @ np.linalg.solve(P, np.swapaxes(B, 1, 2))).sum(axis=0)
 
 
+@_QUIETLY
 def _covariance(block: np.ndarray, weights: np.ndarray, free: np.ndarray) -> np.ndarray | None:
     """Return the covariance of the free shared unknowns, or None where the views do not determine them."""
     normal = _normal(block, weights)
