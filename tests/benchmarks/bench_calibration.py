@@ -2,8 +2,8 @@
 
 The same corners for both, all nine shared unknowns free, every step of ours computed; on one thread, taking turns: the least
 of the rounds in CPU milliseconds, and the median of the ratios of the turns. Ours may take twice as long. Behind
-them how far the answers are apart: the rms in px, the largest entry of K in px, the largest of nine standard deviations. Real corners
-where ../shared/data is beside the project, else a scene of ours.
+them how far the answers are apart: the rms in px, the largest entry of K in px, the largest of nine standard deviations.
+Real corners where ../shared/data is beside the project, else a scene of ours.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)
