@@ -15,8 +15,8 @@ from workbench.geometry.polylines import between, segments
 from workbench.lesson import View
 from workbench.scene import Camera, Color, Field, Label, Mesh, Picture, Points, Primitive, Scene, Segments
 
-VIEW = View(eye=(0.64, -0.5, 0.365), target=(0.0, 0.22, 0.06), fov_degrees=40.0, grid=None, axes=False)
-SCREEN = (VIEW.facing(-0.42, 0.12, -0.45), 0.66)
+VIEW = View(eye=(0.62, -0.52, 0.42), target=(-0.02, 0.2, 0.1), fov_degrees=40.0, grid=None, axes=False)
+SCREEN = (VIEW.facing(-0.4, 0.1, -0.45), 0.66)
 """Where the enlarged picture stands, behind the boards, and its width in metres."""
 LAYER = 0.004  # metres from the picture to what is drawn on it
 LONGER = 20  # times, residuals
@@ -42,7 +42,7 @@ def _boards(state: State) -> dict[str, Primitive]:
         for view, T in zip(subject.views, subject.Ts_camera_board, strict=True):
             scene[f"true boards/{view}"] = Segments(outline, "truth", 2.5, _placed(T, scale), name="true boards")
     if now.K is not None and now.K[0, 0] > 0 and now.K[1, 1] > 0:
-        scene["camera"] = Camera(now.K, w, h, T_WORLD_CAMERA, 0.9 * DEPTH, color="source", name="camera as found")
+        scene["camera"] = Camera(now.K, w, h, T_WORLD_CAMERA, DEPTH, color="source", name="camera as found")
     for i, (view, T) in enumerate(zip(subject.views, now.Ts_camera_board, strict=False)):
         T_world_board = _placed(T, scale)
         scene[f"boards/{view}"] = Segments(outline, "source", 2.0, T_world_board, name="boards as found")
@@ -110,7 +110,7 @@ def _picture(state: State) -> dict[str, Primitive]:
     return {
         "picture": picture,
         "picture/border": Segments(picture.border(LAYER), "highlight", 2.0),
-        "corners": Points(on(uv), "target", 0.0035, name="corners as measured"),
+        "corners": Points(on(uv), "target", 0.0045, name="corners as measured"),
         "residuals": Segments(between(on(uv, 1.5 * LAYER), on(uv + long, 1.5 * LAYER)), "wrong", 2.5,
                               name=f"residuals, {LONGER} times as long"),
     }  # fmt: skip

@@ -4,11 +4,12 @@ import numpy as np
 
 from lessons.calibration.state import Ending, State
 from workbench.algorithms.board_adjustment import Stop
-from workbench.numerals import brief, counted, fixed, pixels
+from workbench.numerals import brief, counted, fixed, percent, pixels
 from workbench.scene import Caption
 
 SHARE, NEAR = 0.01, 10.0  # a camera is right with f off by 1 % at most, and rays by 10 px at most
 ORTHONORMAL = 1e-6
+UNEQUAL = 0.005  # share by which fx and fy differ from which on it is told
 STOPS = {
     Stop.CONVERGED: "The cost has come to rest.",
     Stop.STUCK: "No step lowers the cost any more.",
@@ -156,10 +157,14 @@ def _known(state: State, ending: Ending) -> Caption:
             f"{text}; rms {pixels(state.rms)}. Nobody knows the truth here: the ± takes the board for flat, and errors"
             " of corners for independent."
         )
+    text += f", in truth {fixed(state.subject.K[0, 0], 0)} px"
     worst = state.worst_in_picture
+    apart = abs(now.K[0, 0] / now.K[1, 1] - 1)
+    if apart > UNEQUAL:
+        text += f"; fx and fy are {percent(apart, 1)} apart"
     said = f"somewhere in the picture by {pixels(worst)}" if np.isfinite(worst) else "where, nobody can tell"
     return Caption.verdict(
-        f"{text}, in truth {fixed(state.subject.K[0, 0], 0)} px. Rays are off {said}.",
+        f"{text}. Rays are off {said}.",
         right=is_right(state),
         settled=now.stop is Stop.CONVERGED,
     )

@@ -19,7 +19,7 @@ def test_corners_lie_row_by_row_on_squares_of_25_mm():
     mesh, faces, colors = boards.board_mesh()
     for corner in p:  # four squares meet in each, dark and light in turn
         meeting = np.unique(np.flatnonzero((np.abs(mesh[faces] - corner).max(axis=2) < 1e-9).any(axis=1)) // 2)
-        assert sorted(colors[2 * meeting, 0]) == [40, 40, 245, 245]
+        assert sorted(colors[2 * meeting, 0]) == [60, 60, 245, 245]
 
 
 @pytest.mark.parametrize(

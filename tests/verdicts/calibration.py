@@ -109,6 +109,11 @@ def _off(run: Run, k: int, m: re.Match[str]) -> bool:
     return near(m["worst"], _worst(run.states[k])) or says(m["worst"], _worst(run.states[k]))
 
 
+def _apart_by(run: Run, k: int, m: re.Match[str]) -> bool:
+    K = run.states[k].now.K
+    return says(m["share"], 100 * abs(K[0, 0] / K[1, 1] - 1))
+
+
 def _more_than_noise(run: Run, k: int, m: re.Match[str]) -> bool:
     off = np.linalg.norm(run.states[k].now.residuals, axis=2)
     return bool(np.sqrt((off**2).mean()) > 1.4 * SIGMAS * run.params.noise)
@@ -134,6 +139,7 @@ CAPTIONS = [
         _moved,
     ),
     Claim(rf"± (?P<sd>{NUMBER}) px", _plus_minus),
+    Claim(rf"fx and fy are (?P<share>{NUMBER}) % apart", _apart_by),
     Claim(rf"Rays are off somewhere in the picture by (?P<worst>{NUMBER}) px", _off),
     Claim(
         r"It looks settled, and it is wrong\.",

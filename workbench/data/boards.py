@@ -47,7 +47,7 @@ def board_mesh() -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"], UInt
     corner = np.stack([i, j, np.zeros_like(i)], axis=1)
     p = SQUARE * (corner[:, None] + np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])).reshape(-1, 3)
     faces = (4 * np.arange(len(i))[:, None, None] + np.array([[0, 1, 2], [0, 2, 3]])).reshape(-1, 3)
-    shade = np.where((i + j) % 2 == 0, 40, 245).astype(np.uint8)
+    shade = np.where((i + j) % 2 == 0, 60, 245).astype(np.uint8)
     return p, faces, np.repeat(shade, 2)[:, None].repeat(3, axis=1)
 
 
