@@ -29,11 +29,11 @@ from workbench.scene import (
     is_rigid,
 )
 
-VIEW = View(eye=(7.2, -0.9, 3.0), target=(0.6, 0.0, 0.55), grid=None, axes=False, fov_degrees=40.0)
+VIEW = View(eye=(7.2, -0.9, 3.0), target=(0.6, 0.0, 0.1), grid=None, axes=False, fov_degrees=40.0)
 CLOSE = View(eye=(0.1, -0.4, 0.3), target=(0.06, 0.0, 0.0), grid=None, axes=False, fov_degrees=40.0)
 ABOVE = View(eye=(9.5, -6.0, 5.5), target=(0.8, 0.6, 1.7), grid=None, axes=False, fov_degrees=40.0)
 SCREENS = {
-    "box": (VIEW.facing(1.75, 0.3), 2.2),
+    "box": (VIEW.facing(1.6, -0.75), 2.3),
     "marker": (CLOSE.facing(0.13, 0.0), 0.16),
     "triangle": (ABOVE.facing(2.6, 0.3), 2.8),
 }
@@ -62,7 +62,11 @@ def draw(state: State) -> Scene:
         return scene | _repeated(subject, now)
     if state.T is not None and is_rigid(state.T):
         scene["estimate"] = _camera(subject, state.T, "source", "estimate")
-        if subject.T_true is not None and subject.body is not None:
+        if (
+            not (isinstance(now, Searched) and now.phase == "root")
+            and subject.T_true is not None
+            and subject.body is not None
+        ):
             scene["seen"] = Segments(
                 _as_seen(subject, state.T), "source", 2.5, name="target, if the camera stood still"
             )
@@ -180,7 +184,8 @@ def _candidates(state: State, now: Searched) -> dict[str, Primitive]:
     for k, T in enumerate(now.candidates, 1):
         if not (np.isfinite(T).all() and is_rigid(T)):
             continue
-        scene[f"candidates/{k}"] = _camera(subject, T, "other", "possible camera" if k == 1 else "", 0.8)
+        if state.T is None or np.abs(T - state.T).max() > 1e-9:
+            scene[f"candidates/{k}"] = _camera(subject, T, "other", "possible camera")
         if now.phase == "both" and subject.T_true is not None and subject.body is not None:
             seen = _as_seen(subject, T)
             scene[f"candidates/{k}/seen"] = Segments(seen, "other", 2.5, name="what it would see" if k == 1 else "")

@@ -1,6 +1,7 @@
 """Experiments with poses, and what to predict before looking."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -36,7 +37,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "Four ways to put a triangle on three rays: each of the four cameras sees the three points where they were"
         " seen. Then"
         " a fourth point chooses.",
-        FOUR, 6, ABOVE,
+        FOUR, 6, replace(ABOVE, eye=(6.3, -4.0, 3.9), target=(0.8, 0.5, 0.9)),
     ),
     Preset(
         "cylinder", "On the danger cylinder",

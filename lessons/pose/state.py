@@ -21,7 +21,7 @@ from workbench.knobs import Gizmo, Knob
 Target = Literal["box", "marker", "triangle"]
 Method = Literal["P3P", "DLT", "SQPnP", "IPPE", "RANSAC"]
 BOX, MARKER = {"target": ("box",)}, {"target": ("marker",)}
-NEAR_DEGREES, NEAR_SHARE = 5.0, 0.05
+NEAR_DEGREES, NEAR_SHARE = 10.0, 0.1
 """A pose counts as right within so many degrees, and with its centre within this share of its distance."""
 
 
