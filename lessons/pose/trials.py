@@ -5,9 +5,10 @@ from functools import lru_cache
 import numpy as np
 
 from lessons.pose.state import Params, Repeated, Subject
+from workbench.algorithms.camera_search import downhill
 from workbench.data.sightings import seen
 from workbench.geometry.alignment import degrees_between
-from workbench.geometry.camera_motions import dlt_motion, refined, rms_reprojection, sqpnp
+from workbench.geometry.camera_motions import dlt_motion, gauss_newton_step, refined, rms_reprojection, sqpnp
 from workbench.geometry.cameras import normalize
 from workbench.geometry.motions import exp_so3
 from workbench.geometry.planar_motions import planar_motions
@@ -34,7 +35,10 @@ def repeated(params: Params, subject: Subject) -> Repeated:
         Ts = sqpnp(np.broadcast_to(p, (PICTURES, *p.shape)), xy)
     else:
         Ts, swapped = _by_planes(subject, xy)
-    if params.refine and params.method != "IPPE":
+    if params.refine and params.method == "DLT":  # the way down matters where it begins far off
+        ends = [list(downhill(T, p, one, gauss_newton_step))[-1].T for T, one in zip(Ts, xy, strict=True)]
+        Ts = np.stack([T for T in ends if T is not None])
+    elif params.refine and params.method != "IPPE":
         Ts = refined(Ts, p, xy[of_picture])
     off = np.array([subject.off(T) for T in Ts]).reshape(-1, 2)
     counts = solution_counts(params.seed) if params.target == "triangle" else None

@@ -72,7 +72,10 @@ def several(seed: int, n: int = 8, sigma: float = 1e-3) -> tuple[np.ndarray, np.
         _, p_world, xy = a_view(rng, n)
         xy = xy + sigma * rng.standard_normal(xy.shape)
         Ts, _ = p3p(p_world[None, :3], xy[None, :3])
-        if len(Ts) > 1:
+        if len(Ts) > 1:  # one of the others sees the last point better than the right one does
+            uv, z = seen(Ts, p_world[-1:])
+            k = int(np.argmax(np.square(uv[:, 0] - xy[-1]).sum(axis=1) * (z[:, 0] > 0)))
+            xy[-1] = uv[k, 0]
             return Ts[rng.permutation(len(Ts))], p_world, xy
 
 
@@ -161,6 +164,25 @@ def by_three(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.
     return camera_search.choose_pose(candidates, p_world[:3], xy[:3])
 
 
+@mistake("You judged by the last point alone. A single point may be seen well by a wrong pose: use all of them.")
+def by_the_last(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
+    """Leaves out all points but one."""
+    return camera_search.choose_pose(candidates, p_world[-1:], xy[-1:])
+
+
+@mistake("You returned the first pose, whatever it fits. Compare their errors in the picture.")
+def the_first(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
+    """Does not choose."""
+    return candidates[0]
+
+
+@mistake("You counted the points in front, and did not compare the errors of those poses that have all in front.")
+def most_in_front(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
+    """Takes the pose with most points in front."""
+    _, z = seen(candidates, p_world)
+    return candidates[np.argmax((z > 0).sum(axis=1))]
+
+
 @mistake("You chose the right pose and returned its inverse. Return the candidate as it came in.")
 def inverted(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Returns camera-to-world."""
@@ -192,6 +214,14 @@ def mean_depth(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> n
     uv, z = seen(candidates, p_world)
     errors = np.square(uv - xy).sum(axis=(1, 2))
     return candidates[np.where(z.mean(axis=1) > 0, errors, np.inf).argmin()]
+
+
+@mistake("You refuse poses with the points in front and take those with the points behind. In front is where Z > 0.")
+def only_behind(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
+    """Has the sign of the depth wrong."""
+    uv, z = seen(candidates, p_world)
+    errors = np.square(uv - xy).sum(axis=(1, 2))
+    return candidates[np.where((z < 0).all(axis=1), errors, np.inf).argmin()]
 
 
 @mistake("You compared X and Y in metres with xy, without the division by Z. Image coordinates are X/Z and Y/Z.")

@@ -20,7 +20,7 @@ from workbench.exercise import (
     worst,
 )
 from workbench.geometry.camera_motions import gauss_newton_step, linearised, refined
-from workbench.geometry.motions import exp_se3, exp_so3, motion, skew
+from workbench.geometry.motions import exp_so3, motion, skew
 
 
 @contract(
@@ -117,16 +117,19 @@ def away_from_the_origin(candidate: Function) -> Verdict:
     return worst(arrived(candidate, GRADERS + 30 + k, aside=4.0, steps=8) for k in range(2))
 
 
-def twist(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
-    """Return the right step (v, w)."""
+def small(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray, turned: float = 1.0) -> np.ndarray:
+    """Return the right small motion, or one made with other signs of the rotation's derivatives."""
     residuals, J = linearised(T, p_world, xy)
-    return -np.linalg.lstsq(J, residuals, rcond=None)[0]
+    x = -np.linalg.lstsq(J * np.repeat([1.0, turned], 3), residuals, rcond=None)[0]
+    return motion(exp_so3(x[3:]), x[:3])
 
 
 @mistake("Your step goes uphill: its sign is wrong. Solve J x = −residual, with residual = seen − xy.")
 def uphill(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Adds what should be subtracted."""
-    return exp_se3(-twist(T, p_world, xy)) @ T
+    residuals, J = linearised(T, p_world, xy)
+    x = np.linalg.lstsq(J, residuals, rcond=None)[0]
+    return motion(exp_so3(x[3:]), x[:3]) @ T
 
 
 @mistake(
@@ -134,7 +137,7 @@ def uphill(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
 )
 def composed_on_the_right(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Multiplies from the wrong side."""
-    return T @ exp_se3(twist(T, p_world, xy))
+    return T @ small(T, p_world, xy)
 
 
 @mistake("Your derivative leaves out −X/Z² and −Y/Z²: moving along the axis changes the picture too, by the division.")
@@ -146,7 +149,8 @@ def without_division(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.n
     J[:, 0, 0] = J[:, 1, 1] = 1 / p[:, 2]
     J[:, 0, 4], J[:, 0, 5] = 1.0, -p[:, 1] / p[:, 2]
     J[:, 1, 3], J[:, 1, 5] = -1.0, p[:, 0] / p[:, 2]
-    return exp_se3(-np.linalg.lstsq(J.reshape(-1, 6), r, rcond=None)[0]) @ T
+    x = -np.linalg.lstsq(J.reshape(-1, 6), r, rcond=None)[0]
+    return motion(exp_so3(x[3:]), x[:3]) @ T
 
 
 @mistake("You left the rotation out: there are six unknowns, three of translation and three of rotation.")
@@ -161,25 +165,21 @@ def translation_only(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.n
 @mistake("You turned by I + [w]×, which is no rotation: it stretches at every step. Turn by |w| about w (Rodrigues).")
 def no_proper_rotation(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Takes the linear part for the rotation."""
-    x = twist(T, p_world, xy)
-    step = np.eye(4)
-    step[:3, :3] += skew(x[3:])
-    step[:3, 3] = x[:3]
-    return step @ T
+    residuals, J = linearised(T, p_world, xy)
+    x = -np.linalg.lstsq(J, residuals, rcond=None)[0]
+    return motion(np.eye(3) + skew(x[3:]), x[:3]) @ T
 
 
 @mistake("Your rotation turns backwards: w × p is −[p]× w. Its columns in the Jacobian have the wrong sign.")
 def turned_backwards(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Uses p × w."""
-    residuals, J = linearised(T, p_world, xy)
-    x = -np.linalg.lstsq(J * [1, 1, 1, -1, -1, -1], residuals, rcond=None)[0]
-    return exp_se3(x) @ T
+    return small(T, p_world, xy, -1.0) @ T
 
 
 @mistake("You returned the step alone. Asked for is the pose after it: step @ T.")
 def step_alone(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Forgets T."""
-    return exp_se3(twist(T, p_world, xy))
+    return small(T, p_world, xy)
 
 
 @mistake(
@@ -188,7 +188,8 @@ def step_alone(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray
 def gradient(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Steps along the gradient."""
     residuals, J = linearised(T, p_world, xy)
-    return exp_se3(-0.1 * J.T @ residuals) @ T
+    x = -0.1 * J.T @ residuals
+    return motion(exp_so3(x[3:]), x[:3]) @ T
 
 
 @alternative
