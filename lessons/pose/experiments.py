@@ -41,7 +41,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "cylinder", "On the danger cylinder",
-        "The camera is right above the circle through the three points. Here two solutions run into one: half a"
+        "The camera is straight above the circle through the three points. Here two solutions run into one: half a"
         " pixel of noise"
         " moves the answer far, or loses it.",
         CYLINDER, -1, ABOVE, breaks=True,
@@ -80,8 +80,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "sheet", "A sheet",
-        "6 mm thick: what the linear transform gives is no place to go down from. Look at the cameras found in other"
-        " pictures.",
+        "6 mm thick: what the linear transform gives is no place to go down from. Look where the cameras of other"
+        " pictures are.",
         SHEET, -1, breaks=True,
     ),
     Preset(

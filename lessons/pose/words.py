@@ -38,7 +38,7 @@ def _given(state: State) -> Caption:
     wrong = int(subject.given.is_outlier.sum())
     also = f"; {wrong} of the points are seen somewhere else altogether" if wrong else ""
     return Caption(
-        f"{n} known points (blue), and on the right where a camera saw them, {noise}{also}. Where was the camera? The"
+        f"{n} known points (blue), and the picture where a camera saw them, {noise}{also}. Where was the camera? The"
         " green one is the truth, which no method knows."
     )
 

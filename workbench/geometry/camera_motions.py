@@ -43,7 +43,7 @@ def rms_reprojection(
         p_world: The points, metres.
         xy: Where they were observed.
     """
-    return np.sqrt(np.square(reprojection_errors(Ts_camera_world, p_world, xy)).mean(axis=-1))
+    return np.asarray(np.sqrt(np.square(reprojection_errors(Ts_camera_world, p_world, xy)).mean(axis=-1)))
 
 
 def linearised(

@@ -16,6 +16,7 @@ _REAL = 1e-6  # an imaginary part below this share of a root is rounding
 _SOLVED = 1e-9  # how well, in shares of a triangle's largest side squared, the law of cosines has to hold
 _OPPOSITE = ((1, 2), (0, 2), (0, 1))  # the ends of the sides a, b, c
 _BAD = 1e300
+_TWOFOLD, _SAME = 1e-5, 1e-6
 
 
 def unit_rays(xy: Float[np.ndarray, "*k 2"]) -> Float[np.ndarray, "*k 3"]:
@@ -69,13 +70,26 @@ def three_point_lengths(
         v = roots.real
         real = usable[:, None] & (np.abs(roots.imag) < _REAL * (1.0 + np.abs(v))) & (v > 0.0)
         of_sample, root = np.nonzero(real)
-        (a2, b2, c2), (cos_a, cos_b, cos_c), v = sides[:, of_sample], cosines[:, of_sample], v[of_sample, root]
+        v = v[of_sample, root]
+        (a2, b2, c2), (cos_a, cos_b, cos_c) = sides[:, of_sample], cosines[:, of_sample]
         p, q = (a2 - c2) / b2, 2.0 * (cos_c - v * cos_a)
-        u = ((p - 1.0) * v * v - 2.0 * p * cos_b * v + 1.0 + p) / q
         s1 = np.sqrt(b2 / (1.0 + v * v - 2.0 * v * cos_b))
+        u = ((p - 1.0) * v * v - 2.0 * p * cos_b * v + 1.0 + p) / q
+        twofold = np.flatnonzero(np.abs(q) < _TWOFOLD)  # both u of the side c belong to this v
+        apart = np.sqrt(np.maximum(cos_c**2 - 1.0 + c2 / s1**2, 0.0))[twofold]
+        u[twofold] = cos_c[twofold] + apart
+        rows = np.concatenate([np.arange(len(u)), twofold])
+        u, v, s1 = np.concatenate([u, cos_c[twofold] - apart]), v[rows], s1[rows]
+        of_sample = of_sample[rows]
         s, left = _polished(np.stack([s1, u * s1, v * s1], axis=1), sides[:, of_sample], cosines[:, of_sample])
-        kept = (s > 0.0).all(axis=1) & (left < _SOLVED * np.max(sides[:, of_sample], axis=0, initial=0.0)) & (u > 0.0)
-    return s[kept], of_sample[kept]
+        largest = np.max(sides[:, of_sample], axis=0, initial=0.0)
+        kept = (s > 0.0).all(axis=1) & (left < _SOLVED * largest) & (u > 0.0)
+    for sample in np.unique(of_sample[len(of_sample) - len(twofold) :]):
+        same = np.flatnonzero(kept & (of_sample == sample))
+        for k, row in enumerate(same):
+            kept[row] = not (np.abs(s[same[:k]] - s[row]) < _SAME * s[row]).all(axis=1)[kept[same[:k]]].any()
+    order = np.flatnonzero(kept)[np.argsort(of_sample[kept], kind="stable")]
+    return s[order], of_sample[order]
 
 
 def motions_from_lengths(
