@@ -113,7 +113,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "seventy", "70 % outliers",
         "Only one sample of three points in 37 is clean, and yet RANSAC needs few hundred of them: that is what P3P"
         " is for.",
-        SEVENTY, -1,
+        SEVENTY, 1,
     ),
 )  # fmt: skip
 
@@ -177,7 +177,7 @@ def _plane_answer(states: Sequence[State]) -> float:
 def _plane_why(states: Sequence[State]) -> str:
     middle = angle(float(np.median(others(states).degrees)))
     return (
-        f"By {middle} in the middle of 60 pictures. Of points in a plane the twelve numbers of the matrix are not"
+        f"By {middle} in the middle of 40 pictures. Of points in a plane the twelve numbers of the matrix are not"
         " determined:"
         " whole families fit, and noise picks one. The rotation in it means nothing."
     )

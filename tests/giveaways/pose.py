@@ -1,5 +1,6 @@
 """Which sentences would tell the answers of the questions in the pose lesson, as patterns; case does not matter."""
 
+INNOCENT = {"predict-wrong": r"the noise is half a pixel"}
 GIVEAWAYS = {
     "predict-solutions": (
         r"(mostly|usually|most (of them )?have|commonly|as a rule) two",

@@ -18,7 +18,7 @@ _SKEW = np.stack([skew(axis) for axis in np.eye(3)])
 
 
 def reprojection_errors(
-    Ts_camera_world: Float[np.ndarray, "*k 4 4"], p_world: Float[np.ndarray, "*j n 3"], xy: Float[np.ndarray, "*j n 2"]
+    Ts_camera_world: Float[np.ndarray, "*k 4 4"], p_world: Float[np.ndarray, "*j n 3"], xy: Float[np.ndarray, "*i n 2"]
 ) -> Float[np.ndarray, "*k n"]:
     """Return how far each point is seen from where it was observed, in units of the image plane; infinite from behind.
 
@@ -34,7 +34,7 @@ def reprojection_errors(
 
 
 def rms_reprojection(
-    Ts_camera_world: Float[np.ndarray, "*k 4 4"], p_world: Float[np.ndarray, "*j n 3"], xy: Float[np.ndarray, "*j n 2"]
+    Ts_camera_world: Float[np.ndarray, "*k 4 4"], p_world: Float[np.ndarray, "*j n 3"], xy: Float[np.ndarray, "*i n 2"]
 ) -> Float[np.ndarray, "*k"]:
     """Return the root mean square of the reprojection errors of each motion; infinite where a point is behind it.
 
@@ -92,7 +92,7 @@ def gauss_newton_step(
 def refined(
     Ts_camera_world: Float[np.ndarray, "k 4 4"],
     p_world: Float[np.ndarray, "*j n 3"],
-    xy: Float[np.ndarray, "*j n 2"],
+    xy: Float[np.ndarray, "*i n 2"],
     *,
     weights: Float[np.ndarray, " n"] | None = None,
     steps: int = 30,

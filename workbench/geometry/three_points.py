@@ -161,7 +161,7 @@ def _quartics(sides: np.ndarray, cosines: np.ndarray) -> np.ndarray:
 def _polished(s: np.ndarray, sides: np.ndarray, cosines: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Take Newton steps on the law of cosines of the three sides; return the lengths and what is left of it."""
     left = np.full(len(s), np.inf)
-    for _ in range(4):
+    for _ in range(3):
         ends = [(s[:, i], s[:, j], cosine) for (i, j), cosine in zip(_OPPOSITE, cosines, strict=True)]
         g = np.stack(
             [x * x + y * y - 2 * x * y * cosine - side for (x, y, cosine), side in zip(ends, sides, strict=True)]
