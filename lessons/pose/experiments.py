@@ -37,7 +37,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "Four ways to put a triangle on three rays: each of the four cameras sees the three points where they were"
         " seen. Then"
         " a fourth point chooses.",
-        FOUR, 6, replace(ABOVE, eye=(6.3, -4.0, 3.9), target=(0.8, 0.5, 0.9)),
+        FOUR, 6, replace(ABOVE, eye=(7.2, -4.5, 4.3), target=(1.0, 0.65, 1.1)),
     ),
     Preset(
         "cylinder", "On the danger cylinder",
