@@ -1,0 +1,73 @@
+"""Known points and where a camera saw them: made ones, and those that people bring."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from workbench.data.files import text_rows
+from workbench.data.formats import is_number
+from workbench.errors import InputError
+from workbench.geometry.cameras import project
+
+MOST = 2000
+
+
+@dataclass(frozen=True, eq=False)
+class Sightings:
+    """World points, metres, and the pixels at which they were seen; which of them are outliers, where that is known."""
+
+    p_world: Float[np.ndarray, "n 3"]
+    uv: Float[np.ndarray, "n 2"]
+    is_outlier: Bool[np.ndarray, " n"]
+
+
+def seen(
+    p_world: Float[np.ndarray, "n 3"],
+    T_camera_world: Float[np.ndarray, "4 4"],
+    K: Float[np.ndarray, "3 3"],
+    rng: np.random.Generator,
+    *,
+    sigma: float,
+    outlier_ratio: float = 0.0,
+) -> Sightings:
+    """Return how a camera sees points: with normal noise, and some of them anywhere else where others are.
+
+    Args:
+        p_world: The points, metres, all in front of the camera.
+        T_camera_world: The camera's motion.
+        K: Its intrinsics.
+        rng: Chance.
+        sigma: Noise of each pixel coordinate.
+        outlier_ratio: Share of the points that are seen somewhere in the box around the others' pixels.
+    """
+    uv = project(p_world, T_camera_world, K)
+    low, high = uv.min(axis=0), uv.max(axis=0)
+    noise, anywhere = sigma * rng.standard_normal(uv.shape), rng.uniform(low, high, uv.shape)
+    is_outlier = np.zeros(len(uv), bool)
+    is_outlier[rng.permutation(len(uv))[: round(outlier_ratio * len(uv))]] = True
+    return Sightings(p_world, np.where(is_outlier[:, None], anywhere, uv + noise), is_outlier)
+
+
+def read_sightings(path: Path) -> Sightings:
+    """Return the rows X Y Z u v of a text file (txt, csv): world points in metres and their pixels.
+
+    Raises:
+        InputError: If the file cannot be read, has other rows, too few or too many, or numbers that are not finite.
+    """
+    lines = text_rows(path, "points with their pixels", (".txt", ".csv"))
+    kept = [(i, line.replace(",", " ").replace(";", " ").split()) for i, line in lines]
+    if kept and not is_number(kept[0][1][0]):
+        kept = kept[1:]  # a line of names
+    rows = []
+    for i, words in kept:
+        if len(words) != 5 or not all(is_number(word) for word in words):
+            raise InputError(f"{path.name}, line {i}: five numbers are wanted, X Y Z u v")
+        rows.append([float(word) for word in words])
+    if not 4 <= len(rows) <= MOST:
+        raise InputError(f"{path.name}: {len(rows)} points; 4 to {MOST} are read")
+    table = np.array(rows)
+    if not np.isfinite(table).all():
+        raise InputError(f"{path.name}: some numbers are not finite")
+    return Sightings(table[:, :3], table[:, 3:], np.zeros(len(table), bool))
