@@ -15,7 +15,7 @@ FLAT = 1e-3
 
 
 def is_flat(p_world: Float[np.ndarray, "n 3"]) -> bool:
-    """Tell whether points lie in one plane (and not all on one line).
+    """Return whether points lie in one plane (and not all on one line).
 
     Examples:
         >>> square = np.array([[0.0, 0, 5], [1, 0, 5], [1, 1, 5], [0, 1, 5]])
