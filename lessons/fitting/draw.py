@@ -15,7 +15,7 @@ from workbench.geometry.algebraic_fits import ALGEBRAIC
 from workbench.geometry.clipping import plane_in_box
 from workbench.geometry.cylinders import across
 from workbench.geometry.lines_planes import line_angle
-from workbench.geometry.polylines import between, circle, fan, segments, sphere_rings
+from workbench.geometry.polylines import between, circle, cylinder_rings, fan, near_arc, segments, sphere_rings
 from workbench.numerals import angle, brief, fixed
 from workbench.scene import Chart, Classes, Field, Mesh, Picture, Points, Primitive, Role, Scene, Segments, Table
 
@@ -70,22 +70,15 @@ def _points(subject: Subject, z: float = 0.0, least: float = 0.01) -> dict[str, 
 
 def outline(subject: Subject, unknown: np.ndarray) -> np.ndarray:
     """Return a circle, sphere or cylinder as segments; of a very large circle what is near; none where not finite."""
-    assert subject.kind is not None
     if not np.isfinite(unknown).all() or abs(unknown[-1]) > 1e9:
         return np.empty((0, 2, 3))
-    radius, center = abs(float(unknown[-1])), unknown[: len(unknown) - 1]
-    if subject.kind.name == "circle":
-        half = min(np.pi, REACH / max(radius, 1e-9))
-        turn = np.arctan2(-center[1], -center[0]) + np.linspace(-half, half, 97)
-        return segments(solid(center + radius * np.column_stack([np.cos(turn), np.sin(turn)])))
-    if subject.kind.name == "sphere":
-        return sphere_rings(center, radius)
-    p_axis, n_axis = unknown[:3], unknown[3:6]
-    u, v = across(n_axis)
-    ring = radius * circle(48) @ np.stack([u, v])
-    p_axis = p_axis - (p_axis @ n_axis) * n_axis
-    rings = np.concatenate([segments(ring + p_axis + z * n_axis) for z in (-1.0, 0.0, 1.0)])
-    return np.concatenate([rings, between(ring[::8] + p_axis - n_axis, ring[::8] + p_axis + n_axis)])
+    if subject.kind is CYLINDER:
+        n_axis = unknown[3:6]
+        p_axis = unknown[:3] - (unknown[:3] @ n_axis) * n_axis
+        return cylinder_rings(p_axis, np.column_stack([*across(n_axis), n_axis]), abs(float(unknown[6])))
+    if len(unknown) == 3:
+        return segments(solid(near_arc(unknown, REACH)))
+    return sphere_rings(unknown[:3], abs(float(unknown[3])))
 
 
 def feet(subject: Subject, unknown: np.ndarray) -> np.ndarray:
@@ -175,7 +168,7 @@ def _basin(now: Basin) -> dict[str, Primitive]:
     roles: tuple[Role, ...] = ("truth", "wrong", "neutral")
     ids = Classes(fates.astype(np.uint8), roles, ("comes home", "away or lost", "under way"))
     return {
-        "starts": Points(solid(now.starts[:, :2], -0.02), ids, 0.11, name="starts: centres"),
+        "starts": Points(solid(now.starts[:, :2], -0.02), ids, 0.13, name="starts: centres"),
         "share": HOME.scalar(100.0 * float((fates == 0).mean()), "home", "truth"),
         "lost": HOME.scalar(100.0 * float((fates == 1).mean()), "away or lost", "wrong"),
     }

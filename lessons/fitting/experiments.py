@@ -53,7 +53,7 @@ PRESETS: tuple[Preset[Params], ...] = (
            "The same start without damping: Gauss-Newton takes each step, whatever becomes of the sum of squares.",
            JUMPS, 1, WIDE, breaks=True),
     Preset("basin", "Where one may start",
-           "625 centres to start from, on a quarter of a circle. Green ones come home.",
+           "A grid of centres to start from, and points on a quarter of the circle. Green ones come home.",
            Params(stage="basin", start_radius=1.0), -1, BROAD),
     Preset("basin-full", "All the way round",
            "Points all round the circle: Levenberg-Marquardt may start anywhere in the picture.",

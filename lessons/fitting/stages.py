@@ -29,9 +29,10 @@ SHOWN_IN_PARTS, ITERATIONS = 2, 40
 RESTS = {"a millionth": 1e-6, "a trillionth": 1e-12}
 REPEATS = (30, 300)
 LARGEST = 50.0  # metres of radius up to which a covariance says anything
-GRID, WALL = 25, 4.0  # starts to a side, metres
+GRID, WALL = 21, 4.0  # starts to a side, metres
 SHOWN_ITERATIONS = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
 ARCS, MOST_DRAWS = (360.0, 270.0, 180.0, 120.0, 90.0, 60.0, 45.0, 30.0, 20.0), 2000
+FEWER_DRAWS = 1200  # where there are several arcs
 ROUNDS, CALM = 100, 0.01  # of a reweighted fit: at most, and by which share of the corner distances still change
 FIRST_ROUNDS, EVERY = 6, 6  # that become steps: all up to that one, then some
 PLANE_PLACES = np.stack([*np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), np.zeros((9, 9))], axis=-1).reshape(-1, 3)
@@ -99,7 +100,8 @@ def rivals(params: Params, subject: Subject, rng: np.random.Generator) -> Iterat
     arcs = [] if subject.truth is None else [arc for arc in ARCS if arc > params.arc] + [params.arc]
 
     def drawn(arc: float) -> np.ndarray:
-        shape = (MOST_DRAWS // len(arcs), params.points, 2)
+        count = FEWER_DRAWS // len(arcs) if len(arcs) > 1 else MOST_DRAWS
+        shape = (count, params.points, 2)
         return arc_points(np.radians(arc), params.points) + errors(rng, shape, params.noise)
 
     return compare_circles(subject.p, ((arc, drawn(arc)) for arc in arcs))

@@ -39,7 +39,11 @@ class Params:
     method: Annotated[Method, Knob("How it goes down", needs=WALKS)] = "Levenberg-Marquardt"
     rest: Annotated[
         Literal["a millionth", "a trillionth"],
-        Knob("It stops when a step changes the sum of squares by less than this share of it", needs=DESCENT),
+        Knob(
+            "It stops when a step changes the sum of squares by less than this share of it",
+            label="stops at",
+            needs=DESCENT,
+        ),
     ] = "a millionth"
     start: Annotated[
         tuple[float, float, float],

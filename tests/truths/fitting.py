@@ -1,5 +1,6 @@
 """What is true of a run of the fitting lesson, by scipy and by differences, from the states alone."""
 
+import functools
 from typing import Any
 
 import numpy as np
@@ -20,20 +21,15 @@ def distances(name: str, unknown: np.ndarray, p: np.ndarray) -> np.ndarray:
 def least(state: Any) -> float:
     """The least sum of squares that scipy finds, from the truth and from the end of the lesson's own fit."""
     subject = state.subject
-    starts = [start for start in (subject.truth, subject.best) if start is not None]
-    found = [
-        scipy.optimize.least_squares(
-            lambda unknown: distances(subject.kind.name, unknown, subject.p),
-            start,
-            method="trf",
-            x_scale="jac",
-            xtol=1e-14,
-            ftol=1e-14,
-            gtol=1e-14,
-        )
-        for start in starts
-    ]
-    return min(2 * fit.cost for fit in found)
+    starts = tuple(tuple(start) for start in (subject.truth, subject.best) if start is not None)
+    return _least(subject.kind.name, subject.p.tobytes(), subject.p.shape[1], starts)
+
+
+@functools.lru_cache(maxsize=64)
+def _least(name: str, points: bytes, columns: int, starts: tuple[tuple[float, ...], ...]) -> float:
+    p = np.frombuffer(points).reshape(-1, columns)
+    solve = functools.partial(scipy.optimize.least_squares, x_scale="jac", xtol=1e-10, ftol=1e-10, gtol=1e-10)
+    return min(2 * solve(lambda unknown: distances(name, unknown, p), start).cost for start in starts)
 
 
 def straight(p: np.ndarray) -> float:
@@ -69,7 +65,7 @@ def wider(state: Any) -> float:
     """How many times as wide as predicted the middle 90 % of repeated radii lie."""
     now = state.now
     low, high = np.quantile(now.radii, [0.05, 0.95])
-    return float((high - low) / (2 * scipy.stats.norm.ppf(0.95) * np.sqrt(now.covariance[-1, -1])))
+    return float((high - low) / (2 * 1.6448536 * np.sqrt(now.covariance[-1, -1])))
 
 
 def is_right(state: Any) -> bool | None:
