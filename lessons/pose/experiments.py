@@ -113,7 +113,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "seventy", "70 % outliers",
         "Only one sample of three points in 37 is clean, and yet RANSAC needs few hundred of them: that is what P3P"
         " is for.",
-        SEVENTY, 1,
+        SEVENTY, -1,
     ),
 )  # fmt: skip
 
