@@ -58,8 +58,8 @@ def _given(state: State) -> str:
     wrong = int(subject.given.is_outlier.sum())
     also = f"; {wrong} of the points are seen somewhere else altogether" if wrong else ""
     return (
-        f"{len(subject.p_shown)} known points (blue), and the picture where a camera saw them, {noise}{also}. Where was"
-        " the camera? The green one is the truth, which no method knows."
+        f"{len(subject.p_shown)} known points (blue), and in the picture where a camera saw them, {noise}{also}. Where"
+        " was the camera? The green one is the truth, which no method knows."
     )
 
 
@@ -68,8 +68,8 @@ def _rays(state: State, now: Searched) -> str:
     sides = ", ".join(length(float(np.linalg.norm(p[i] - p[j]))) for i, j in SIDES)
     angles = ", ".join(angle(float(np.degrees(angle_between(n[i], n[j])))) for i, j in SIDES)
     return (
-        f"Three points (purple), three rays. Known are the sides of the triangle, {sides}, and the angles between the rays"
-        f" to their ends, {angles}; unknown is how long the three rays are."
+        f"Three points (purple), three rays. Known are the sides of the triangle, {sides}, and the angles between the"
+        f" rays to their ends, {angles}; unknown is how long the three rays are."
     )
 
 
@@ -98,8 +98,8 @@ def _root(state: State, now: Searched) -> str:
 
 def _both(state: State, now: Searched) -> str:
     return (
-        f"A plane, so there are two poses, {angle(degrees_between(*now.candidates))} apart, that give the same picture to"
-        f" first order about its middle. Perspective tells them apart: they miss the points by {_misses(state, now)}."
+        f"A plane, so there are two poses, {angle(degrees_between(*now.candidates))} apart, that give the same picture"
+        f" to first order about its middle. Perspective tells them apart: they miss the points by {_misses(state, now)}."
     )
 
 
@@ -110,7 +110,8 @@ def _choose(state: State, now: Searched) -> str:
         )
     if len(now.candidates) == 1:
         return f"The fourth point agrees with the only solution to {_misses(state, now)}."
-    return f"A fourth point chooses: the {COUNTS[len(now.candidates)]} cameras see it {_misses(state, now)} from its pixel."
+    cameras = f"{COUNTS[len(now.candidates)]} cameras"
+    return f"A fourth point chooses: the {cameras} see it {_misses(state, now)} from its pixel."
 
 
 def _solved(state: State, now: Searched) -> str:
@@ -150,8 +151,8 @@ def _sampled(state: State, now: ransac.State) -> Caption:
             "model": f"{sample} gives a camera. All points vote: yes if it sees them within {limit}.{off}",
             "inliers": f"{sample}: its camera sees {within} within {limit}.{off}",
             "refit": f"Refit on the inliers, by least squares: now {within} are within {limit}.{off}",
-            "best": f"New best after {counted(now.iteration, 'sample')}: {within} within {limit}. If that is the share of"
-            f" inliers, {needed} give 99 % confidence.{off}",
+            "best": f"New best after {counted(now.iteration, 'sample')}: {within} within {limit}. If that is the share"
+            f" of inliers, {needed} give 99 % confidence.{off}",
         }[now.phase]
     )
 

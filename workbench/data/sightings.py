@@ -63,7 +63,7 @@ def points_on_box(size: Float[np.ndarray, "3"], n: int, rng: np.random.Generator
 def random_triples(
     count: int, rng: np.random.Generator
 ) -> tuple[Float[np.ndarray, "count 3 3"], Float[np.ndarray, "count 3 2"]]:
-    """Return triples of points, 4 to 8 m before cameras that are turned anyhow, and where these see them, normalised."""
+    """Return triples of points, 4 to 8 m before cameras turned anyhow, and where these see them, normalised."""
     z = rng.uniform(4.0, 8.0, (count, 3, 1))
     p_camera = np.concatenate([rng.uniform(-2.0, 2.0, (count, 3, 2)), z], axis=2)
     R_camera_world, _ = np.linalg.qr(rng.standard_normal((count, 3, 3)))
