@@ -33,7 +33,7 @@ VIEW = View(eye=(7.2, -0.9, 3.0), target=(0.6, 0.0, 0.1), grid=None, axes=False,
 CLOSE = View(eye=(0.1, -0.4, 0.3), target=(0.06, 0.0, 0.0), grid=None, axes=False, fov_degrees=40.0)
 ABOVE = View(eye=(9.5, -6.0, 5.5), target=(0.8, 0.6, 1.7), grid=None, axes=False, fov_degrees=40.0)
 SCREENS = {
-    "box": (VIEW.facing(1.6, -0.75), 2.3),
+    "box": (VIEW.facing(1.6, -0.65), 2.2),
     "marker": (CLOSE.facing(0.13, 0.0), 0.16),
     "triangle": (ABOVE.facing(2.6, 0.3), 2.8),
 }
@@ -131,7 +131,7 @@ def _votes(now: object) -> Color:
 
 def _camera(subject: Subject, T: np.ndarray, color: Role, name: str = "", opacity: float = 1.0) -> Camera:
     depth = 0.02 if subject.body is not None and len(subject.body.p) == 4 else 0.45
-    return Camera(subject.K, 640, 480, subject.shown_camera(T), depth, None, color, opacity, name)
+    return Camera(subject.K, 640, 480, subject.frame.shown_camera(T), depth, None, color, opacity, name)
 
 
 def _three(state: State, now: Searched) -> dict[str, Primitive]:
@@ -195,17 +195,9 @@ def _candidates(state: State, now: Searched) -> dict[str, Primitive]:
             scene[f"candidates/{k}/rays"] = Segments(
                 ends, "highlight" if last else "correspondence", 2.0 if last else 1.0
             )
-        errors, (degrees, _) = subject.pixel_errors(T), subject.off(T)
-        miss = errors[3] if state.params.method == "P3P" else np.sqrt(np.square(errors).mean())
+        (degrees, _), miss, where = subject.off(T), state.judged(T), subject.frame.shown(camera_center(T))
         off = "" if np.isnan(degrees) else angle(degrees)
-        rows.append(
-            (
-                f"{k}",
-                coordinates(subject.frame.shown(camera_center(T)), 2),
-                pixels(miss) if np.isfinite(miss) else "behind",
-                off,
-            )
-        )
+        rows.append((f"{k}", coordinates(where, 2), pixels(miss) if np.isfinite(miss) else "behind", off))
     judged = "4th point" if state.params.method == "P3P" else "RMS error"
     scene["numbers/candidates"] = Table("Possible cameras", ("", "centre (m)", judged, "off"), tuple(rows))
     return scene
@@ -248,10 +240,8 @@ def _numbers(state: State) -> dict[str, Primitive]:
     subject, T = state.subject, state.T
     if T is None:
         return {}
-    error = float(np.sqrt(np.square(subject.pixel_errors(T)).mean()))
-    scene: dict[str, Primitive] = {
-        "error": PICTURE_ERROR.scalar(error if np.isfinite(error) else np.nan, "all points", log=True)
-    }
+    error = state.rms if np.isfinite(state.rms) else np.nan
+    scene: dict[str, Primitive] = {"error": PICTURE_ERROR.scalar(error, "all points", log=True)}
     degrees, metres = state.off
     if np.isfinite(degrees):
         scene["error/turn"] = TURN_ERROR.scalar(degrees, "to the truth", "truth", log=True)

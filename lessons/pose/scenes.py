@@ -6,7 +6,7 @@ import numpy as np
 
 from lessons.pose.state import Params, Subject
 from workbench.data.framing import Frame, frame
-from workbench.data.sightings import Sightings, read_sightings, seen
+from workbench.data.sightings import Sightings, points_on_box, read_sightings, seen, some_of
 from workbench.data.solids import Solid, box, outlined
 from workbench.data.street import SUN
 from workbench.errors import InputError
@@ -50,7 +50,7 @@ def _made(params: Params) -> Subject:
     if not depths(np.vstack([p, body.p]), T_near).min() > 0.05:
         raise InputError("the camera is too near: part of what it looks at is beside it or behind it")
     origin = 1000.0 * far * FAR_OFF
-    given = seen(p, T_near, K, rng, sigma=params.noise, outlier_ratio=outliers)
+    given = seen(p, T_near, K, rng, sigma=params.noise, is_outlier=some_of(len(p), outliers, rng))
     T_true = T_near.copy()
     T_true[:3, 3] -= T_near[:3, :3] @ origin
     window = _window(project(np.vstack([p, body.p]), T_near, K))
@@ -74,11 +74,9 @@ def _target(params: Params, rng: np.random.Generator) -> tuple[np.ndarray, Solid
         p = np.column_stack([circle(3)[:3] @ [[0.0, 1.0], [-1.0, 0.0]], np.zeros(3)])
         return np.vstack([p, FOURTH]), outlined(p, np.array([[0, 1, 2]]))
     size = np.array(SIZE) * [1.0, 1.0, params.thickness]
-    on_face = rng.uniform(-0.5, 0.5, (params.points, 3))
-    face = rng.integers(0, 3, params.points)  # each point on one of three pairs of faces
-    on_face[np.arange(params.points), face] = np.where(rng.random(params.points) < 0.5, -0.5, 0.5)
     shape = box((size[0], size[1], max(float(size[2]), 1e-4)))
-    return on_face * size, Solid(shape.p - [0, 0, size[2] / 2], shape.faces, shape.lines - [0, 0, size[2] / 2])
+    down = np.array([0.0, 0.0, size[2] / 2])
+    return points_on_box(size, params.points, rng), Solid(shape.p - down, shape.faces, shape.lines - down)
 
 
 def _window(uv: np.ndarray) -> np.ndarray:

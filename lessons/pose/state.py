@@ -15,7 +15,6 @@ from workbench.data.solids import Solid
 from workbench.geometry.alignment import degrees_between
 from workbench.geometry.camera_motions import reprojection_errors
 from workbench.geometry.cameras import camera_center, normalize
-from workbench.geometry.motions import motion
 from workbench.knobs import Gizmo, Knob
 
 Target = Literal["box", "marker", "triangle"]
@@ -101,11 +100,6 @@ class Subject:
         """The points as the picture has them."""
         return self.frame.shown(self.given.p_world)
 
-    def shown_camera(self, T_camera_world: np.ndarray) -> np.ndarray:
-        """Return the camera's place and turn in the picture, 4x4."""
-        turned = self.frame.R_world_file @ T_camera_world[:3, :3].T
-        return motion(turned, self.frame.shown(camera_center(T_camera_world)))
-
     @property
     def distance(self) -> float:
         """How far the true camera is from the middle of the points, metres."""
@@ -173,6 +167,17 @@ class State:
     def off(self) -> tuple[float, float]:
         """How far it is from the truth, degrees and metres."""
         return self.subject.off(self.T)
+
+    @cached_property
+    def rms(self) -> float:
+        """Its root mean square error in the picture, px; infinite where a point is behind it."""
+        assert self.T is not None
+        return float(np.sqrt(np.square(self.subject.pixel_errors(self.T)).mean()))
+
+    def judged(self, T: np.ndarray) -> float:
+        """Return the error by which a motion is chosen or not, px: of the fourth point, or of all points of a plane."""
+        rows = slice(3, 4) if self.params.method == "P3P" else slice(None)
+        return float(np.sqrt(np.square(self.subject.pixel_errors(T)[rows]).mean()))
 
     @property
     def right(self) -> bool:

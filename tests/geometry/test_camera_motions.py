@@ -79,6 +79,7 @@ def test_gauss_newton_steps_arrive_where_refined_does():
 
 @pytest.mark.parametrize("solver", [dlt_motion, sqpnp, lambda p, xy: refined(sqpnp(p, xy)[None], p, xy)[0]])
 def test_an_origin_ten_kilometres_off_changes_nothing(solver):
+    """No oracle here: OpenCV 5.0.0's default solvePnP is over 1 m off in 39 of 40 such pictures."""
     for seed in range(5):
         T, p_world, xy = view(seed, 30)
         assert np.linalg.norm(camera_center(solver(p_world + MAP, xy)) - camera_center(T) - MAP) < 0.01

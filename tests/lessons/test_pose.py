@@ -198,7 +198,8 @@ def test_a_wrong_choice_is_seen():
 
 def test_a_wrong_step_is_seen():
     stuck = last_but(Params(), pose_step=lambda T, p, xy: T)
-    assert stuck.now.steps == 0
+    assert stuck.now.steps <= 1  # rounding may lower the error once
+    assert off(stuck.T, stuck.subject.T_true)[0] > 1
     wild = last_but(Params(), pose_step=lambda T, p, xy: np.diag([-1.0, -1.0, 1.0, 1.0]) @ T)
     assert wild.now.stop is not None
     assert caption_of(lesson.draw(wild)).tone != "good" or is_near(wild.T, wild.subject)

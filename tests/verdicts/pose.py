@@ -99,7 +99,8 @@ def of_stop(run: Run) -> int:
 def left_to_chance(run: Run, k: int, m: re.Match[str]) -> bool:
     """In a good part of the pictures, but not in most, the other pose fits better; by less than the noise adds up to."""
     found = others(run)
-    return 0.2 < found.swapped / found.pictures < 0.7
+    assert found.swapped is not None
+    return 0.15 < found.swapped / found.pictures < 0.7
 
 
 LINES = {

@@ -13,13 +13,13 @@ from enum import Enum
 from typing import Literal
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from workbench.geometry.alignment import align_rigid, nearest_rotation
 from workbench.geometry.camera_motions import refined, rms_reprojection
 from workbench.geometry.motions import exp_se3, inverse, log_se3, motion
 from workbench.geometry.planar_motions import planar_motions
-from workbench.geometry.three_points import quartics, three_point_lengths, unit_rays
+from workbench.geometry.three_points import p3p, quartics, three_point_lengths, unit_rays
 from workbench.tracing import traced
 
 Phase = Literal["rays", "quartic", "root", "both", "choose", "solved", "step", "stop"]
@@ -132,6 +132,34 @@ def by_three_points(
     if len(lengths):
         T = np.asarray(choose_pose(now.candidates, p_world[:4], xy[:4]), float)
         yield replace(now, phase="choose", T=T, error=_error(T, p_world, xy))
+
+
+def by_fourth_points(
+    p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "k n 2"]
+) -> tuple[Float[np.ndarray, "m 4 4"], Int[np.ndarray, " m"]]:
+    """Return the ends of `by_three_points` in many pictures, and of which picture each is: some have no solution.
+
+    Args:
+        p_world: Four points or more, metres.
+        xy: Where they were observed, picture by picture.
+    """
+    Ts, of_picture = p3p(np.broadcast_to(p_world[:3], (len(xy), 3, 3)), xy[:, :3])
+    order = np.lexsort([rms_reprojection(Ts, p_world[:4], xy[of_picture, :4]), of_picture])
+    _, first = np.unique(of_picture[order], return_index=True)
+    return Ts[order[first]], of_picture[order[first]]
+
+
+def planar_pairs(p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "k n 2"]) -> Float[np.ndarray, "k 2 4 4"]:
+    """Return both motions of a plane in many pictures, refined, the one that fits better first.
+
+    Args:
+        p_world: Four points or more of one plane, metres.
+        xy: Where they were observed, picture by picture.
+    """
+    twice = np.repeat(xy, 2, axis=0)
+    both = refined(np.concatenate([planar_motions(p_world, one) for one in xy]), p_world, twice)
+    order = np.argsort(rms_reprojection(both, p_world, twice).reshape(-1, 2), axis=1)
+    return both.reshape(-1, 2, 4, 4)[np.arange(len(xy))[:, None], order]
 
 
 @traced

@@ -57,6 +57,11 @@ class Frame:
         moved = self.scale * R @ (apply(T, self.centre) - self.centre)
         return motion(A_world, moved + self.offset - A_world @ self.offset)
 
+    def shown_camera(self, T_camera_file: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
+        """Return where a camera that sees points of the file stands in the picture, and how it is turned."""
+        R, C = T_camera_file[:3, :3], -T_camera_file[:3, :3].T @ T_camera_file[:3, 3]
+        return motion(self.R_world_file @ R.T, self.shown(C))
+
     def standing(self, p_file: Float[np.ndarray, "n 3"], floor: float = 0.0) -> "Frame":
         """Return the frame raised or lowered until the lowest of these points stands at the height `floor`."""
         rise = floor - self.shown(p_file)[:, 2].min()

@@ -30,7 +30,7 @@ def seen(
     rng: np.random.Generator,
     *,
     sigma: float,
-    outlier_ratio: float = 0.0,
+    is_outlier: Bool[np.ndarray, " n"],
 ) -> Sightings:
     """Return how a camera sees points: with normal noise, and some of them anywhere else where others are.
 
@@ -40,14 +40,35 @@ def seen(
         K: Its intrinsics.
         rng: Chance.
         sigma: Noise of each pixel coordinate.
-        outlier_ratio: Share of the points that are seen somewhere in the box around the others' pixels.
+        is_outlier: Which points are seen somewhere in the box around all pixels.
     """
     uv = project(p_world, T_camera_world, K)
     low, high = uv.min(axis=0), uv.max(axis=0)
     noise, anywhere = sigma * rng.standard_normal(uv.shape), rng.uniform(low, high, uv.shape)
-    is_outlier = np.zeros(len(uv), bool)
-    is_outlier[rng.permutation(len(uv))[: round(outlier_ratio * len(uv))]] = True
     return Sightings(p_world, np.where(is_outlier[:, None], anywhere, uv + noise), is_outlier)
+
+
+def some_of(n: int, share: float, rng: np.random.Generator) -> Bool[np.ndarray, " n"]:
+    """Return which of n rows chance picks, so many as the share says."""
+    return rng.permutation(n) < round(share * n)
+
+
+def points_on_box(size: Float[np.ndarray, "3"], n: int, rng: np.random.Generator) -> Float[np.ndarray, "n 3"]:
+    """Return points on the faces of a box about the origin, each pair of faces alike, metres."""
+    p, axis = rng.uniform(-0.5, 0.5, (n, 3)), rng.integers(0, 3, n)
+    p[np.arange(n), axis] = np.where(rng.random(n) < 0.5, -0.5, 0.5)
+    return p * size
+
+
+def random_triples(
+    count: int, rng: np.random.Generator
+) -> tuple[Float[np.ndarray, "count 3 3"], Float[np.ndarray, "count 3 2"]]:
+    """Return triples of points, 4 to 8 m before cameras turned anyhow, and where these see them, normalised."""
+    z = rng.uniform(4.0, 8.0, (count, 3, 1))
+    p_camera = np.concatenate([rng.uniform(-2.0, 2.0, (count, 3, 2)), z], axis=2)
+    R_camera_world, _ = np.linalg.qr(rng.standard_normal((count, 3, 3)))
+    R_camera_world *= np.linalg.det(R_camera_world)[:, None, None]  # no reflections
+    return p_camera @ R_camera_world, p_camera[..., :2] / z
 
 
 def read_sightings(path: Path) -> Sightings:

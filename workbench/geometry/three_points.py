@@ -140,6 +140,12 @@ def p3p(
     return Ts[kept], of_sample[kept]
 
 
+def solution_counts(p_world: Float[np.ndarray, "k 3 3"], xy: Float[np.ndarray, "k 3 2"]) -> Int[np.ndarray, "5"]:
+    """Return how many of the samples have none, one, ..., four solutions."""
+    _, of_sample = p3p(p_world, xy)
+    return np.bincount(np.bincount(of_sample, minlength=len(p_world)), minlength=5)
+
+
 def _sides_and_cosines(p_world: np.ndarray, n_camera: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the squared sides a, b, c (3, k), and the cosines of the angles between the rays to their ends."""
     sides = np.stack([np.square(p_world[:, i] - p_world[:, j]).sum(axis=-1) for i, j in _OPPOSITE])
