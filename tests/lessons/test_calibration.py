@@ -222,8 +222,10 @@ def test_the_view_that_is_clicked_is_shown():
     assert isinstance(picture, Picture)
     assert isinstance(another, Picture)
     assert (picture.rgb() != another.rgb()).any()
-    opaque = [path for path, part in scene.items() if isinstance(part, Mesh) and part.opacity == 1.0]
-    assert opaque == ["squares/5"]
+    squares, outline = scene["squares"], scene["boards/5"]
+    assert isinstance(squares, Mesh)
+    assert isinstance(outline, Segments)
+    np.testing.assert_array_equal(squares.T_world_object, outline.T_world_object)  # type: ignore[arg-type]
 
 
 def test_corners_in_the_picture_lie_where_squares_meet():
