@@ -22,7 +22,6 @@ LAYER = 0.004  # metres from the picture to what is drawn on it
 LONGER = 20  # times, residuals
 MOST = 90.0  # pixels that a lengthened residual is drawn at most
 DEPTH = 0.1  # metres, of the frustum
-FAINT = 0.15  # opacity of the boards that are not shown
 T_WORLD_CAMERA = inverse(look_at(np.zeros(3), np.array([0.0, 1.0, 0.0])))
 
 
@@ -46,11 +45,9 @@ def _boards(state: State) -> dict[str, Primitive]:
     for i, (view, T) in enumerate(zip(subject.views, now.Ts_camera_board, strict=False)):
         T_world_board = _placed(T, scale)
         scene[f"boards/{view}"] = Segments(outline, "source", 2.0, T_world_board, name="boards as found")
-        if subject.K is not None:
+        if subject.K is not None and i == state.shown:
             p, faces, colors = _squares()
-            scene[f"squares/{view}"] = Mesh(
-                p, faces, colors, T_world_board, 1.0 if i == state.shown else FAINT, flat=True
-            )
+            scene["squares"] = Mesh(p, faces, colors, T_world_board, flat=True)
     Ts = now.Ts_camera_board if len(now.Ts_camera_board) else subject.Ts_camera_board
     if len(Ts):
         middle = subject.p_board.mean(axis=0) * scale

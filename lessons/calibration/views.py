@@ -109,8 +109,13 @@ def map_error(subject: Subject, K: np.ndarray, lens: Distortion) -> np.ndarray:
     if subject.K is None:
         return np.empty(0)
     uv = places(subject.size)
-    seen = distort(normalize(uv, subject.K, subject.lens), *lens) @ K[:2, :2].T + K[:2, 2]
+    seen = distort(_true_rays(), *lens) @ K[:2, :2].T + K[:2, 2]
     return np.linalg.norm(seen - uv, axis=1)
+
+
+@functools.cache
+def _true_rays() -> np.ndarray:
+    return normalize(places(boards.SIZE), boards.K_TRUE, boards.LENS_TRUE)
 
 
 def deviations(size: tuple[int, int], K: np.ndarray, lens: Distortion, covariance: np.ndarray | None) -> np.ndarray:

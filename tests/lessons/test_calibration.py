@@ -12,7 +12,7 @@ from tests.runs import finished
 from tests.truths.calibration import deviation_of_f, rms_of, worst_ray
 from workbench.errors import InputError
 from workbench.geometry import calibration
-from workbench.scene import Caption, Mesh, Picture, Segments, Table, caption_of
+from workbench.scene import Caption, Mesh, Picture, Points, Segments, Table, caption_of
 
 SQRT2 = np.sqrt(2)
 
@@ -222,8 +222,10 @@ def test_the_view_that_is_clicked_is_shown():
     assert isinstance(picture, Picture)
     assert isinstance(another, Picture)
     assert (picture.rgb() != another.rgb()).any()
-    opaque = [path for path, part in scene.items() if isinstance(part, Mesh) and part.opacity == 1.0]
-    assert opaque == ["squares/5"]
+    squares, outline = scene["squares"], scene["boards/5"]
+    assert isinstance(squares, Mesh)
+    assert isinstance(outline, Segments)
+    np.testing.assert_array_equal(squares.T_world_object, outline.T_world_object)  # type: ignore[arg-type]
 
 
 def test_corners_in_the_picture_lie_where_squares_meet():
@@ -242,12 +244,20 @@ def test_corners_in_the_picture_lie_where_squares_meet():
 
 
 def test_residuals_are_drawn_from_the_corner_twenty_times_as_long():
-    state = states(Params())[experiments.POSES]
+    worst = int(np.argmax(states(Params())[experiments.POSES].per_view))
+    state = states(Params(shown=worst))[experiments.POSES]
     scene = lesson.draw(state)
-    picture, residuals = scene["picture"], scene["residuals"]
+    picture, corners, residuals = scene["picture"], scene["corners"], scene["residuals"]
     assert isinstance(picture, Picture)
+    assert isinstance(corners, Points)
     assert isinstance(residuals, Segments)
     pixel = 0.66 / 640
+    T = picture.T_world_object
+    assert T is not None
+    xy = (corners.p - T[:3, 3]) @ T[:3, :2] / pixel  # from the middle of the picture, in its pixels
+    np.testing.assert_allclose(xy, state.subject.uv[worst] - [319.5, 239.5], atol=1e-6)
+    np.testing.assert_allclose((residuals.ends[:, 0] - T[:3, 3]) @ T[:3, :2] / pixel, xy, atol=1e-6)
     lengths = np.linalg.norm(residuals.ends[:, 1] - residuals.ends[:, 0], axis=1) / pixel
-    expected = np.minimum(20 * np.linalg.norm(state.now.residuals[0], axis=1), 90)
+    expected = np.minimum(20 * np.linalg.norm(state.now.residuals[worst], axis=1), 90)
+    assert 0 < (expected == 90).sum() < 54
     np.testing.assert_allclose(lengths, expected, rtol=1e-6)

@@ -63,25 +63,29 @@ def deviation_of_f(state: State) -> float:
     shared = np.array([now.K[0, 0], now.K[1, 1], now.K[0, 2], now.K[1, 2], *now.lens])
 
     def residuals(x: np.ndarray) -> np.ndarray:
+        """Residuals where the free shared unknowns, and then all poses alike, have moved by x; one row per view."""
         s = shared.copy()
         s[free] += x[: len(free)]
+        a, b, c = x[len(free) : len(free) + 3]
+        W = np.array([[0, -c, b], [c, 0, -a], [-b, a, 0]])
         Ts = now.Ts_camera_board.copy()
-        for k, step in enumerate(x[len(free) :].reshape(-1, 6)):
-            a, b, c = step[:3]
-            W = np.array([[0, -c, b], [c, 0, -a], [-b, a, 0]])
-            Ts[k, :3, :3] = (np.eye(3) + W + W @ W / 2) @ Ts[k, :3, :3]
-            Ts[k, :3, 3] += step[3:]
+        Ts[:, :3, :3] = (np.eye(3) + W + W @ W / 2) @ Ts[:, :3, :3]
+        Ts[:, :3, 3] += x[len(free) + 3 :]
         camera = np.array([[s[0], 0, s[2]], [0, s[1], s[3]], [0, 0, 1]])
-        return (seen(camera, tuple(s[4:]), Ts, p) - uv).ravel()
+        return (seen(camera, tuple(s[4:]), Ts, p) - uv).reshape(len(uv), -1)
 
-    unknowns = len(free) + 6 * len(uv)
-    sizes = np.array([*[1e-3 if i < 4 else 1e-6 for i in free], *([1e-6] * 6 * len(uv))])
-    J = np.stack([(residuals(h) - residuals(-h)) / (2 * h.sum()) for h in np.diag(sizes)], axis=1)
+    sizes = np.array([*[1e-3 if i < 4 else 1e-6 for i in free], *([1e-6] * 6)])
+    slopes = np.stack([(residuals(h) - residuals(-h)) / (2 * h.sum()) for h in np.diag(sizes)], axis=2)
+    unknowns, r = len(free) + 6 * len(uv), residuals(0 * sizes)
+    J = np.zeros((*r.shape, unknowns))
+    J[:, :, : len(free)] = slopes[:, :, : len(free)]
+    for k in range(len(uv)):  # a pose moves its own view only
+        J[k, :, len(free) + 6 * k : len(free) + 6 * (k + 1)] = slopes[k, :, len(free) :]
+    J, r = J.reshape(-1, unknowns), r.ravel()
     w = np.ones(len(uv) * len(p))
     if state.params.loss == "Cauchy":
-        w = 1 / (1 + (residuals(np.zeros(unknowns)).reshape(-1, 2) ** 2).sum(axis=1) / state.params.corner**2)
+        w = 1 / (1 + (r.reshape(-1, 2) ** 2).sum(axis=1) / state.params.corner**2)
     w = np.repeat(w, 2)
-    r = residuals(np.zeros(unknowns))
     scale = 1 / np.sqrt((J**2 * w[:, None]).sum(axis=0))
     N = (J * scale).T @ (w[:, None] * (J * scale))
     return float(scale[0] * np.sqrt((w * r**2).sum() / (len(r) - unknowns) * np.linalg.inv(N)[0, 0]))

@@ -7,7 +7,7 @@ from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import exp_so3, motion
 
 STUDENTS, GRADERS = 41, 8527  # seeds of what a student sees run, and of what only a grader does
-K = intrinsics(536.0, 342.0, 236.0, fy=541.0)
+CAMERA = intrinsics(536.0, 342.0, 236.0, fy=541.0)
 
 
 def views(seed: int, count: int = 3, noise: float = 0.0) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -17,7 +17,7 @@ def views(seed: int, count: int = 3, noise: float = 0.0) -> list[tuple[np.ndarra
     for k in range(count):
         R = exp_so3(rng.uniform(-0.7, 0.7, 3))
         T = motion(R, np.array([*rng.uniform(-0.15, 0.15, 2), rng.uniform(0.3, 0.9)]))
-        H = K @ T[:3, [0, 1, 3]] * rng.uniform(0.2, 5.0) * (-1) ** k
+        H = CAMERA @ T[:3, [0, 1, 3]] * rng.uniform(0.2, 5.0) * (-1) ** k
         found.append((T, H * (1 + noise * rng.normal(size=(3, 3)))))
     return found
 

@@ -6,7 +6,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float
 
-from lessons.calibration.exercises import GRADERS, STUDENTS, K, views
+from lessons.calibration.exercises import CAMERA, GRADERS, STUDENTS, views
 from workbench.exercise import (
     Function,
     Verdict,
@@ -59,7 +59,7 @@ BOARD = np.array([[0.0, 0, 0], [0.2, 0, 0], [0.2, 0.125, 0], [0, 0.125, 0]])
 
 def posed(candidate: Function, seed: int, count: int = 3) -> Verdict:
     """Judge poses of exact homographies."""
-    return worst(motion_verdict(candidate(K, H), T, HINT, p=BOARD) for T, H in views(seed, count))
+    return worst(motion_verdict(candidate(CAMERA, H), T, HINT, p=BOARD) for T, H in views(seed, count))
 
 
 @check(2)
@@ -78,7 +78,7 @@ def rotations(candidate: Function, seed: int) -> Verdict:
     """Judge whether R is a rotation where H has noise, and near the true one."""
     verdicts = []
     for T_right, H in views(seed, 4, noise=3e-3):
-        T = candidate(K, H)
+        T = candidate(CAMERA, H)
         Q = T[:3, :3].T @ T[:3, :3]
         told = beside(Q, np.eye(3), HINT, "RᵀR")
         verdicts.append(
@@ -110,7 +110,7 @@ def other_noise(candidate: Function) -> Verdict:
 def before_the_camera(candidate: Function) -> Verdict:
     """H and -H give the same pose, with the board's origin before the camera."""
     T, H = views(GRADERS + 20, 1)[0]
-    return worst(motion_verdict(candidate(K, sign * H), T, HINT, p=BOARD) for sign in (1.0, -1.0))
+    return worst(motion_verdict(candidate(CAMERA, sign * H), T, HINT, p=BOARD) for sign in (1.0, -1.0))
 
 
 def _parts(K: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
