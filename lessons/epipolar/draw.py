@@ -133,7 +133,7 @@ def _pictures(state: State) -> dict[str, Primitive]:
         for k, (word, epipole) in enumerate(zip(("first", "second"), epipoles(F), strict=True)):
             with np.errstate(divide="ignore", invalid="ignore"):
                 e = epipole[None, :2] / epipole[2]
-            if sides[k].inside(e)[0]:
+            if sides[k].inside(e)[0] and np.linalg.matrix_rank(F, 1e-9) == 2:
                 scene[f"{word}/epipole"] = Points(sides[k].places(e, 3), "source", 0.15, name="epipole")
     scene["second/line"] = Segments(sides[1].lines(epipolar_lines(F, uv)), "highlight", 4, name="its line")
     if F_true is not None and not isinstance(now, Followed):
