@@ -104,12 +104,13 @@ def _pictures(state: State) -> dict[str, Primitive]:
     """Return both pictures with matches, the followed pixel, its line, and the lines of some matches."""
     now, views, sides = state.now, state.views, _sides(state)
     scene: dict[str, Primitive] = {}
+    kind = "picture" if _rectifying(state) is None else "rectified"  # in a rectified one nobody picks a pixel
     roles: tuple[tuple[str, Role], ...] = (("first", "target"), ("second", "source"))
     for k, (word, role) in enumerate(roles):
         picture = sides[k].picture
-        scene[f"{word}/picture"] = picture
+        scene[f"{word}/{kind}"] = picture
         scene[f"{word}/edge"] = Segments(picture.border(LAYER), role, 2)
-        scene[f"{word}/label"] = Label(f"{word} picture", picture.places(np.array([picture.size[0] / 2, -14.0])), role)
+        scene[f"{word}/label"] = Label(f"{word} picture", picture.places(np.array([picture.size[0] / 2, -20.0])), role)
     uv = state.uv_first[None]
     scene["first/pixel"] = Points(sides[0].places(uv, 3), "highlight", 0.13, name="followed pixel")
     if isinstance(now, Followed):
@@ -132,7 +133,7 @@ def _pictures(state: State) -> dict[str, Primitive]:
         for k, (word, epipole) in enumerate(zip(("first", "second"), epipoles(F), strict=True)):
             with np.errstate(divide="ignore", invalid="ignore"):
                 e = epipole[None, :2] / epipole[2]
-            if sides[k].inside(e)[0]:
+            if sides[k].inside(e)[0] and np.linalg.matrix_rank(F, 1e-9) == 2:
                 scene[f"{word}/epipole"] = Points(sides[k].places(e, 3), "source", 0.15, name="epipole")
     scene["second/line"] = Segments(sides[1].lines(epipolar_lines(F, uv)), "highlight", 4, name="its line")
     if F_true is not None and not isinstance(now, Followed):

@@ -39,7 +39,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "rank-three", "Lines that do not meet",
         "F as it comes from 20 matches, of rank three: near the epipole its lines miss each other.",
-        Params(heading=75.0, matches=20, noise=1.0, rank_two=False, route="eight-point"), RANK_TWO, breaks=True,
+        Params(heading=85.0, matches=20, noise=1.0, rank_two=False, route="eight-point"), RANK_TWO, breaks=True,
     ),
     Preset(
         "plane", "Everything on the ground",

@@ -17,18 +17,12 @@ from lessons.epipolar.exercises.triangulate import triangulate
 from lessons.epipolar.experiments import PRESETS, QUESTIONS
 from lessons.epipolar.state import MOST_MATCHES, Params, State
 from workbench.algorithms.two_views import EightPoint, Poses, Triangulate, follow_ray, relate, solve_linear
-from workbench.data.two_views import TwoViews, own_views, street_views
-from workbench.geometry.cameras import normalize
-from workbench.geometry.epipolar import fit_fundamental
-from workbench.geometry.essential import essential_from_fundamental
-from workbench.geometry.essential import essential_to_poses as essential_motions
+from workbench.data.two_views import TwoViews, own_views, shown_length, street_views
 from workbench.geometry.homography import normalising_similarity
 from workbench.geometry.motions import motion
-from workbench.geometry.triangulation import midpoints
 from workbench.lesson import Lesson, Sweep
 
 DEPTHS = np.array([3.0, 4.0, 6.0, 8.0, 12.0, np.inf])  # metres along the ray of the followed pixel
-SHOWN_DEPTH = 9.0  # metres that the middle of an own scene is drawn away
 
 
 def run(
@@ -41,15 +35,16 @@ def run(
     """Yield the line of one pixel, where the true cameras are known, and the way from matches to a motion."""
     views = views_of(params)
     w, h = views.sizes[0]
-    length, T = drawn_length(views), views.T_second_first
+    believed = np.array([1 + params.f_error / 100, 1 + params.f_error / 100, 1.0])  # of the columns of K
+    length, T = shown_length(views), views.T_second_first
     if T is not None and np.any(T[:3, 3]):
         T = motion(T[:3, :3], length * T[:3, 3] / np.linalg.norm(T[:3, 3]))
     known: dict[str, Any] = {
         "params": params,
         "views": views,
         "uv_first": np.minimum(np.array(params.pixel, float) * views.strides[0], [w - 1.0, h - 1.0]),
-        "K_first": with_f(views.K_first, params.f_error),
-        "K_second": with_f(views.K_second, params.f_error),
+        "K_first": views.K_first * believed,
+        "K_second": views.K_second * believed,
         "length": length,
         "T_true": T,
     }
@@ -78,13 +73,6 @@ def run(
         yield State(**known, now=now, last=now.stage == "rectified")
 
 
-def with_f(K: np.ndarray, error: float) -> np.ndarray:
-    """Return intrinsics whose focal lengths are wrong by so many per cent."""
-    wrong = K.copy()
-    wrong[:2, :2] *= 1 + error / 100
-    return wrong
-
-
 def views_of(params: Params) -> TwoViews:
     """Return the pictures and matches of a run."""
     if params.own_matches is not None:
@@ -103,20 +91,6 @@ def views_of(params: Params) -> TwoViews:
         heading=np.radians(params.heading),
         rng=np.random.default_rng(params.seed),
     )
-
-
-def drawn_length(views: TwoViews) -> float:
-    """Return how long the baseline is drawn, metres: as long as it is, and in an own scene so that it fits."""
-    if views.sigma is not None and views.T_second_first is not None:
-        return float(np.linalg.norm(views.T_second_first[:3, 3])) or 1.0
-    uv_first, uv_second = views.matches[:, :2], views.matches[:, 2:]
-    xy = normalize(uv_first, views.K_first), normalize(uv_second, views.K_second)
-    Ts = essential_motions(
-        essential_from_fundamental(fit_fundamental(uv_first, uv_second), views.K_first, views.K_second)
-    )
-    depths = max((midpoints(T, *xy)[:, 2] for T in Ts), key=lambda z: int((z > 0).sum()))
-    middle = float(np.nanmedian(np.abs(depths)))
-    return SHOWN_DEPTH / middle if 0 < middle < np.inf else 1.0
 
 
 lesson = Lesson(

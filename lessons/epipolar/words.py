@@ -62,7 +62,7 @@ def _followed(state: State, now: Followed) -> str:
         where = "at infinity" if far else f"at column {fixed(u / w, 0)}, row {fixed(v / w, 0)}"
         return (
             "Every pixel has such a plane, and all planes hold the baseline. So all lines meet in one point, the epipole"
-            f" {where}: there the second camera sees the first."
+            f" {where}, where the line between both centres meets the picture."
         )
     z, uv = float(now.depths[-1]), now.uv_second[-1]
     where = "Infinitely far along its ray" if np.isinf(z) else f"{length(z)} deep along its ray"

@@ -92,10 +92,12 @@ def test_lines_of_rank_three_do_not_meet():
     values = np.linalg.svd(F)[1]
     assert values[2] > 1e-7 * values[1]
     assert np.linalg.svd(at("home", "rank two").now.F)[1][2] < 1e-15
+    scene = finished(lesson.name, lesson.preset("rank-three").params)[10].scene
+    assert "second/epipole" not in scene
     lines = np.column_stack([of("rank-three")[10].views.matches[:, :2], np.ones(20)]) @ F.T
     lines /= np.linalg.norm(lines[:, :2], axis=1)[:, None]
     middle = np.linalg.lstsq(lines[:, :2], -lines[:, 2], rcond=None)[0]
-    assert np.abs(lines @ [*middle, 1]).max() > 0.3  # px that a line misses the nearest point to all
+    assert np.abs(lines @ [*middle, 1]).max() > 2  # px that a line misses the nearest point to all
 
 
 def test_a_plane_says_nothing_of_the_motion():

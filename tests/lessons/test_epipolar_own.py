@@ -33,7 +33,7 @@ def test_the_fountain(shared_data, tmp_path):
     assert max(last.now.in_front) == 1365
     scene = lesson.draw(last)
     assert caption_of(scene).tone == "good"
-    picture = scene["first/picture"]
+    picture = scene["first/rectified"]
     assert isinstance(picture, Picture)
     assert picture.size[0] <= 720
     assert np.linalg.norm(last.length * last.now.p_first, axis=1).max() < 40
@@ -65,7 +65,7 @@ def test_matches_alone_have_white_pictures(tmp_path):
     np.testing.assert_allclose(T[:3, :3], true[:3, :3], atol=0.02)
     scene = lesson.draw(found[0])
     assert isinstance(scene["first/picture"], Picture)
-    assert isinstance(lesson.draw(found[-1])["second/picture"], Picture)
+    assert isinstance(lesson.draw(found[-1])["second/rectified"], Picture)
 
 
 @pytest.mark.parametrize(

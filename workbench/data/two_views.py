@@ -13,9 +13,12 @@ from workbench.data.matches import read_matches
 from workbench.data.street import street_items
 from workbench.data.thinning import evenly
 from workbench.errors import InputError
-from workbench.geometry.cameras import depths, intrinsics, look_at, pixel_rays, project
+from workbench.geometry.cameras import depths, intrinsics, look_at, normalize, pixel_rays, project
+from workbench.geometry.epipolar import fit_fundamental
+from workbench.geometry.essential import essential_from_fundamental, essential_to_poses
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 from workbench.geometry.raster import Image, render
+from workbench.geometry.triangulation import midpoints
 
 SIZE = (480, 320)
 FOCAL = 420.0
@@ -24,6 +27,7 @@ NEAREST, FARTHEST = 3.0, 22.0  # metres, of what is matched
 INWARD = 0.1  # radians that the second camera turns towards what both see, where it stands beside the first
 CANDIDATES, CLEAN = 12_000, 300
 GROUND = -0.02  # metres below which everything is ground
+SHOWN_DEPTH = 9.0  # metres that the middle of a person's scene is drawn away
 LARGEST = 720  # pixels that a person's picture is shown wide, at most
 
 What = Literal["street", "plane"]
@@ -174,6 +178,21 @@ def own_views(
         T_second_first=found.T_second_first,
         clean=np.empty((0, 4)),
     )
+
+
+def shown_length(views: TwoViews) -> float:
+    """Return how long the baseline is drawn, metres: as long as it is, and in a person's scene so that it fits.
+
+    No picture tells how long it is. Where it is 0, a motion that is found all the same is drawn with 1 m.
+    """
+    if views.depth is not None and views.T_second_first is not None:
+        return float(np.linalg.norm(views.T_second_first[:3, 3])) or 1.0
+    uv_first, uv_second = views.matches[:, :2], views.matches[:, 2:]
+    xy = normalize(uv_first, views.K_first), normalize(uv_second, views.K_second)
+    E = essential_from_fundamental(fit_fundamental(uv_first, uv_second), views.K_first, views.K_second)
+    z = max((midpoints(T, *xy)[:, 2] for T in essential_to_poses(E)), key=lambda z: int((z > 0).sum()))
+    middle = float(np.median(np.abs(z[np.isfinite(z)]))) if np.isfinite(z).any() else 0.0
+    return SHOWN_DEPTH / middle if middle > 0 else 1.0
 
 
 def _shown(file: Path | None, uv: np.ndarray) -> tuple[np.ndarray | None, tuple[int, int], int]:

@@ -145,7 +145,10 @@ W = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
 
 def four(Rs: tuple[np.ndarray, np.ndarray], t: np.ndarray) -> np.ndarray:
     """Return both rotations with t forth and back."""
-    return np.stack([motion(R, side * t) for R in Rs for side in (1, -1)])
+    Ts = np.tile(np.eye(4), (4, 1, 1))
+    Ts[:, :3, :3] = Rs[0], Rs[0], Rs[1], Rs[1]
+    Ts[:, :3, 3] = t, -t, t, -t
+    return Ts
 
 
 def proper(E: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -218,8 +221,8 @@ def t_scaled(E: np.ndarray) -> np.ndarray:
 def signs_of_rotations(E: np.ndarray) -> np.ndarray:
     """Turns the sign of R round where it mirrors."""
     U, _, Vt = np.linalg.svd(E)
-    Rs = [R * np.sign(np.linalg.det(R)) for R in (U @ W.T @ Vt, U @ W @ Vt)]
-    return np.stack([motion(R, t) for t in (-U[:, 2], U[:, 2]) for R in Rs])
+    one, two = (R * np.sign(np.linalg.det(R)) for R in (U @ W.T @ Vt, U @ W @ Vt))
+    return four((one, two), -U[:, 2])
 
 
 @alternative

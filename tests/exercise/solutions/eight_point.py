@@ -108,6 +108,22 @@ def right_transposed_equations(a, b):
     return (T.T @ G @ S).T
 
 
+def right_solved_by_qr(a, b):
+    T, S = nrm(a), nrm(b)
+    A = np.einsum("ni,nj->nij", h(b) @ S.T, h(a) @ T.T).reshape(len(a), 9)
+    R = np.linalg.qr(A, mode="r")
+    return S.T @ two(np.linalg.svd(R, full_matrices=True)[2][-1].reshape(3, 3)) @ T
+
+
+def right_coordinates_and_matrix_apart(a, b):
+    if len(a) < 8:
+        raise ValueError("fewer than 8")
+    (ma, sa), (mb, sb) = ((p.mean(0), np.sqrt(2) / np.linalg.norm(p - p.mean(0), axis=1).mean()) for p in (a, b))
+    F = two(null(h((a - ma) * sa), h((b - mb) * sb)))
+    back = [np.array([[s, 0, -s * m[0]], [0, s, -s * m[1]], [0, 0, 1]]) for m, s in ((ma, sa), (mb, sb))]
+    return back[1].T @ F @ back[0]
+
+
 def wrong_transposed(a, b):
     return right_plain(a, b).T
 

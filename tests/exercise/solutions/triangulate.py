@@ -93,6 +93,21 @@ def right_midpoints(P, Q, a, b):
     return np.array(out)
 
 
+def right_normalised_matrices(P, Q, a, b):
+    return solve(P / np.linalg.norm(P), Q / np.linalg.norm(Q), a, b)
+
+
+def right_stacked_by_camera(P, Q, a, b):
+    out = np.empty((len(a), 3))
+    for i in range(len(a)):
+        M = np.zeros((4, 4))
+        M[:2] = np.outer(a[i], P[2]) - P[:2]
+        M[2:] = np.outer(b[i], Q[2]) - Q[:2]
+        x = np.linalg.svd(M)[2][3]
+        out[i] = x[:3] / x[3]
+    return out
+
+
 def wrong_no_division(P, Q, a, b):
     return np.array([np.linalg.svd(np.array(rows(P, p) + rows(Q, q)))[2][-1][:3] for p, q in zip(a, b)])
 
