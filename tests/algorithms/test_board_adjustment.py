@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.algorithms.board_adjustment import SHARED, Adjustment, Stop, adjust, linearised, loss, turns
+from workbench.algorithms.board_adjustment import SHARED, Adjustment, Stop, adjust, linearised, loss
 from workbench.algorithms.calibration import calibrate
 from workbench.data import boards
 from workbench.geometry.cameras import intrinsics, project
 from workbench.geometry.distortion import NONE, Distortion
-from workbench.geometry.motions import exp_so3
+from workbench.geometry.motions import exp_so3, turns
 
 P = boards.board_points()
 LENS = Distortion(-0.27, 0.05, 0.0015, -0.0005, 0.02)
@@ -52,11 +52,6 @@ def test_slopes_are_those_of_differences(row):
     slope = (residuals(h) - residuals(-h)) / (2 * h)
     found = linearised(TRUE, R, t, P, uv)[:, row]
     np.testing.assert_allclose(found, slope, atol=1e-6 * max(np.abs(slope).max(), 1.0))
-
-
-def test_turns_are_those_of_one():
-    w = np.random.default_rng(0).normal(size=(6, 3)) * [[0], [1e-9], [1e-3], [1], [2], [3]]
-    np.testing.assert_allclose(turns(w), [exp_so3(one) for one in w], atol=1e-14)
 
 
 @pytest.mark.parametrize("coefficients", [0, 1, 2, 4, 5])

@@ -16,6 +16,7 @@ from jaxtyping import Bool, Float
 
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.distortion import Distortion
+from workbench.geometry.motions import turns
 from workbench.tracing import traced
 
 SHARED = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
@@ -250,15 +251,6 @@ def solved(
 def shared_information(block: Float[np.ndarray, "k 16 m"], free: Bool[np.ndarray, "9"]) -> Float[np.ndarray, "f f"]:
     """Return what is left of the normal matrix for the free shared unknowns once the poses are eliminated."""
     return _information(block @ np.swapaxes(block, 1, 2), free)
-
-
-def turns(w: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k 3 3"]:
-    """Return the rotation by |w| radians about each w (Rodrigues' formula, as `exp_so3` for one)."""
-    angle = np.linalg.norm(w, axis=1)[:, None, None]
-    W = np.zeros((len(w), 3, 3))
-    W[:, 2, 1], W[:, 0, 2], W[:, 1, 0] = w.T
-    W -= np.swapaxes(W, 1, 2)
-    return np.eye(3) + np.sinc(angle / np.pi) * W + 0.5 * np.sinc(0.5 * angle / np.pi) ** 2 * W @ W
 
 
 @_QUIETLY

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.geometry.homography import homogeneous
-from workbench.geometry.motions import exp_se3, skew
+from workbench.geometry.motions import exp_se3, skew, turns
 
 _SKEW = np.stack([skew(axis) for axis in np.eye(3)])
 
@@ -253,24 +253,17 @@ def _programs(omega: np.ndarray, R: np.ndarray, most: int) -> np.ndarray:
         A = H @ np.swapaxes(E, -1, -2)
         A[:, range(3), range(3)] += 1e-12 * np.trace(A, axis1=1, axis2=2)[:, None] + 1e-300
         w = -np.linalg.solve(A, H @ R[going].reshape(-1, 9, 1))[..., 0]
-        R[going] = _turns(w) @ R[going]
+        R[going] = turns(w) @ R[going]
         going = going[np.abs(w).max(axis=1) > 1e-8]
         if not len(going):
             break
     return R.reshape(len(omega), -1, 3, 3)
 
 
-def _turns(w: np.ndarray) -> np.ndarray:
-    """Return the rotations by rotation vectors (..., 3)."""
-    angle = np.sqrt(np.square(w).sum(axis=-1))[..., None, None]
-    W = np.einsum("...i,ijk->...jk", w, _SKEW)
-    return np.eye(3) + np.sinc(angle / np.pi) * W + 0.5 * np.sinc(0.5 * angle / np.pi) ** 2 * (W @ W)
-
-
 def _retracted(T: np.ndarray, twist: np.ndarray) -> np.ndarray:
     """Move by twists, composed on the left, to first order in their turns' share of the translation."""
     moved = T.copy()
-    R = _turns(twist[..., 3:])
+    R = turns(twist[..., 3:])
     moved[..., :3, :] = R @ T[..., :3, :]
     moved[..., :3, 3] += twist[..., :3]
     return moved

@@ -97,6 +97,19 @@ def exp_so3(w: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
     return np.eye(3) + _sine_term(angle) * W + _cosine_term(angle) * W @ W
 
 
+def turns(w: Float[np.ndarray, "*k 3"]) -> Float[np.ndarray, "*k 3 3"]:
+    """Return the rotation by |w| radians about each of many rotation vectors, as `exp_so3` for one.
+
+    Args:
+        w: Rotation vectors, radians.
+    """
+    angle = np.sqrt(np.square(w).sum(axis=-1))[..., None, None]
+    W = np.zeros((*w.shape[:-1], 3, 3))
+    W[..., 2, 1], W[..., 0, 2], W[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
+    W -= np.swapaxes(W, -1, -2)
+    return np.eye(3) + np.sinc(angle / np.pi) * W + 0.5 * np.sinc(0.5 * angle / np.pi) ** 2 * (W @ W)
+
+
 def log_so3(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3"]:
     """Return the rotation vector of R, of length at most pi, such that `exp_so3` gives R back.
 
