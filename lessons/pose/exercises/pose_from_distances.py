@@ -156,15 +156,17 @@ def rotation_transposed(p_world: np.ndarray, rays: np.ndarray, distances: np.nda
 
 
 @alternative
-def by_frames(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
-    """Puts a frame along the sides of both triangles."""
-    return motions_from_lengths(p_world[None], rays[None], distances[None])[0]
-
-
-@alternative
 def by_svd(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Kabsch's way, written out."""
     q = distances[:, None] * rays
-    U, Vt, signs = kabsch(p_world, q)
-    R = U @ np.diag(signs) @ Vt
-    return motion(R, q.mean(axis=0) - R @ p_world.mean(axis=0))
+    U, _, Vt = np.linalg.svd((q - q.mean(axis=0)).T @ (p_world - p_world.mean(axis=0)))
+    T = np.eye(4)
+    T[:3, :3] = U @ np.diag([1.0, 1.0, np.linalg.det(U @ Vt)]) @ Vt
+    T[:3, 3] = q.mean(axis=0) - T[:3, :3] @ p_world.mean(axis=0)
+    return T
+
+
+@alternative
+def by_frames(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
+    """Puts a frame along the sides of both triangles."""
+    return motions_from_lengths(p_world[None], rays[None], distances[None])[0]

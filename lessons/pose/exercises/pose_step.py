@@ -193,6 +193,23 @@ def gradient(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
 
 
 @alternative
+def written_out(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
+    """All derivatives of u, then all of v, and Rodrigues' formula."""
+    x, y, z = (p_world @ T[:3, :3].T + T[:3, 3]).T
+    x, y = x / z, y / z
+    of_u = np.stack([1 / z, 0 * z, -x / z, -x * y, 1 + x * x, -y], axis=1)
+    of_v = np.stack([0 * z, 1 / z, -y / z, -1 - y * y, x * y, x], axis=1)
+    off = np.concatenate([x - xy[:, 0], y - xy[:, 1]])
+    v, w = np.split(np.linalg.lstsq(np.concatenate([of_u, of_v]), -off, rcond=None)[0], 2)
+    angle = np.linalg.norm(w)
+    W = np.cross(w, np.eye(3)).T
+    step = np.eye(4)
+    step[:3, :3] += np.sinc(angle / np.pi) * W + 0.5 * np.sinc(0.5 * angle / np.pi) ** 2 * W @ W
+    step[:3, 3] = v
+    return step @ T
+
+
+@alternative
 def by_normal_equations(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Turns about the camera and shifts, R and t one by one."""
     residuals, J = linearised(T, p_world, xy)

@@ -61,6 +61,34 @@ def right_tiny_floor(circle, p):
     return np.linalg.norm(v, axis=1) - circle[2], np.column_stack([-v / d[:, None], -np.ones(len(p))])
 
 
+def right_angles(circle, p):
+    x, y, R = circle
+    dx, dy = p[:, 0] - x, p[:, 1] - y
+    d = np.sqrt(dx * dx + dy * dy)
+    angle = np.arctan2(dy, dx)
+    J = -np.array([np.cos(angle) * (d > 0), np.sin(angle) * (d > 0), np.ones_like(d)]).T
+    return d - R, J
+
+
+def right_einsum(circle, p):
+    v = circle[None, :2] - p
+    d = np.einsum("ni,ni->n", v, v) ** 0.5
+    J = np.empty((len(p), 3))
+    J[:, :2] = np.nan_to_num(v / np.where(d == 0, np.inf, d)[:, None])
+    J[:, 2] = -1
+    return d - circle[2], J
+
+
+def right_rows(circle, p):
+    rows = []
+    for x, y in p:
+        d = ((x - circle[0]) ** 2 + (y - circle[1]) ** 2) ** 0.5
+        n = ((x - circle[0]) / d, (y - circle[1]) / d) if d else (0.0, 0.0)
+        rows.append((d - circle[2], -n[0], -n[1], -1.0))
+    rows = np.array(rows)
+    return rows[:, 0], rows[:, 1:]
+
+
 def wrong_algebraic(circle, p):
     v = p - circle[:2]
     return (v**2).sum(1) - circle[2] ** 2, np.column_stack([-2 * v, np.full(len(p), -2 * circle[2])])

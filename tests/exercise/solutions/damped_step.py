@@ -57,6 +57,23 @@ def right_column(residuals, jacobian, damping):
     return np.linalg.solve(A + damping * np.diag(np.diag(A)), g).ravel()
 
 
+def right_eigenvectors(residuals, jacobian, damping):
+    scale = 1 / np.linalg.norm(jacobian, axis=0)
+    values, V = np.linalg.eigh((jacobian * scale).T @ (jacobian * scale))
+    return -scale * (V @ ((V.T @ (scale * (jacobian.T @ residuals))) / (values + damping)))
+
+
+def right_loops(residuals, jacobian, damping):
+    k = jacobian.shape[1]
+    A, g = np.zeros((k, k)), np.zeros(k)
+    for r, row in zip(residuals, jacobian):
+        A += np.outer(row, row)
+        g += r * row
+    for i in range(k):
+        A[i, i] += damping * A[i, i]
+    return np.linalg.solve(A, -g)
+
+
 def wrong_identity(residuals, jacobian, damping):
     A = jacobian.T @ jacobian
     return np.linalg.solve(A + damping * np.eye(len(A)), -jacobian.T @ residuals)

@@ -56,6 +56,16 @@ def right_minimum_with_warning(residuals, corner):
         return np.minimum(1, corner / np.abs(residuals))
 
 
+def right_piece_by_piece(residuals, corner):
+    return np.piecewise(
+        residuals, [residuals < -corner, residuals > corner], [lambda r: -corner / r, lambda r: corner / r, 1.0]
+    )
+
+
+def right_list(residuals, corner):
+    return [min(1.0, corner / max(abs(float(r)), 1e-300)) for r in residuals]
+
+
 def wrong_no_abs(residuals, corner):
     return corner / np.maximum(residuals, corner)
 
