@@ -4,8 +4,9 @@ from typing import get_args
 import numpy as np
 import pytest
 
+from workbench.data.intrinsics import read_intrinsics
 from workbench.data.matches import read_matches
-from workbench.data.two_views import What, own_views, read_intrinsics, street_views
+from workbench.data.two_views import What, own_views, street_views
 from workbench.errors import InputError
 from workbench.geometry.cameras import project
 from workbench.geometry.epipolar import fundamental_from_cameras, sampson_distances

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.data.arrays import read_arrays
-from workbench.data.files import stamp, text_rows
+from workbench.data.files import stamp, word_rows
 from workbench.errors import InputError
 
 MOST_VIEWS, MOST_POINTS = 40, 1000
@@ -96,8 +96,7 @@ def _from_arrays(path: Path, which: Which) -> Corners:
 
 def _from_text(path: Path) -> Corners:
     views: dict[str, list[list[float]]] = {}
-    for i, line in text_rows(path, "corners", (".csv", ".txt")):
-        view, *words = line.replace(",", " ").replace(";", " ").split()
+    for i, (view, *words) in word_rows(path, "corners", (".csv", ".txt")):
         try:
             numbers = [float(word) for word in words]
         except ValueError:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from workbench.data.files import read_cloud, stamp, text_rows
+from workbench.data.files import number_rows, read_cloud, stamp, word_rows
 from workbench.data.formats import is_number
 from workbench.errors import InputError
 
@@ -32,10 +32,9 @@ def read_flat_or_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n d"]:
 def _read(path: Path, fewest: int, _stamp: tuple[int, int]) -> np.ndarray:
     if path.suffix.lower() not in _TEXT:
         return read_cloud(path, fewest)
-    rows = [line.replace(",", " ").replace(";", " ").split() for _, line in text_rows(path, "points", _TEXT)]
-    if not rows or max(len(row) for row in rows) != 2:
+    if max((len(words) for _, words in word_rows(path, "points", _TEXT)), default=0) != 2:
         return read_cloud(path, fewest)
-    rows = rows[not is_number(rows[0][0]) :]
+    rows = [words for _, words in number_rows(path, "points", _TEXT)]
     if not all(len(row) == 2 and all(is_number(word) for word in row) for row in rows):
         raise InputError(f"{path.name}: two numbers x y are wanted on each line")
     p = np.array(rows, float).reshape(-1, 2)

@@ -7,7 +7,8 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.data.arrays import read_arrays
-from workbench.data.formats import is_number
+from workbench.data.formats import is_number, words_of
+from workbench.data.intrinsics import checked_intrinsics
 from workbench.errors import InputError
 from workbench.geometry.motions import motion
 
@@ -97,9 +98,7 @@ def _from_arrays(path: Path) -> Matches:
 
 def _from_text(path: Path) -> Matches:
     lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-    kept = [
-        line.replace(",", " ").replace(";", " ").split() for line in lines if line.strip() and line.strip()[0] != "#"
-    ]
+    kept = [words for line in lines if line.strip()[:1] != "#" and (words := words_of(line))]
     if kept and not is_number(kept[0][0]):
         kept = kept[1:]  # a line of names
     widths = {len(words) for words in kept}
@@ -142,9 +141,7 @@ def _scaled(matrix: np.ndarray | None) -> np.ndarray | None:
 
 def _camera(path: Path, arrays: dict[str, np.ndarray], name: str) -> np.ndarray | None:
     K = _truth(path, arrays, (name, "K"))
-    if K is not None and not (K[0, 0] > 0 and K[1, 1] > 0 and K[2].tolist() == [0.0, 0.0, 1.0] and K[1, 0] == 0.0):
-        raise InputError(f"{path.name}: {name} is no K of a camera: fx and fy are positive, and the last row is 0 0 1")
-    return K
+    return None if K is None else checked_intrinsics(K, f"{path.name}: {name} is")
 
 
 def _motion(path: Path, arrays: dict[str, np.ndarray]) -> np.ndarray | None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from workbench.data.files import text_rows
+from workbench.data.files import number_rows
 from workbench.data.formats import is_number
 from workbench.errors import InputError
 from workbench.geometry.cameras import project
@@ -77,12 +77,8 @@ def read_sightings(path: Path) -> Sightings:
     Raises:
         InputError: If the file cannot be read, has other rows, too few or too many, or numbers that are not finite.
     """
-    lines = text_rows(path, "points with their pixels", (".txt", ".csv"))
-    kept = [(i, line.replace(",", " ").replace(";", " ").split()) for i, line in lines]
-    if kept and not is_number(kept[0][1][0]):
-        kept = kept[1:]  # a line of names
     rows = []
-    for i, words in kept:
+    for i, words in number_rows(path, "points with their pixels", (".txt", ".csv")):
         if len(words) != 5 or not all(is_number(word) for word in words):
             raise InputError(f"{path.name}, line {i}: five numbers are wanted, X Y Z u v")
         rows.append([float(word) for word in words])

@@ -8,7 +8,8 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from workbench.data.files import read_image, text_rows
+from workbench.data.files import read_image
+from workbench.data.intrinsics import read_intrinsics
 from workbench.data.matches import read_matches
 from workbench.data.street import street_items
 from workbench.data.thinning import evenly
@@ -205,25 +206,3 @@ def _shown(file: Path | None, uv: np.ndarray) -> tuple[np.ndarray | None, tuple[
     k = -(-w // LARGEST)
     rgb = image if image.ndim == 3 else np.repeat(image[..., None], 3, axis=2)
     return np.ascontiguousarray(rgb[::k, ::k]), (w, h), k
-
-
-def read_intrinsics(path: Path) -> Float[np.ndarray, "3 3"]:
-    """Return K from a text file: four numbers fx fy cx cy, or three rows of three.
-
-    Raises:
-        InputError: If it is neither, or no camera: focal lengths are positive, the last row is 0 0 1.
-    """
-    words = " ".join(line for _, line in text_rows(path, "intrinsics", (".txt", ".csv", ".dat", ""))).replace(",", " ")
-    try:
-        numbers = np.array(words.split(), float)
-    except ValueError:
-        raise InputError(f"{path.name}: K is numbers, four (fx fy cx cy) or three rows of three") from None
-    if numbers.shape == (4,):
-        fx, fy, cx, cy = numbers
-        numbers = np.array([fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0])
-    if numbers.shape != (9,) or not np.isfinite(numbers).all():
-        raise InputError(f"{path.name}: {len(numbers)} numbers; K is four (fx fy cx cy) or three rows of three")
-    K = numbers.reshape(3, 3)
-    if not (K[0, 0] > 0 and K[1, 1] > 0 and K[2].tolist() == [0.0, 0.0, 1.0] and K[1, 0] == 0.0):
-        raise InputError(f"{path.name}: no K of a camera: fx and fy are positive, and the last row is 0 0 1")
-    return K

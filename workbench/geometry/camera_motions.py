@@ -11,6 +11,7 @@ Terzakis and Lourakis, A Consistently Fast and Globally Optimal Solution to the 
 import numpy as np
 from jaxtyping import Float
 
+from workbench.geometry.alignment import nearest_rotation
 from workbench.geometry.homography import homogeneous
 from workbench.geometry.motions import exp_se3, skew, turns
 
@@ -209,7 +210,7 @@ def sqpnp(
     omega, t_of_r = _quadratic_form(q, xy)
     vectors = np.swapaxes(np.linalg.eigh(omega)[1][..., :_STARTS], -1, -2).reshape(len(p), _STARTS, 3, 3)
     starts = vectors @ (np.swapaxes(q, 1, 2) @ q)[:, None]  # whose nearest rotation moves these points most alike
-    R = _nearest_rotations(np.concatenate([starts, -starts], axis=1))
+    R = nearest_rotation(np.concatenate([starts, -starts], axis=1))
     rows, mean = np.arange(len(p))[:, None], q.mean(axis=1)
     for programs, kept in ((2, 2), (_PROGRAMS, 1)):
         R = _programs(omega, R, programs)
@@ -267,12 +268,6 @@ def _retracted(T: np.ndarray, twist: np.ndarray) -> np.ndarray:
     moved[..., :3, :] = R @ T[..., :3, :]
     moved[..., :3, 3] += twist[..., :3]
     return moved
-
-
-def _nearest_rotations(A: np.ndarray) -> np.ndarray:
-    U, _, Vt = np.linalg.svd(A)
-    U[..., 2] *= (np.linalg.det(U) * np.linalg.det(Vt))[..., None]
-    return U @ Vt
 
 
 def _about(T: np.ndarray, p: np.ndarray) -> np.ndarray:
