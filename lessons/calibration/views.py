@@ -1,6 +1,7 @@
 """Where views come from, built-in or a person's own, what they look like, and how well a camera is known by them."""
 
 import functools
+from dataclasses import replace
 
 import numpy as np
 
@@ -44,13 +45,10 @@ def subject_of(params: Params) -> Subject:
     if len(subject.views) < 3:
         raise InputError("two views at least are needed: leave out none")
     keep = np.array(subject.views) != params.leave_out
-    return Subject(
-        p_board=subject.p_board,
+    return replace(
+        subject,
         uv=subject.uv[keep],
         views=tuple(view for view in subject.views if view != params.leave_out),
-        size=subject.size,
-        K=subject.K,
-        lens=subject.lens,
         Ts_camera_board=subject.Ts_camera_board[keep] if subject.K is not None else subject.Ts_camera_board,
     )
 

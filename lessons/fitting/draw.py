@@ -13,8 +13,8 @@ from workbench.algorithms.round_shapes import CYLINDER
 from workbench.data.thinning import every
 from workbench.geometry.algebraic_fits import ALGEBRAIC
 from workbench.geometry.clipping import plane_in_box
-from workbench.geometry.cylinders import across
 from workbench.geometry.lines_planes import line_angle
+from workbench.geometry.motions import across
 from workbench.geometry.polylines import between, circle, cylinder_rings, fan, near_arc, segments, sphere_rings
 from workbench.numerals import angle, brief, fixed
 from workbench.scene import Chart, Classes, Field, Mesh, Picture, Points, Primitive, Role, Scene, Segments, Table

@@ -5,7 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.truths.fitting import distances
-from workbench.geometry.cylinders import across, linearise_cylinder, retract_cylinder
+from workbench.geometry.cylinders import linearise_cylinder, retract_cylinder
+from workbench.geometry.motions import across
 
 seeds = st.integers(0, 2**32 - 1)
 

@@ -8,13 +8,7 @@ five: two shifts across the axis (metres), two tilts of it (radians), and the ch
 import numpy as np
 from jaxtyping import Float
 
-
-def across(n: Float[np.ndarray, "*k 3"]) -> tuple[Float[np.ndarray, "*k 3"], Float[np.ndarray, "*k 3"]]:
-    """Return two unit vectors at right angles to a unit vector and to each other."""
-    least = np.eye(3)[np.abs(n).argmin(axis=-1)]
-    u = np.cross(n, least)
-    u = u / np.linalg.norm(u, axis=-1, keepdims=True)
-    return u, np.cross(n, u)
+from workbench.geometry.motions import across
 
 
 def linearise_cylinder(

@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from workbench.geometry.epipolar import outer_products, sampson_slopes
 from workbench.geometry.homography import homogeneous, normalising_similarity
-from workbench.geometry.motions import exp_so3, motion, skew
+from workbench.geometry.motions import across, exp_so3, motion, skew
 from workbench.geometry.refinement import levenberg_marquardt
 
 _QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
@@ -100,21 +100,14 @@ def refine_motion(
         R, t = unknown
         residuals, by_F = sampson_slopes(left @ skew(t) @ R @ right, x, y, outer)
         turned = skew(t) @ _GENERATORS @ R
-        moved = np.array([skew(side) @ R for side in _sides(t)])
+        moved = np.array([skew(side) @ R for side in across(t)])
         by_step = (left @ np.concatenate([turned, moved]) @ right).reshape(5, 9)
         return residuals, (by_step @ by_F).T
 
     def retract(unknown: _Motion, step: np.ndarray) -> _Motion:
         R, t = unknown
-        t_moved = t + step[3:] @ _sides(t)
+        t_moved = t + step[3:] @ np.stack(across(t))
         return exp_so3(step[:3]) @ R, t_moved / np.linalg.norm(t_moved)
 
     start = T_second_first[:3, :3], T_second_first[:3, 3] / length
     return motion(*levenberg_marquardt(linearise, retract, start, steps=steps))
-
-
-def _sides(t: np.ndarray) -> np.ndarray:
-    """Return two unit vectors (2, 3) orthogonal to a unit vector and to each other."""
-    u = np.cross(t, np.eye(3)[np.argmin(np.abs(t))])
-    u /= np.linalg.norm(u)
-    return np.stack([u, np.cross(t, u)])

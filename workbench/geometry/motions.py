@@ -64,6 +64,14 @@ def angle_between(v: Float[np.ndarray, "3"], w: Float[np.ndarray, "3"]) -> float
     return float(np.arctan2(np.linalg.norm(np.cross(v, w)), v @ w))
 
 
+def across(n: Float[np.ndarray, "*k 3"]) -> tuple[Float[np.ndarray, "*k 3"], Float[np.ndarray, "*k 3"]]:
+    """Return two unit vectors at right angles to a unit vector and to each other."""
+    least = np.eye(3)[np.abs(n).argmin(axis=-1)]
+    u = np.cross(n, least)
+    u = u / np.linalg.norm(u, axis=-1, keepdims=True)
+    return u, np.cross(n, u)
+
+
 def rotation_angle(R: Float[np.ndarray, "3 3"]) -> float:
     """Return the angle of a rotation in [0, pi] radians, exact at both ends.
 
