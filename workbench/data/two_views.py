@@ -67,7 +67,9 @@ class TwoViews:
     depth: Float[np.ndarray, "_h _w"] | None = None
 
 
-def street_views(what: What, count: int, sigma: float, baseline: float, heading: float, rng) -> TwoViews:
+def street_views(
+    what: What, count: int, sigma: float, baseline: float, heading: float, rng: np.random.Generator
+) -> TwoViews:
     """Return two pictures of the street, and matches on its surfaces that both cameras see.
 
     Args:
