@@ -180,7 +180,7 @@ def _rivals(state: State, now: Rivals) -> dict[str, Primitive]:
     if subject.photograph is not None:
         scene["photograph"] = _photograph(subject)
         assert subject.p_true is not None
-        scene["rim"] = Points(solid(subject.p_true), "other", 0.008, name="all of the rim")
+        scene["rim"] = Points(solid(subject.p_true), "correspondence", 0.008, name="all of the rim")
     names = list(now.circles)
     for name in names if now.arcs else names[-1:]:
         lines = outline(subject, now.circles[name])

@@ -29,11 +29,11 @@ from workbench.scene import (
     is_rigid,
 )
 
-VIEW = View(eye=(7.2, -0.9, 3.0), target=(0.6, 0.0, 0.1), grid=None, axes=False, fov_degrees=40.0)
+VIEW = View(eye=(7.2, -0.9, 3.15), target=(0.6, 0.0, 0.25), grid=None, axes=False, fov_degrees=40.0)
 CLOSE = View(eye=(0.1, -0.4, 0.3), target=(0.06, 0.0, 0.0), grid=None, axes=False, fov_degrees=40.0)
 ABOVE = View(eye=(9.5, -6.0, 5.5), target=(0.8, 0.6, 1.7), grid=None, axes=False, fov_degrees=40.0)
 SCREENS = {
-    "box": (VIEW.facing(1.6, -0.65), 2.2),
+    "box": (VIEW.facing(1.75, -0.7), 2.3),
     "marker": (CLOSE.facing(0.13, 0.0), 0.16),
     "triangle": (ABOVE.facing(2.6, 0.3), 2.8),
 }
