@@ -10,6 +10,7 @@ import scipy
 from jaxtyping import Float, Int
 
 BINS = 11
+TIE = 1e-12  # normals that are as near to the line, but for rounding
 LOW, HIGH = np.array([-np.pi, -1.0, -1.0]), np.array([np.pi, 1.0, 1.0])
 
 PairAngles = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
@@ -35,8 +36,8 @@ def pair_angles(
         n_j: Their unit normals.
 
     Returns:
-        Rows (theta in radians, alpha, phi). All three are 0 where the line runs along the source's normal, or the points
-        coincide: no frame is there.
+        Rows (theta in radians, alpha, phi). Where both normals are as near to the line, the first point is the source.
+        All three are 0 where the line runs along the source's normal, or the points coincide: no frame is there.
 
     Reference: Rusu, Blodow and Beetz 2009, eq. 1 and 2.
 
@@ -49,7 +50,7 @@ def pair_angles(
     lengths = np.sqrt(np.einsum("ij,ij->i", line, line))
     d = line / np.where(lengths > 0, lengths, 1.0)[:, None]
     first, second = np.einsum("ij,ij->i", n_i, d), np.einsum("ij,ij->i", n_j, d)
-    swap = np.abs(first) < np.abs(second)
+    swap = np.abs(first) < np.abs(second) - TIE
     phi = np.where(swap, -second, first)  # u d
     other = np.where(swap, -first, second)  # n d
     aligned = np.einsum("ij,ij->i", n_i, n_j)  # u n
@@ -68,29 +69,6 @@ def pairs_within(p: Float[np.ndarray, "n 3"], radius: float) -> Int[np.ndarray, 
     return scipy.spatial.KDTree(p).query_pairs(radius, output_type="ndarray").astype(np.intp)
 
 
-def histograms(
-    angles: Float[np.ndarray, "k 3"], of: Int[np.ndarray, " k"], count: int
-) -> Float[np.ndarray, "count 33"]:
-    """Return for each of `count` points the histograms of its pairs, 11 bins for each angle, each of them 100 in sum.
-
-    A point without a pair has zeros.
-
-    Args:
-        angles: Rows (theta, alpha, phi), one per pair.
-        of: To which point a pair belongs.
-        count: How many points there are.
-
-    Reference: Rusu, Blodow and Beetz 2009, section III (the simplified histogram, SPFH).
-    """
-    bins = _bins(angles)
-    found = np.zeros((count, 3 * BINS))
-    for k in range(3):
-        found[:, k * BINS : (k + 1) * BINS] = np.bincount(of * BINS + bins[:, k], minlength=count * BINS).reshape(
-            -1, BINS
-        )
-    return found * (100.0 / np.maximum(np.bincount(of, minlength=count), 1))[:, None]
-
-
 def fpfh(
     p: Float[np.ndarray, "n 3"],
     n: Float[np.ndarray, "n 3"],
@@ -103,7 +81,8 @@ def fpfh(
         p: Points, metres.
         n: Their unit normals. Which of the two sides they face counts.
         radius: Of a neighbourhood, metres.
-        pair_angles: The angles of pairs; each pair of neighbours is asked for once.
+        pair_angles: The angles of pairs; each pair of neighbours is asked for once; where both normals are as
+            near to the line, once for each of its points.
 
     Returns:
         Rows of 33 numbers, none negative; zeros for a point without neighbours.
@@ -119,11 +98,17 @@ def fpfh(
     squared = np.einsum("ij,ij->i", line, line)
     apart = squared > 0
     if not apart.all():
-        i, j, squared = i[apart], j[apart], squared[apart]
+        i, j, line, squared = i[apart], j[apart], line[apart], squared[apart]
     bins = _bins(np.asarray(pair_angles(p[i], n[i], p[j], n[j]), float))
+    back = bins
+    first, second = (np.abs(np.einsum("ij,ij->i", n[k], line)) for k in (i, j))
+    tied = np.flatnonzero(np.abs(first - second) <= TIE * np.sqrt(squared))
+    if len(tied):  # each point is its own source then, as where two points have one normal
+        back, one, other = bins.copy(), i[tied], j[tied]
+        back[tied] = _bins(np.asarray(pair_angles(p[other], n[other], p[one], n[one]), float))
     size, own = count * BINS, np.empty((count, 3 * BINS))
     for k in range(3):  # a pair counts at both of its points
-        both = np.bincount(i * BINS + bins[:, k], minlength=size) + np.bincount(j * BINS + bins[:, k], minlength=size)
+        both = np.bincount(i * BINS + bins[:, k], minlength=size) + np.bincount(j * BINS + back[:, k], minlength=size)
         own[:, k * BINS : (k + 1) * BINS] = both.reshape(count, BINS)
     degrees = np.bincount(i, minlength=count) + np.bincount(j, minlength=count)
     own *= (100.0 / np.maximum(degrees, 1))[:, None]

@@ -1,0 +1,103 @@
+"""Matches of descriptors, corners, keypoints and shape contexts beside scipy, OpenCV and loops."""
+
+import numpy as np
+import pytest
+import scipy
+
+from workbench.geometry import keypoints, matching
+from workbench.geometry.shape_context import context_costs, shape_contexts
+
+
+def test_nearest_both_ways_are_scipys(monkeypatch):
+    rng = np.random.default_rng(0)
+    a, b = rng.normal(size=(70, 6)) + 50, rng.normal(size=(45, 6)) + 50
+    D = scipy.spatial.distance.cdist(a, b)
+    for cells in (100, 10**7):
+        monkeypatch.setattr(matching, "_CELLS", cells)
+        found = matching.nearest_both_ways(a, b)
+        np.testing.assert_array_equal(found.index, D.argmin(axis=1))
+        np.testing.assert_array_equal(found.back, D.argmin(axis=0))
+        np.testing.assert_allclose(np.column_stack([found.distance, found.second]), np.sort(D, axis=1)[:, :2])
+
+
+def test_planted_matches_are_found_and_nothing_else():
+    rng = np.random.default_rng(1)
+    a = 10 * rng.normal(size=(50, 8))
+    order = rng.permutation(30)
+    b = np.concatenate([a[order] + 0.01 * rng.normal(size=(30, 8)), 10 * rng.normal(size=(20, 8)) + 300])
+    found = matching.mutual_matches(a, b, 0.5)
+    right = np.full(50, -1)
+    right[order] = np.arange(30)
+    np.testing.assert_array_equal(found, right)
+    kept = matching.filtered(matching.nearest_both_ways(a, b), "both", 0.5)
+    np.testing.assert_array_equal(kept, np.column_stack([np.flatnonzero(right >= 0), right[right >= 0]]))
+
+
+def test_each_filter_keeps_part_of_the_one_before():
+    rng = np.random.default_rng(2)
+    near = matching.nearest_both_ways(rng.normal(size=(80, 3)), rng.normal(size=(60, 3)))
+    kept = {how: near.kept(how, 0.8) for how in ("nearest", "ratio", "mutual", "both")}
+    assert kept["nearest"].all()
+    np.testing.assert_array_equal(kept["both"], kept["ratio"] & kept["mutual"])
+    assert 0 < kept["both"].sum() < min(kept["ratio"].sum(), kept["mutual"].sum())
+
+
+def test_what_cannot_be_matched_is_refused():
+    with pytest.raises(ValueError, match="empty"):
+        matching.nearest_both_ways(np.zeros((0, 3)), np.zeros((2, 3)))
+    near = matching.nearest_both_ways(np.eye(3), np.eye(3))
+    with pytest.raises(ValueError, match="one index"):
+        matching.filtered(near, "both", 0.9, np.array([0, 1, 3]))
+
+
+def test_the_response_turns_with_the_picture_and_edges_are_negative():
+    image = np.random.default_rng(3).uniform(0, 255, (30, 40))
+    found = keypoints.harris_response(image)
+    np.testing.assert_allclose(keypoints.harris_response(np.rot90(image)), np.rot90(found), rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(keypoints.harris_response(0.5 * image + 20), found / 16, rtol=1e-9, atol=1e-6)
+    edge = np.where(np.arange(30) < 15, 0.0, 200.0) * np.ones((30, 1))
+    assert keypoints.harris_response(edge).max() < 1e-6
+    square = np.zeros((30, 30))
+    square[10:20, 10:20] = 200
+    corners = keypoints.strongest(keypoints.harris_response(square), 10)
+    assert {tuple(c) for c in corners.tolist()} == {(11, 11), (18, 11), (11, 18), (18, 18)}  # inside the bright square
+
+
+def test_patches_do_not_see_brightness_or_contrast():
+    image = np.random.default_rng(4).uniform(0, 255, (40, 40))
+    uv = np.array([[10, 12], [20, 25]])
+    np.testing.assert_allclose(keypoints.patches(0.6 * image + 30, uv, 9), keypoints.patches(image, uv, 9), atol=1e-9)
+
+
+def test_iss_keypoints_are_those_of_loops_about_the_point_and_not_of_the_mean():
+    rng = np.random.default_rng(5)
+    p = rng.normal(size=(500, 3)) * [1.0, 0.7, 0.3]
+    tree = scipy.spatial.KDTree(p)
+
+    def by(about_mean: bool) -> set[int]:
+        least = np.zeros(len(p))
+        for i, near in enumerate(tree.query_ball_point(p, 0.5)):
+            others = [j for j in near if j != i]
+            if len(others) >= 5:
+                v = p[others] - (p[near].mean(axis=0) if about_mean else p[i])
+                w = np.linalg.eigvalsh(v.T @ v / len(others))
+                if w[1] < 0.975 * w[2] and w[0] < 0.975 * w[1]:
+                    least[i] = w[0]
+        around = tree.query_ball_point(p, 0.3)
+        return {i for i in range(len(p)) if least[i] > max((least[j] for j in around[i] if j != i), default=0.0)}
+
+    found = set(keypoints.iss_keypoints(p, 0.5, 0.3).tolist())
+    assert found == by(False)
+    assert len(found & by(True)) < 0.6 * len(found)  # what Open3D computes is another detector
+
+
+def test_shape_contexts_ignore_scale_and_along_the_tangent_a_turn():
+    t = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    p = np.column_stack([2 * np.cos(t) + 0.3 * np.cos(3 * t), np.sin(t) + 0.2 * np.sin(2 * t)])
+    R = np.array([[0.6, -0.8], [0.8, 0.6]])
+    for along in (False, True):
+        own = shape_contexts(p, along_tangent=along)
+        np.testing.assert_allclose(own.sum(axis=1), 1)
+        assert np.diag(context_costs(own, shape_contexts(7 * p + 3, along_tangent=along))).max() < 0.05
+        turned = np.diag(context_costs(own, shape_contexts(p @ R.T, along_tangent=along))).mean()
+        assert (turned < 0.02) if along else (turned > 0.3)
