@@ -73,7 +73,7 @@ class Params:
     voxel: Annotated[
         float, Knob("Own scans: edge of the voxels that thin them, of the target's longest extent", 1, 10, unit="%",
                     step=0.5, of_files=True)
-    ] = 3.0  # fmt: skip
+    ] = 2.5  # fmt: skip
     seed: Annotated[int, Knob("What chance draws: points, noise, samples", 0, 99)] = 0
 
 

@@ -76,14 +76,14 @@ def test_iss_keypoints_are_those_of_loops_about_the_point_and_not_of_the_mean():
 
     def by(about_mean: bool) -> set[int]:
         least = np.zeros(len(p))
-        for i, near in enumerate(tree.query_ball_point(p, 0.5)):
+        for i, near in enumerate(tree.query_ball_point(p, np.full(len(p), 0.5))):
             others = [j for j in near if j != i]
             if len(others) >= 5:
                 v = p[others] - (p[near].mean(axis=0) if about_mean else p[i])
                 w = np.linalg.eigvalsh(v.T @ v / len(others))
                 if w[1] < 0.975 * w[2] and w[0] < 0.975 * w[1]:
                     least[i] = w[0]
-        around = tree.query_ball_point(p, 0.3)
+        around = tree.query_ball_point(p, np.full(len(p), 0.3))
         return {i for i in range(len(p)) if least[i] > max((least[j] for j in around[i] if j != i), default=0.0)}
 
     found = set(keypoints.iss_keypoints(p, 0.5, 0.3).tolist())
