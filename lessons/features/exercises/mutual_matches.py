@@ -43,11 +43,14 @@ HINT = "Nearest both ways, and d1 < ratio * d2 for the distances to the two near
 
 
 def sets(seed: int, n: int, m: int, d: int, shift: float = 0.6) -> tuple[np.ndarray, np.ndarray]:
-    """Return descriptors that partly belong together, in another order."""
+    """Return descriptors that partly belong together, some clearly and some hardly, in another order."""
     rng = np.random.default_rng(seed)
     common = rng.normal(size=(min(n, m), d))
-    a = np.concatenate([common, rng.normal(size=(n - len(common), d))]) + shift * rng.normal(size=(n, d))
-    b = np.concatenate([common, rng.normal(size=(m - len(common), d))]) + shift * rng.normal(size=(m, d))
+    a, b = (
+        np.concatenate([common, rng.normal(size=(count - len(common), d))])
+        + shift * rng.uniform(0, 2, (count, 1)) * rng.normal(size=(count, d))
+        for count in (n, m)
+    )
     return a, rng.permutation(b)
 
 
@@ -64,14 +67,15 @@ def judged(candidate: Function, a: np.ndarray, b: np.ndarray, ratio: float, what
 
 @check(2)
 def a_few(candidate: Function) -> Verdict:
-    """Thirty descriptors of each set, at a ratio of 0.9."""
-    return judged(candidate, *sets(STUDENTS, 30, 30, 5), 0.9, "30 and 30")
+    """Thirty descriptors of each set, at ratios of 0.9 and 0.5."""
+    return worst(judged(candidate, *sets(STUDENTS, 30, 30, 5), ratio, f"30 and 30, {ratio:g}") for ratio in (0.9, 0.5))
 
 
 @check(1)
 def sets_of_other_sizes(candidate: Function) -> Verdict:
     """More descriptors in one set than in the other, both ways round."""
-    return worst(judged(candidate, *sets(STUDENTS + n, n, m, 4), 0.85, f"{n} and {m}") for n, m in ((12, 40), (40, 12)))
+    cases = ((12, 40, 0.85), (40, 12, 0.85), (50, 40, 0.5))
+    return worst(judged(candidate, *sets(STUDENTS + n, n, m, 4), ratio, f"{n} and {m}") for n, m, ratio in cases)
 
 
 @check(1)
