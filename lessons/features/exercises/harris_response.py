@@ -10,8 +10,6 @@ from lessons.features.exercises import GRADERS, STUDENTS
 from workbench.exercise import Function, Verdict, alternative, band, beside, check, contract, left_alone, mistake, worst
 from workbench.geometry import keypoints
 
-Image = Float[np.ndarray, "h w"]
-
 
 @contract(
     slot="harris_response",
@@ -20,7 +18,7 @@ Image = Float[np.ndarray, "h w"]
         ("harris_response(np.outer(np.arange(9.0), np.ones(9)))[4, 4]", "-0.0354"),
     ),
 )
-def harris_response(image: Image) -> Image:
+def harris_response(image: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
     """Return det(M) - 0.04 trace(M)^2 of every pixel.
 
     Smooth the picture by a Gaussian of 1 px. Its derivatives g_u (along columns) and g_v (along rows) are Sobel's over 8,
@@ -96,7 +94,7 @@ def brightness_and_contrast(candidate: Function) -> Verdict:
     return judged(candidate, 0.01 * textured(GRADERS + 2, 40, 40) + 3.0, "Low contrast")
 
 
-def products(image: Image) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def products(image: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return g_u, g_v, and the two again, as scipy has them."""
     smooth = scipy.ndimage.gaussian_filter(np.asarray(image, float), 1.0)
     g_u, g_v = scipy.ndimage.sobel(smooth, axis=1) / 8.0, scipy.ndimage.sobel(smooth, axis=0) / 8.0
@@ -109,14 +107,14 @@ def gathered(x: np.ndarray) -> np.ndarray:
 
 
 @mistake("You left out the window: of a single pixel's derivatives det M is 0. Smooth the three products by 1.5 px.")
-def no_window(image: Image) -> Image:
+def no_window(image: np.ndarray) -> np.ndarray:
     """Takes the products of each pixel alone."""
     a, b, c, _ = products(image)
     return a * c - b * b - 0.04 * (a + c) ** 2
 
 
 @mistake("Your trace is not squared: det M is of the fourth order in grey levels, so the trace enters as its square.")
-def trace_not_squared(image: Image) -> Image:
+def trace_not_squared(image: np.ndarray) -> np.ndarray:
     """Subtracts 0.04 trace M."""
     a, b, c = (gathered(x) for x in products(image)[:3])
     return a * c - b * b - 0.04 * (a + c)
@@ -125,7 +123,7 @@ def trace_not_squared(image: Image) -> Image:
 @mistake(
     "You smoothed the derivatives and multiplied then, so det M is 0 everywhere. Multiply first, smooth the products."
 )
-def smoothed_before_multiplying(image: Image) -> Image:
+def smoothed_before_multiplying(image: np.ndarray) -> np.ndarray:
     """Averages the derivatives."""
     smooth = products(image)[3]
     g_u, g_v = (gathered(scipy.ndimage.sobel(smooth, axis=axis) / 8.0) for axis in (1, 0))
@@ -134,21 +132,21 @@ def smoothed_before_multiplying(image: Image) -> Image:
 
 
 @mistake("Your derivatives are not Sobel's over 8: its weights sum to 8 on a slope of one grey level per pixel.")
-def not_over_eight(image: Image) -> Image:
+def not_over_eight(image: np.ndarray) -> np.ndarray:
     """Leaves out the 8."""
     a, b, c = (64.0 * gathered(x) for x in products(image)[:3])
     return a * c - b * b - 0.04 * (a + c) ** 2
 
 
 @mistake("You added trace(M)² where it has to be subtracted: so edges win over corners.")
-def trace_added(image: Image) -> Image:
+def trace_added(image: np.ndarray) -> np.ndarray:
     """Det + 0.04 trace²."""
     a, b, c = (gathered(x) for x in products(image)[:3])
     return a * c - b * b + 0.04 * (a + c) ** 2
 
 
 @alternative
-def by_eigenvalues(image: Image) -> Image:
+def by_eigenvalues(image: np.ndarray) -> np.ndarray:
     """Det is the product of the eigenvalues, trace their sum."""
     a, b, c = (gathered(x) for x in products(image)[:3])
     low, high = np.linalg.eigvalsh(np.stack([np.stack([a, b], -1), np.stack([b, c], -1)], -2)).transpose(2, 0, 1)
@@ -156,7 +154,7 @@ def by_eigenvalues(image: Image) -> Image:
 
 
 @alternative
-def by_correlation(image: Image) -> Image:
+def by_correlation(image: np.ndarray) -> np.ndarray:
     """Sobel's weights written out."""
     smooth = scipy.ndimage.gaussian_filter(image, 1.0)
     weights = np.outer([1.0, 2.0, 1.0], [-1.0, 0.0, 1.0]) / 8.0

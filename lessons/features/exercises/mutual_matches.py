@@ -9,10 +9,6 @@ from lessons.features.exercises import GRADERS, STUDENTS
 from workbench.exercise import Function, Verdict, alternative, check, contract, fail, full, left_alone, mistake, worst
 from workbench.geometry import matching
 
-Rows = Float[np.ndarray, "n d"]
-Others = Float[np.ndarray, "m d"]
-Found = Int[np.ndarray, " n"]
-
 
 @contract(
     slot="mutual_matches",
@@ -21,7 +17,7 @@ Found = Int[np.ndarray, " n"]
         ("mutual_matches(np.array([[0.0, 0], [4, 0]]), np.array([[4.0, 1], [0, 1], [0, 1.1]]), 0.8)", "[-1, 0]"),
     ),
 )
-def mutual_matches(a: Rows, b: Others, ratio: float) -> Found:
+def mutual_matches(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float) -> Int[np.ndarray, " n"]:
     """Return for each row of a the index of its match in b, or -1 where it has none.
 
     Row i of a matches row j of b where j is the nearest of all rows of b to a[i], i is the nearest of all rows of a to
@@ -107,12 +103,12 @@ def like_histograms(candidate: Function) -> Verdict:
     return judged(candidate, np.abs(60 * a), np.abs(60 * b), 0.9, "80 and 80")
 
 
-def distances(a: Rows, b: Others) -> np.ndarray:
+def distances(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Return all distances, (n, m)."""
     return np.sqrt(((a[:, None] - b[None]) ** 2).sum(axis=-1))
 
 
-def kept(D: np.ndarray, passes: np.ndarray, mutual: bool = True) -> Found:
+def kept(D: np.ndarray, passes: np.ndarray, mutual: bool = True) -> np.ndarray:
     """Return the nearest where it passes, and is mutual where that is asked."""
     j = D.argmin(axis=1)
     if mutual:
@@ -121,7 +117,7 @@ def kept(D: np.ndarray, passes: np.ndarray, mutual: bool = True) -> Found:
 
 
 @mistake("You ask one way only: the match of b[j] must be a[i] too. Several rows of a now share one row of b.")
-def one_direction(a: Rows, b: Others, ratio: float) -> Found:
+def one_direction(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Only the ratio."""
     D = distances(a, b)
     low = np.sort(D, axis=1)
@@ -129,7 +125,7 @@ def one_direction(a: Rows, b: Others, ratio: float) -> Found:
 
 
 @mistake("You compare squared distances with the ratio, which lets more pass: take the roots, or square the ratio too.")
-def squared_distances(a: Rows, b: Others, ratio: float) -> Found:
+def squared_distances(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """d1² < ratio d2²."""
     D = distances(a, b) ** 2
     low = np.sort(D, axis=1)
@@ -137,7 +133,7 @@ def squared_distances(a: Rows, b: Others, ratio: float) -> Found:
 
 
 @mistake("Your ratio test is reversed: it keeps what is ambiguous. Keep a match where d1 < ratio * d2.")
-def test_reversed(a: Rows, b: Others, ratio: float) -> Found:
+def test_reversed(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """d1 > ratio d2."""
     D = distances(a, b)
     low = np.sort(D, axis=1)
@@ -147,14 +143,14 @@ def test_reversed(a: Rows, b: Others, ratio: float) -> Found:
 @mistake(
     "You keep every match that is nearest both ways. The ratio of the two nearest distances has to be asked as well."
 )
-def no_ratio(a: Rows, b: Others, ratio: float) -> Found:
+def no_ratio(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Only mutual."""
     D = distances(a, b)
     return kept(D, np.ones(len(D), bool))
 
 
 @mistake("Your second nearest is among the rows of a. It is the second nearest row of b to the same a[i].")
-def second_of_the_wrong_set(a: Rows, b: Others, ratio: float) -> Found:
+def second_of_the_wrong_set(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Asks the ratio down the columns."""
     D = distances(a, b)
     low = np.sort(D, axis=0)
@@ -162,7 +158,7 @@ def second_of_the_wrong_set(a: Rows, b: Others, ratio: float) -> Found:
 
 
 @alternative
-def with_all_distances(a: Rows, b: Others, ratio: float) -> Found:
+def with_all_distances(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """All distances at once."""
     D = distances(a, b)
     low = np.sort(D, axis=1)
@@ -170,7 +166,7 @@ def with_all_distances(a: Rows, b: Others, ratio: float) -> Found:
 
 
 @alternative
-def in_loops(a: Rows, b: Others, ratio: float) -> Found:
+def in_loops(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """One row after the other."""
     found = []
     for i, x in enumerate(a):

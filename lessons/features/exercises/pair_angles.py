@@ -10,8 +10,6 @@ from workbench.exercise import Function, Verdict, alternative, band, beside, che
 from workbench.geometry import fpfh
 from workbench.geometry.motions import exp_so3
 
-Rows = Float[np.ndarray, "k 3"]
-
 
 @contract(
     slot="pair_angles",
@@ -26,7 +24,12 @@ Rows = Float[np.ndarray, "k 3"]
         ),
     ),
 )
-def pair_angles(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
+def pair_angles(
+    p_i: Float[np.ndarray, "k 3"],
+    n_i: Float[np.ndarray, "k 3"],
+    p_j: Float[np.ndarray, "k 3"],
+    n_j: Float[np.ndarray, "k 3"],
+) -> Float[np.ndarray, "k 3"]:
     """Return (theta, alpha, phi) of each pair of points with normals; row k belongs to row k.
 
     Let d be the unit line from one point to the other. Of the two normals, u is the one with the larger |u . d|, and d
@@ -117,7 +120,7 @@ def one_pair(candidate: Function) -> Verdict:
 
 
 def framed(
-    p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows, *, swap: bool = True, unit: bool = True
+    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray, *, swap: bool = True, unit: bool = True
 ) -> tuple[np.ndarray, ...]:
     """Return d, u, n, v, w of every pair, written as the task has it."""
     d = p_j - p_i
@@ -139,19 +142,19 @@ def angles_in(d: np.ndarray, u: np.ndarray, n: np.ndarray, v: np.ndarray, w: np.
 @mistake(
     "Your angles depend on the order of the two points. u is the normal that is nearer to the line, from either point."
 )
-def never_swapped(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
+def never_swapped(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """Always takes the first point as source."""
     return angles_in(*framed(p_i, n_i, p_j, n_j, swap=False))
 
 
 @mistake("Your phi grows with the distance of the points: d has to be divided by its length.")
-def line_not_unit(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
+def line_not_unit(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """Leaves d as long as the points are apart."""
     return angles_in(*framed(p_i, n_i, p_j, n_j, unit=False))
 
 
 @mistake("The two arguments of your arctangent are exchanged: theta = atan2(w . n, u . n), the sine comes first.")
-def arctangent_exchanged(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
+def arctangent_exchanged(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """Takes atan2(u n, w n)."""
     d, u, n, v, w = framed(p_i, n_i, p_j, n_j)
     return np.column_stack([np.arctan2((u * n).sum(1), (w * n).sum(1)), (v * n).sum(1), (u * d).sum(1)])
@@ -160,7 +163,7 @@ def arctangent_exchanged(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
 @mistake(
     "You exchange the normals but keep d: where the second point is the source, the line runs from it to the first."
 )
-def line_not_turned(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
+def line_not_turned(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """Swaps the normals and not the line."""
     d, u, n, *_ = framed(p_i, n_i, p_j, n_j)
     d = (p_j - p_i) / np.linalg.norm(p_j - p_i, axis=1, keepdims=True)
@@ -172,7 +175,7 @@ def line_not_turned(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
 @mistake(
     "Your v is not of length 1: d and u are not at a right angle, so their cross product has to be divided by its length."
 )
-def cross_not_unit(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
+def cross_not_unit(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """Leaves v as the cross product is."""
     d, u, n, *_ = framed(p_i, n_i, p_j, n_j)
     v = np.cross(d, u)
@@ -180,20 +183,20 @@ def cross_not_unit(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
 
 
 @mistake("Your v points the other way: it is d x u, in this order. So the signs of alpha and theta are not right.")
-def cross_exchanged(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
+def cross_exchanged(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """Takes u x d."""
     d, u, n, v, w = framed(p_i, n_i, p_j, n_j)
     return angles_in(d, u, n, -v, -w)
 
 
 @alternative
-def by_frames(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
+def by_frames(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """The frame as the task has it."""
     return angles_in(*framed(p_i, n_i, p_j, n_j))
 
 
 @alternative
-def by_rows(p_i: Rows, n_i: Rows, p_j: Rows, n_j: Rows) -> Rows:
+def by_rows(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """One pair after the other."""
     rows = []
     for a, u, b, n in zip(p_i, n_i, p_j, n_j, strict=True):

@@ -76,6 +76,23 @@ def right_padded_by_hand(image):
     return A * C - B * B - K * (A + C) ** 2
 
 
+def right_from_pixels_by_loop_over_products(image):
+    g = _gradients(image)
+    M = [[ndi.gaussian_filter(a * b, 1.5) for a in g] for b in g]
+    determinant = M[0][0] * M[1][1] - M[0][1] * M[1][0]
+    trace = M[0][0] + M[1][1]
+    return determinant - K * trace * trace
+
+
+def right_complex_gradient(image):
+    gu, gv = _gradients(image)
+    z = gu + 1j * gv
+    energy = ndi.gaussian_filter(np.abs(z) ** 2, 1.5)
+    square = z * z
+    p, q = ndi.gaussian_filter(square.real, 1.5), ndi.gaussian_filter(square.imag, 1.5)
+    return (energy**2 - p**2 - q**2) / 4 - K * energy**2
+
+
 # wrong ---------------------------------------------------------------------------------------------------------------
 
 

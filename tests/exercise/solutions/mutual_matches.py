@@ -94,6 +94,18 @@ def right_masked_second(a, b, ratio):
     return (j + 1) * good - 1
 
 
+def right_sets_of_pairs(a, b, ratio):
+    D = cdist(a, b)
+    there = {(i, int(j)) for i, j in enumerate(np.argmin(D, axis=1))}
+    back = {(int(i), j) for j, i in enumerate(np.argmin(D, axis=0))}
+    out = np.full(len(a), -1)
+    for i, j in there & back:
+        d = np.sort(D[i])
+        if d[0] < ratio * d[1]:
+            out[i] = j
+    return out
+
+
 # wrong ---------------------------------------------------------------------------------------------------------------
 
 

@@ -102,6 +102,30 @@ def right_matrix_frames(p_i, n_i, p_j, n_j):
     return np.c_[np.arctan2(x[:, 2], x[:, 0]), x[:, 1], dot(u, d)]
 
 
+def right_recursive(p_i, n_i, p_j, n_j):
+    d = unit(p_j - p_i)
+    swap = np.abs(dot(n_i, d)) < np.abs(dot(n_j, d))
+    if not swap.any():
+        v = unit(np.cross(d, n_i))
+        w = np.cross(n_i, v)
+        return np.column_stack([np.arctan2(dot(w, n_j), dot(n_i, n_j)), dot(v, n_j), dot(n_i, d)])
+    s = swap[:, None]
+    return right_recursive(np.where(s, p_j, p_i), np.where(s, n_j, n_i), np.where(s, p_i, p_j), np.where(s, n_i, n_j))
+
+
+def right_angles_to_the_line(p_i, n_i, p_j, n_j):
+    d = unit(p_j - p_i)
+    to_i, to_j = np.arccos(np.clip(abs(dot(n_i, d)), 0, 1)), np.arccos(np.clip(abs(dot(n_j, d)), 0, 1))
+    second = to_j < to_i
+    out = np.empty((len(d), 3))
+    for chosen, u, n, line in ((~second, n_i, n_j, d), (second, n_j, n_i, -d)):
+        v = unit(np.cross(line[chosen], u[chosen]))
+        w = np.cross(u[chosen], v)
+        out[chosen, 0] = np.arctan2(dot(w, n[chosen]), dot(u[chosen], n[chosen]))
+        out[chosen, 1], out[chosen, 2] = dot(v, n[chosen]), dot(u[chosen], line[chosen])
+    return out
+
+
 # wrong ---------------------------------------------------------------------------------------------------------------
 
 
