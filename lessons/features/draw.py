@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from lessons.features.flat import outlined, pictured
+from lessons.features.flat import lines_between, outlined, pictured
 from lessons.features.state import Outlined, Pictured, Scanned, State
 from lessons.features.words import caption
 from workbench.data.thinning import every
 from workbench.geometry.fpfh import BINS
 from workbench.geometry.motions import apply
 from workbench.geometry.polylines import between
-from workbench.scene import Chart, Classes, Color, Field, Label, Points, Primitive, Scene, Segments
+from workbench.scene import Chart, Color, Field, Label, Points, Primitive, Scene, Segments
 
 APART = np.array([1.0, 0.0, 0.0])  # how far beside the target the source is shown until a motion is found
 MOST_NORMALS, MOST_LINES, NORMAL = 500, 400, 0.05
@@ -64,7 +64,9 @@ def _scanned(state: State, now: Scanned) -> dict[str, Primitive]:
     if now.pairs is not None and now.phase not in ("icp", "end"):
         scene |= _matches(now, T)
     scene |= _errors(now)
-    if now.T_target_source is None:
+    if now.T_target_source is not None:
+        scene["start"] = Points(scans.p_source, "neutral", radius, _beside(), opacity=0.3, name="source, as it came")
+    else:
         top = float(apply(T, scans.p_source)[:, 2].max())
         scene["source name"] = Label("source", np.array([APART[0], 0.0, top + 0.08]), "source")
     return scene
@@ -102,14 +104,10 @@ def _matches(now: Scanned, T: np.ndarray) -> dict[str, Primitive]:
     assert now.pairs is not None
     some = every(len(now.pairs), MOST_LINES)
     pairs = now.pairs[some]
-    ends = between(apply(T, now.scans.p_source[pairs[:, 0]]), now.scans.p_target[pairs[:, 1]])
-    if now.right is not None:
-        color: Color = Classes.marking(~now.right[some], "wrong", "wrong match", others=("truth", "right match"))
-    elif now.inliers is not None:
-        color = Classes.marking(~now.inliers[some], "wrong", "disagrees", others=("correspondence", "agrees"))
-    else:
-        color = "correspondence"
-    return {"matches": Segments(ends, color, 1.5, opacity=0.8, name="matches")} if len(ends) else {}
+    ends = apply(T, now.scans.p_source[pairs[:, 0]]), now.scans.p_target[pairs[:, 1]]
+    if now.right is None and now.inliers is not None:
+        return lines_between(*ends, now.inliers[some], thin="disagrees")
+    return lines_between(*ends, None if now.right is None else now.right[some])
 
 
 def _errors(now: Scanned) -> dict[str, Primitive]:

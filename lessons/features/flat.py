@@ -5,9 +5,10 @@ import numpy as np
 from lessons.features.state import Outlined, Pictured, State
 from workbench.geometry.polylines import between, circle, segments
 from workbench.geometry.shape_context import EDGES, SECTORS, tangent_angles
-from workbench.scene import Chart, Classes, Color, Field, Picture, Points, Primitive, Segments
+from workbench.scene import Chart, Field, Picture, Points, Primitive, Role, Segments
 
 WIDTH, NEARER, SIZE = 1.2, 0.01, 0.006  # metres
+MANY = 60  # lines
 PLACES = np.array([-0.63, 0.0, 0.0]), np.array([0.63, 0.0, 0.0])
 NAMES = "first", "second"
 BARS = Chart("Shape context", "bin: 5 rings of 12 sectors", "%")
@@ -25,7 +26,7 @@ def pictured(now: Pictured) -> dict[str, Primitive]:
         if now.pairs is not None and len(now.pairs):
             a = shown[0].places(now.uv_first[now.pairs[:, 0]].astype(float), 2 * NEARER)
             b = shown[1].places(now.uv_second[now.pairs[:, 1]].astype(float), 2 * NEARER)
-            scene["matches"] = Segments(between(a, b), _color(now.right, now.known), 1.5, opacity=0.7, name="matches")
+            scene |= lines_between(a, b, now.right, now.known)
     if now.phase == "patch" and now.windows is not None:
         scene["patches"] = Picture(now.windows, "Two patches that match")
     return scene
@@ -67,8 +68,7 @@ def outlined(state: State, now: Outlined) -> dict[str, Primitive]:
     if now.costs is not None:
         scene["costs"] = Picture(Field(now.costs, 0.0, 1.0, "cost"), "Cost of every pair")
     if now.pairs is not None:
-        ends = between(first[now.pairs[:, 0]], second[now.pairs[:, 1]])
-        scene["matches"] = Segments(ends, _color(now.right, None), 1.5, opacity=0.7, name="matches")
+        scene |= lines_between(first[now.pairs[:, 0]], second[now.pairs[:, 1]], now.right)
     return scene
 
 
@@ -85,10 +85,29 @@ def _bins(state: State, now: Outlined) -> np.ndarray:
     return np.concatenate([flat, np.zeros((*flat.shape[:-1], 1))], axis=-1)
 
 
-def _color(right: np.ndarray | None, known: np.ndarray | None) -> Color:
+def lines_between(
+    a: np.ndarray, b: np.ndarray, right: np.ndarray | None, known: np.ndarray | None = None, thin: str = "wrong match"
+) -> dict[str, Primitive]:
+    """Return lines between matches: those that are wrong are thin where there are many, so that the right ones show.
+
+    Args:
+        a: Places of the first set, metres.
+        b: Places of their matches.
+        right: Which are right; None where nobody knows.
+        known: Of which the truth is known; of all by default.
+        thin: What the others are called.
+    """
     if right is None:
-        return "correspondence"
-    kind = np.where(right, 1, 2)
-    if known is None:
-        return Classes(kind - 1, ("truth", "wrong"), ("right match", "wrong match"))
-    return Classes(np.where(known, kind, 0), ("neutral", "truth", "wrong"), ("not known", "right match", "wrong match"))
+        return {"matches": Segments(between(a, b), "correspondence", 1.5, opacity=0.7, name="matches")}
+    known = np.ones(len(right), bool) if known is None else known
+    width, opacity = (1.0, 0.45) if len(right) > MANY else (2.0, 0.9)
+    kinds: tuple[tuple[str, np.ndarray, Role, float, float, str], ...] = (
+        ("matches/unknown", ~known, "neutral", 1.0, 0.4, "truth not known"),
+        ("matches/wrong", known & ~right, "wrong", width, opacity, thin),
+        ("matches/right", known & right, "truth", 2.5, 0.9, "right match" if thin == "wrong match" else "agrees"),
+    )
+    return {
+        path: Segments(between(a[some], b[some]), color, width, opacity=opacity, name=name)
+        for path, some, color, width, opacity, name in kinds
+        if some.any()
+    }

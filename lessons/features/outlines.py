@@ -1,6 +1,5 @@
 """Matching two outlines: log-polar bins, histograms, costs, and the cheapest assignment."""
 
-import functools
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -8,6 +7,7 @@ import numpy as np
 
 from lessons.features.state import STEPS_ALONG, Outlined, Params
 from workbench.algorithms.transport import best_assignment
+from workbench.data.silhouettes import horse
 from workbench.geometry.shape_context import context_costs, shape_contexts
 
 COUNT, SIZE, LARGER, NOISE = 100, 0.5, 1.2, 0.002
@@ -16,7 +16,7 @@ PICKED = 12
 
 def outline_steps(params: Params) -> Iterator[Outlined]:
     """Yield the steps from two outlines to their matches."""
-    first = horse()
+    first = horse(COUNT, SIZE)
     c, s = np.cos(np.radians(params.turn)), np.sin(np.radians(params.turn))
     second = LARGER * first @ np.array([[c, s], [-s, c]])
     second = second + NOISE * np.random.default_rng(params.seed).standard_normal(second.shape)
@@ -34,18 +34,3 @@ def outline_steps(params: Params) -> Iterator[Outlined]:
     pairs = np.column_stack([rows, columns])
     apart = np.abs((rows - columns + COUNT // 2) % COUNT - COUNT // 2)
     yield replace(now, phase="matched", pairs=pairs, right=apart <= STEPS_ALONG)
-
-
-@functools.lru_cache(maxsize=1)
-def horse() -> np.ndarray:
-    """Return points evenly along the outline of scikit-image's horse, about its middle, at most `SIZE` from it, metres."""
-    import skimage.data
-    from skimage.measure import find_contours
-
-    inside = ~skimage.data.horse().astype(bool)
-    outline = max(find_contours(inside.astype(float), 0.5), key=len)[:, ::-1] * [1.0, -1.0]
-    along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(outline, axis=0), axis=1))]
-    at = np.linspace(0.0, along[-1], COUNT, endpoint=False)
-    p = np.column_stack([np.interp(at, along, outline[:, k]) for k in range(2)])
-    p = p - p.mean(axis=0)
-    return p * (SIZE / np.abs(p).max())

@@ -13,7 +13,7 @@ from workbench.algorithms.ransac import Judge, ransac
 from workbench.algorithms.samplers import uniform_samples
 from workbench.data.clouds import pair
 from workbench.data.files import read_cloud, read_pose, stamp
-from workbench.data.framing import FAR, extent, frame
+from workbench.data.framing import FAR, Frame, extent, frame
 from workbench.data.thinning import some_points, voxel_means
 from workbench.errors import InputError
 from workbench.geometry.fpfh import PairAngles, fpfh
@@ -29,8 +29,9 @@ AXIS = np.array([0.3, 0.5, 0.8]) / np.linalg.norm([0.3, 0.5, 0.8])
 SHIFT = np.array([0.1, -0.05, 0.08])
 WIDTH = 1.2  # of own scans in the picture, metres
 MOST_SAMPLES, CONFIDENCE = 4000, 0.999
+FEWEST_AGREE = 6  # three matches agree with the motion that was made of them, whatever they are
 FINE_SOURCE, FINE_TARGET, MOST_FITS = 5000, 40_000, 60
-MOST_OWN = 4000
+MOST_OWN = 5000
 SHOWN_FITS = 6
 SALIENT = 0.5  # of the radius: the neighbourhood in which a keypoint is salient
 OURS = (0.17, 0.09, 0.68)  # the tip of the built-in rabbit's upright ear, target frame: described unless one is picked
@@ -103,8 +104,8 @@ def _moved(params: Params, now: Scanned) -> Iterator[Scanned]:
                 inliers=tried.best.inliers,
             )
             yield now
-    if now.T_target_source is None:
-        yield replace(now, phase="end")
+    if now.T_target_source is None or now.inliers is None or now.inliers.sum() < FEWEST_AGREE:
+        yield replace(now, phase="end", T_target_source=None)
         return
     T_before = now.T_target_source
     now = replace(now, phase="icp", T_before=T_before)
@@ -114,7 +115,7 @@ def _moved(params: Params, now: Scanned) -> Iterator[Scanned]:
             scans.fine_target,
             scans.fine_source,
             T_before,
-            n_target=fine_normals(scans),
+            n_target=point_normals(scans.fine_target),
             gate=Gate(medians=3.0),
             max_iterations=MOST_FITS,
         )
@@ -168,11 +169,6 @@ def normals_of(params: Params, scans: Scans) -> tuple[np.ndarray, np.ndarray]:
     return n_target, n_source
 
 
-def fine_normals(scans: Scans) -> np.ndarray:
-    """Return the normals of the target that ICP lays planes by."""
-    return point_normals(scans.fine_target)
-
-
 def picked_of(params: Params, scans: Scans) -> int:
     """Return the source point whose descriptor is shown."""
     if params.picked >= 0:
@@ -194,10 +190,8 @@ def scans_of(params: Params) -> Scans:
     files = params.target, params.source
     T_truth = None if params.truth is None else read_pose(params.truth, *files)
     stamps = tuple(stamp(file) for file in files)
-    scans, S_target, S_source = _read(only(params, "target", "source", "up", "voxel", "seed"), stamps)
-    if T_truth is None:
-        return scans
-    return replace(scans, T_truth=S_target @ T_truth @ np.linalg.inv(S_source))
+    scans, how, beside = _read(only(params, "target", "source", "up", "voxel", "seed"), stamps)
+    return scans if T_truth is None else replace(scans, T_truth=how.shown_motion(T_truth) @ beside)
 
 
 @functools.lru_cache(maxsize=8)
@@ -210,8 +204,8 @@ def _made(params: Params) -> Scans:
 
 
 @functools.lru_cache(maxsize=4)
-def _read(params: Params, _stamps: tuple) -> tuple[Scans, np.ndarray, np.ndarray]:
-    """Return own scans about the origin, the target `WIDTH` wide, and the maps that brought both there."""
+def _read(params: Params, _stamps: tuple) -> tuple[Scans, Frame, np.ndarray]:
+    """Return own scans, each about its own middle, the target's frame, and where the source's middle lies in it."""
     assert params.target is not None
     assert params.source is not None
     p_target, p_source = read_cloud(params.target), read_cloud(params.source)
@@ -237,11 +231,4 @@ def _read(params: Params, _stamps: tuple) -> tuple[Scans, np.ndarray, np.ndarray
         T_truth=None,
         own=True,
     )
-    A = how.scale * how.R_world_file
-    return scans, _affine(A, -A @ how.centre), _affine(A, -A @ theirs.centre)
-
-
-def _affine(A: np.ndarray, t: np.ndarray) -> np.ndarray:
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = A, t
-    return T
+    return scans, how, motion(np.eye(3), how.shown(theirs.centre))

@@ -244,10 +244,10 @@ class State:
 
     @property
     def right_share(self) -> float:
-        """The share of the matches that are right, of those whose truth is known; NaN without any."""
+        """The share of the matches that are right, of those whose truth is known; NaN without any, and of a single one."""
         right = self.now.right
         known = self.now.known if isinstance(self.now, Pictured) else None
-        if right is None:
+        if right is None or self.now.phase == "patch":
             return float("nan")
         right = right if known is None else right[known]
         return float(right.mean()) if len(right) else float("nan")

@@ -111,8 +111,9 @@ def _off(now: Scanned) -> str:
 
 def _end(now: Scanned) -> Caption:
     if now.T_target_source is None:
-        text = "Too few matches agree on any motion: nothing is found."
-        return Caption(text) if now.scans.T_truth is None else Caption.verdict(text, right=False, settled=False)
+        some = 0 if now.inliers is None else int(now.inliers.sum())
+        text = f"{some or 'No'} matches agree on a motion, and any three agree on some: nothing is found."
+        return Caption(text, "info" if now.scans.T_truth is None else "wrong")
     text = f"ICP ends after {counted(now.iteration, 'fit', 'fits')}."
     if now.T_before is not None and now.scans.T_truth is not None:
         before = now.scans.error(now.T_before).rotation
