@@ -22,7 +22,7 @@ def pictured(now: Pictured) -> dict[str, Primitive]:
         for name, picture, uv in zip(NAMES, shown, (now.uv_first, now.uv_second), strict=True):
             if len(uv):
                 p = picture.places(uv.astype(float), NEARER)
-                scene[f"{name} corners"] = Points(p, "highlight", 0.5 * SIZE, name="corners")
+                scene[f"{name} corners"] = Points(p, "highlight", SIZE, name="corners")
         if now.pairs is not None and len(now.pairs):
             a = shown[0].places(now.uv_first[now.pairs[:, 0]].astype(float), 2 * NEARER)
             b = shown[1].places(now.uv_second[now.pairs[:, 1]].astype(float), 2 * NEARER)
@@ -101,10 +101,11 @@ def lines_between(
         return {"matches": Segments(between(a, b), "correspondence", 1.5, opacity=0.7, name="matches")}
     known = np.ones(len(right), bool) if known is None else known
     width, opacity = (1.0, 0.45) if len(right) > MANY else (2.0, 0.9)
+    thick, agrees = 2.5 if right.sum() <= MANY else 1.5, "right match" if thin == "wrong match" else "agrees"
     kinds: tuple[tuple[str, np.ndarray, Role, float, float, str], ...] = (
         ("matches/unknown", ~known, "neutral", 1.0, 0.4, "truth not known"),
         ("matches/wrong", known & ~right, "wrong", width, opacity, thin),
-        ("matches/right", known & right, "truth", 2.5, 0.9, "right match" if thin == "wrong match" else "agrees"),
+        ("matches/right", known & right, "truth", thick, 0.9, agrees),
     )
     return {
         path: Segments(between(a[some], b[some]), color, width, opacity=opacity, name=name)
