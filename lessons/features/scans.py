@@ -6,15 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from lessons.features.state import INLIER, Params, Scanned, Scans
+from lessons.features.state import INLIER, RIGHT, Params, Scanned
 from workbench.algorithms.icp import Gate, icp
 from workbench.algorithms.models import RIGID
 from workbench.algorithms.ransac import Judge, ransac
 from workbench.algorithms.samplers import uniform_samples
 from workbench.data.clouds import pair
-from workbench.data.files import read_cloud, read_pose, stamp
-from workbench.data.framing import FAR, Frame, extent, frame
-from workbench.data.thinning import some_points, voxel_means
+from workbench.data.files import stamp
+from workbench.data.scan_pairs import Scans, read_scans
 from workbench.errors import InputError
 from workbench.geometry.fpfh import PairAngles, fpfh
 from workbench.geometry.keypoints import iss_keypoints
@@ -30,9 +29,7 @@ SHIFT = np.array([0.1, -0.05, 0.08])
 WIDTH = 1.2  # of own scans in the picture, metres
 MOST_SAMPLES, CONFIDENCE = 4000, 0.999
 FEWEST_AGREE = 6  # three matches agree with the motion that was made of them, whatever they are
-FINE_SOURCE, FINE_TARGET, MOST_FITS = 5000, 40_000, 60
-MOST_OWN = 5000
-SHOWN_FITS = 6
+MOST_FITS, SHOWN_FITS = 60, 6
 SALIENT = 0.5  # of the radius: the neighbourhood in which a keypoint is salient
 OURS = (0.17, 0.09, 0.68)  # the tip of the built-in rabbit's upright ear, target frame: described unless one is picked
 
@@ -69,10 +66,10 @@ def scan_steps(params: Params, pair_angles: PairAngles, mutual_matches: Matcher)
     found = nearest_both_ways(a, b)
     now = replace(now, asked=asked)
     pairs = np.column_stack([asked, offered[found.index]])
-    yield replace(now, phase="nearest", pairs=pairs, right=scans.right(pairs))
+    yield replace(now, phase="nearest", pairs=pairs, right=scans.right(pairs, RIGHT))
     rows = chosen(params, found, a, b, mutual_matches)
     pairs = np.column_stack([asked[rows[:, 0]], offered[rows[:, 1]]])
-    now = replace(now, phase="kept", pairs=pairs, right=scans.right(pairs))
+    now = replace(now, phase="kept", pairs=pairs, right=scans.right(pairs, RIGHT))
     yield now
     yield from _moved(params, now)
 
@@ -187,11 +184,8 @@ def scans_of(params: Params) -> Scans:
         return _made(only(params, "shape", "turn", "overlap", "noise", "points", "seed"))
     if params.target is None or params.source is None:
         raise InputError("own scans come in pairs: give both a target and a source")
-    files = params.target, params.source
-    T_truth = None if params.truth is None else read_pose(params.truth, *files)
-    stamps = tuple(stamp(file) for file in files)
-    scans, how, beside = _read(only(params, "target", "source", "up", "voxel", "seed"), stamps)
-    return scans if T_truth is None else replace(scans, T_truth=how.shown_motion(T_truth) @ beside)
+    asked = only(params, "target", "source", "truth", "up", "voxel", "seed")
+    return _own(asked, tuple(stamp(file) for file in (params.target, params.source, params.truth) if file))
 
 
 @functools.lru_cache(maxsize=8)
@@ -204,31 +198,15 @@ def _made(params: Params) -> Scans:
 
 
 @functools.lru_cache(maxsize=4)
-def _read(params: Params, _stamps: tuple) -> tuple[Scans, Frame, np.ndarray]:
-    """Return own scans, each about its own middle, the target's frame, and where the source's middle lies in it."""
+def _own(params: Params, _stamps: tuple) -> Scans:
     assert params.target is not None
     assert params.source is not None
-    p_target, p_source = read_cloud(params.target), read_cloud(params.source)
-    for file, p in ((params.target, p_target), (params.source, p_source)):
-        if not extent(p, FAR) > 0:
-            raise InputError(f"{file.name}: all its points lie at one place")
-    how = frame(p_target, WIDTH, up=params.up, far=FAR)
-    theirs = replace(how, centre=frame(p_source, WIDTH, up=params.up, far=FAR).centre)
-    fine_target, fine_source = how.shown(p_target), theirs.shown(p_source)
-    size = params.voxel / 100.0 * WIDTH
-    rng = np.random.default_rng(params.seed)
-    thinned = [voxel_means(p, size) for p in (fine_target, fine_source)]
-    for file, p in zip((params.target, params.source), thinned, strict=True):
-        if len(p) < 20:
-            raise InputError(f"{file.name}: {len(p)} points are left after thinning; 20 at least are needed")
-        if len(p) > MOST_OWN:
-            raise InputError(f"{file.name}: {len(p):,} points after thinning, at most {MOST_OWN:,}; raise voxel")
-    scans = Scans(
-        p_target=thinned[0],
-        p_source=thinned[1],
-        fine_target=some_points(fine_target, FINE_TARGET, rng),
-        fine_source=some_points(fine_source, FINE_SOURCE, rng),
-        T_truth=None,
-        own=True,
+    return read_scans(
+        params.target,
+        params.source,
+        params.truth,
+        width=WIDTH,
+        up=params.up,
+        voxel=params.voxel / 100.0,
+        rng=np.random.default_rng(params.seed),
     )
-    return scans, how, motion(np.eye(3), how.shown(theirs.centre))

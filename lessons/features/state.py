@@ -7,9 +7,9 @@ from typing import Annotated, Literal
 import numpy as np
 
 from workbench.data.framing import Up
-from workbench.geometry.alignment import MotionError, motion_error
+from workbench.data.scan_pairs import Scans
+from workbench.geometry.alignment import MotionError
 from workbench.geometry.matching import Filter
-from workbench.geometry.motions import apply
 from workbench.knobs import Knob, Pick
 
 Part = Literal["scans", "pictures", "outlines"]
@@ -75,38 +75,6 @@ class Params:
                     step=0.5, of_files=True)
     ] = 2.5  # fmt: skip
     seed: Annotated[int, Knob("What chance draws: points, noise, samples", 0, 99)] = 0
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Scans:
-    """Two scans in their own frames, metres.
-
-    Attributes:
-        p_target: Thinned points of the target.
-        p_source: Thinned points of the source.
-        fine_target: The target as ICP has it.
-        fine_source: The source likewise.
-        T_truth: The true T_target_source; None where nobody knows it.
-        own: Whether they are a person's.
-    """
-
-    p_target: np.ndarray
-    p_source: np.ndarray
-    fine_target: np.ndarray
-    fine_source: np.ndarray
-    T_truth: np.ndarray | None
-    own: bool = False
-
-    def error(self, T_target_source: np.ndarray) -> MotionError:
-        """Return how far a motion is from the truth."""
-        return motion_error(T_target_source, self.T_truth, self.p_source)
-
-    def right(self, pairs: np.ndarray) -> np.ndarray | None:
-        """Return which pairs (source, target) lie within `RIGHT` of each other in truth; None where nobody knows."""
-        if self.T_truth is None:
-            return None
-        off = apply(self.T_truth, self.p_source[pairs[:, 0]]) - self.p_target[pairs[:, 1]]
-        return np.linalg.norm(off, axis=1) < RIGHT
 
 
 ScanPhase = Literal[
