@@ -19,7 +19,7 @@ TURNED = Params(part="pictures", turn=30.0)
 OUTLINE = Params(part="outlines", turn=45.0)
 OUTLINE_X = Params(part="outlines", turn=45.0, angles="from the x axis")
 VIEW = View(eye=(0.75, -2.35, 0.85), target=(0.48, 0.0, 0.08), grid=None, axes=False)
-FLAT = View(eye=(0.0, -0.01, 2.0), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+FLAT = View(eye=(0.0, -0.01, 2.25), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(

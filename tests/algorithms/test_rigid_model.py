@@ -24,6 +24,11 @@ def test_three_exact_matches_give_the_motion(seed):
     (found,) = RIGID.solve(pairs[None])
     np.testing.assert_allclose(RIGID.distances(found, pairs), 0, atol=1e-9)
     np.testing.assert_allclose(RIGID.refit(pairs), found, atol=1e-6)
+    noisy = np.stack([pairs + 0.01 * rng.normal(size=pairs.shape) for _ in range(4)])
+    several = RIGID.solve(noisy)
+    assert len(several) <= len(noisy)
+    if len(several) == len(noisy):
+        np.testing.assert_allclose(several, [align_rigid(one[:, 3:], one[:, :3]) for one in noisy], atol=1e-7)
 
 
 @given(seed=st.integers(0, 200))

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from workbench.geometry.alignment import align_rigid
+from workbench.geometry.alignment import align_rigid, nearest_rotation
 from workbench.geometry.circles_spheres import circle_from_points, fit_sphere, sphere_distances, sphere_from_points
 from workbench.geometry.epipolar import (
     fit_fundamental,
@@ -139,8 +139,13 @@ def _solve_rigid(samples: np.ndarray) -> np.ndarray:
     p_source, p_target = samples[..., :3], samples[..., 3:]
     sides = [np.linalg.norm(p - np.roll(p, 1, axis=1), axis=2) for p in (p_source, p_target)]
     alike = ((np.minimum(*sides) > SIDES_ALIKE * np.maximum(*sides)) & (sides[0] > 0)).all(axis=1)
-    found = [align_rigid(q, p) for p, q in zip(p_source[alike], p_target[alike], strict=True)]
-    return np.array(found).reshape(-1, 4, 4)
+    T_target_source = np.tile(np.eye(4), (int(alike.sum()), 1, 1))
+    if len(T_target_source):
+        p, q = p_source[alike], p_target[alike]
+        mean_p, mean_q = p.mean(axis=1, keepdims=True), q.mean(axis=1, keepdims=True)
+        R = nearest_rotation(np.swapaxes(q - mean_q, 1, 2) @ (p - mean_p))  # as align_rigid, for many triangles
+        T_target_source[:, :3, :3], T_target_source[:, :3, 3] = R, (mean_q - mean_p @ np.swapaxes(R, 1, 2))[:, 0]
+    return T_target_source
 
 
 def _pair_distances(T_target_source: np.ndarray, pairs: np.ndarray) -> np.ndarray:
