@@ -18,6 +18,7 @@ MOMENTS = {
     "ransac": "?lesson=ransac&step=46",
     "chamfer_emd": "?lesson=chamfer_emd&step=10",
     "disparity": "?lesson=disparity&step=44",
+    "features": "?lesson=features&step=6",
 }
 WIDTHS = {"page": 1280}
 USUAL_WIDTH = 560

@@ -1,7 +1,8 @@
-"""What can be fitted robustly: six kinds of model, each as the five functions that RANSAC and Huber's method need.
+"""What can be fitted robustly: kinds of model, each as the five functions that RANSAC and Huber's method need.
 
 Rows are (x, y) for LINE and CIRCLE, (x, y, z) for PLANE and SPHERE, in metres; (u, v, u', v') for HOMOGRAPHY and
-FUNDAMENTAL, a pixel of the first image and its match in the second.
+FUNDAMENTAL, a pixel of the first image and its match in the second. RIGID has rows (x, y, z, x', y', z'), a source point and
+its target. `MODELS` are those of points and pixels, by name.
 """
 
 from collections.abc import Callable
@@ -10,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from workbench.geometry.alignment import align_rigid, nearest_rotation
 from workbench.geometry.circles_spheres import circle_from_points, fit_sphere, sphere_distances, sphere_from_points
 from workbench.geometry.epipolar import (
     fit_fundamental,
@@ -25,6 +27,8 @@ from workbench.geometry.homography import (
     transfer_distances,
 )
 from workbench.geometry.lines_planes import fit_hyperplane, hyperplane_distances, line_from_points, plane_from_points
+
+SIDES_ALIKE = 0.9  # of a triangle and its match, the shorter as a share of the longer
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,6 +135,30 @@ def _refit_fundamental(
     return refine_fundamental(start, uv_first, uv_second, weights)
 
 
+def _solve_rigid(samples: np.ndarray) -> np.ndarray:
+    p_source, p_target = samples[..., :3], samples[..., 3:]
+    sides = [np.linalg.norm(p - np.roll(p, 1, axis=1), axis=2) for p in (p_source, p_target)]
+    alike = ((np.minimum(*sides) > SIDES_ALIKE * np.maximum(*sides)) & (sides[0] > 0)).all(axis=1)
+    T_target_source = np.tile(np.eye(4), (int(alike.sum()), 1, 1))
+    if len(T_target_source):
+        p, q = p_source[alike], p_target[alike]
+        mean_p, mean_q = p.mean(axis=1, keepdims=True), q.mean(axis=1, keepdims=True)
+        R = nearest_rotation(np.swapaxes(q - mean_q, 1, 2) @ (p - mean_p))  # as align_rigid, for many triangles
+        T_target_source[:, :3, :3], T_target_source[:, :3, 3] = R, (mean_q - mean_p @ np.swapaxes(R, 1, 2))[:, 0]
+    return T_target_source
+
+
+def _pair_distances(T_target_source: np.ndarray, pairs: np.ndarray) -> np.ndarray:
+    R, t = T_target_source[..., :3, :3], T_target_source[..., None, :3, 3]
+    off = pairs[:, :3] @ np.swapaxes(R, -1, -2) + t - pairs[:, 3:]
+    return np.sqrt(np.einsum("...ij,...ij->...i", off, off))
+
+
+def _refit_rigid(pairs: np.ndarray, weights: np.ndarray | None = None, start: np.ndarray | None = None) -> np.ndarray:
+    """Fit in closed form; a start is not needed."""
+    return align_rigid(pairs[:, 3:], pairs[:, :3], weights)
+
+
 LINE = Model(
     name="line",
     sample_size=2,
@@ -196,5 +224,16 @@ FUNDAMENTAL = Model(
     solve=_solve_fundamental,
     distances=_sampson_distances,
     refit=_refit_fundamental,
+)
+RIGID = Model(
+    name="rigid motion",
+    sample_size=3,
+    fewest=3,
+    columns=6,
+    unit="m",
+    degenerate_when="the two triangles have different sides, so that no motion brings them together",
+    solve=_solve_rigid,
+    distances=_pair_distances,
+    refit=_refit_rigid,
 )
 MODELS = {model.name: model for model in (LINE, PLANE, CIRCLE, SPHERE, HOMOGRAPHY, FUNDAMENTAL)}

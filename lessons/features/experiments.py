@@ -1,0 +1,169 @@
+"""Experiments that break descriptors, and what to predict before looking."""
+
+from collections.abc import Sequence
+
+from lessons.features.state import Params, Scanned, State
+from workbench.lesson import Preset, Question, View
+from workbench.numerals import angle, counted, percent
+
+HOME = Params()
+NOISY = Params(noise=0.01)
+SMALL = Params(radius=0.07)
+WIDE = Params(radius=0.25)
+ROOT = Params(compare="square root")
+FLIPPED = Params(normals="source flipped")
+VASE = Params(shape="vase")
+PATCHES = Params(part="pictures", turn=0.0)
+TILTED = Params(part="pictures", turn=10.0)
+TURNED = Params(part="pictures", turn=30.0)
+OUTLINE = Params(part="outlines", turn=45.0)
+OUTLINE_X = Params(part="outlines", turn=45.0, angles="from the x axis")
+VIEW = View(eye=(0.75, -2.35, 0.85), target=(0.48, 0.0, 0.08), grid=None, axes=False)
+FLAT = View(eye=(0.0, -0.01, 2.25), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "home", "From 140° away",
+        "Nothing tells the start. Watch how few matches are green, and what a sample of three of these does.",
+        HOME, 3,
+    ),
+    Preset(
+        "noisy", "With 1 cm of noise",
+        "Normals shake, and with them all histograms: fewer matches are green, and RANSAC needs more samples.",
+        NOISY, 6,
+    ),
+    Preset(
+        "small", "A smaller neighbourhood",
+        "7 cm around each point: compare the picked point's bars with those of its place, and count the green lines.",
+        SMALL, 3, breaks=True,
+    ),
+    Preset(
+        "wide", "A larger neighbourhood",
+        "25 cm around each point: places differ more from each other, and over 40 % of the kept matches are green.",
+        WIDE, 6,
+    ),
+    Preset(
+        "root", "The square root of every bar",
+        "Large bars lose their say, small ones gain: compare the share of green matches with that of the plain histograms.",
+        ROOT, 6,
+    ),
+    Preset(
+        "flipped", "One scan's normals face inwards",
+        "The same points, the same lines, the other side: look at the bars, and at how many matches pass the filter.",
+        FLIPPED, 3, breaks=True,
+    ),
+    Preset(
+        "vase", "A vase",
+        "A surface of revolution: a whole ring of places has the same descriptor. Watch the green share and the turn.",
+        VASE, 4, breaks=True,
+    ),
+    Preset(
+        "patches", "Corners of two photographs",
+        "Corners are where grey levels are steep in two directions; the pixels around describe them. Over 80 % are green.",
+        PATCHES, -1, FLAT,
+    ),
+    Preset(
+        "tilted", "The right photograph turned by 10°",
+        "A patch is a square of pixels that stands upright. A small turn is still forgiven: over 75 % are green.",
+        TILTED, -1, FLAT,
+    ),
+    Preset(
+        "turned", "The right photograph turned by 30°",
+        "The same corners, a larger turn: look at the two patches that match most clearly.",
+        TURNED, 4, FLAT, breaks=True,
+    ),
+    Preset(
+        "outline", "A horse turned by 45°",
+        "Angles are counted from the outline's own direction at each point, so the turn does not matter.",
+        OUTLINE, -1, FLAT,
+    ),
+    Preset(
+        "outline-x", "The horse, angles from the x axis",
+        "The same two outlines, but the bins do not turn with them: less than a quarter of the lines are green.",
+        OUTLINE_X, -1, FLAT, breaks=True,
+    ),
+)  # fmt: skip
+
+
+def kept(states: Sequence[State]) -> State:
+    """Return the step at which the filter has chosen."""
+    return next(state for state in states if state.now.phase == "kept")
+
+
+def kept_count(states: Sequence[State]) -> float:
+    """Return how many matches the filter keeps."""
+    pairs = kept(states).now.pairs
+    return 0.0 if pairs is None else float(len(pairs))
+
+
+def kept_share(states: Sequence[State]) -> float:
+    """Return how many per cent of the kept matches are right."""
+    share = kept(states).right_share
+    return 0.0 if share != share else 100.0 * share
+
+
+def end(states: Sequence[State]) -> Scanned:
+    """Return the last step of a run on scans."""
+    last = states[-1].now
+    assert isinstance(last, Scanned)
+    return last
+
+
+def _small_why(states: Sequence[State]) -> str:
+    return (
+        f"{percent(kept_share(states) / 100, 0)}. So near, a surface is almost flat, and all flat places look alike. A"
+        " larger neighbourhood tells more, until it reaches over the border of what both scans saw."
+    )
+
+
+def _vase_why(states: Sequence[State]) -> str:
+    return (
+        f"It ends {angle(end(states).error.rotation)} off. Each place of a vase has a ring of places that look the same,"
+        " so no descriptor can tell them apart: the data do not hold the answer."
+    )
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        "radius",
+        "With a radius of 15 cm about a quarter of the kept matches are right. How many per cent are with 7 cm?",
+        answer=kept_share,
+        why=_small_why,
+        params=SMALL,
+        unit="%",
+        tolerance=7.0,
+        step=6,
+    ),
+    Question(
+        "inwards",
+        "The filter keeps some 170 of 2,000 matches. How many does it keep when all normals of the source face inwards?",
+        answer=lambda states: 0.0 if kept_count(states) > 120 else 1.0 if kept_count(states) > 50 else 2.0,
+        why=lambda states: (
+            f"{counted(int(kept_count(states)), 'match', 'matches')}. With both normals of a pair flipped, θ and φ"
+            " change their signs, so the histograms of a place have little in common. Orient both scans by the same rule."
+        ),
+        params=FLIPPED,
+        step=6,
+        choices=("About as many: a pair's angles are the same", "About half", "Fewer than a third"),
+    ),
+    Question(
+        "ring",
+        "The vase starts 140° away, with no noise that matters. Does the registration come home?",
+        answer=lambda states: 0.0 if end(states).home else 1.0,
+        why=_vase_why,
+        params=VASE,
+        choices=("Yes, from any start", "No"),
+    ),
+    Question(
+        "thirty",
+        "Upright patches match photographs with over 80 % right. The right one is turned by 30°. How many per cent now?",
+        answer=kept_share,
+        why=lambda states: (
+            f"{percent(kept_share(states) / 100, 0)}. The pixels of a patch moved to other rows and columns. SIFT measures"
+            " the main direction at each corner first, and describes what it sees along it."
+        ),
+        params=TURNED,
+        unit="%",
+        tolerance=15.0,
+    ),
+)

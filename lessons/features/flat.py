@@ -1,0 +1,114 @@
+"""What one step looks like where pictures or outlines are matched: both lie side by side in a plane, seen from above."""
+
+import numpy as np
+
+from lessons.features.state import Outlined, Pictured, State
+from workbench.geometry.polylines import between, circle, segments
+from workbench.geometry.shape_context import EDGES, SECTORS, tangent_angles
+from workbench.scene import Chart, Field, Picture, Points, Primitive, Role, Segments
+
+WIDTH, NEARER, SIZE = 1.2, 0.01, 0.006  # metres
+MANY = 60  # lines
+PLACES = np.array([-0.63, 0.0, 0.0]), np.array([0.63, 0.0, 0.0])
+NAMES = "first", "second"
+BARS = Chart("Shape context", "bin: 5 rings of 12 sectors", "%")
+
+
+def pictured(now: Pictured) -> dict[str, Primitive]:
+    """Return two pictures, their corners, and lines between matches."""
+    shown = [_picture(now, k) for k in range(2)]
+    scene: dict[str, Primitive] = dict(zip(NAMES, shown, strict=True))
+    if now.uv_first is not None and now.uv_second is not None:
+        for name, picture, uv in zip(NAMES, shown, (now.uv_first, now.uv_second), strict=True):
+            if len(uv):
+                p = picture.places(uv.astype(float), NEARER)
+                scene[f"{name} corners"] = Points(p, "highlight", SIZE, name="corners")
+        if now.pairs is not None and len(now.pairs):
+            a = shown[0].places(now.uv_first[now.pairs[:, 0]].astype(float), 2 * NEARER)
+            b = shown[1].places(now.uv_second[now.pairs[:, 1]].astype(float), 2 * NEARER)
+            scene |= lines_between(a, b, now.right, now.known)
+    if now.phase == "patch" and now.windows is not None:
+        scene["patches"] = Picture(now.windows, "Two patches that match")
+    return scene
+
+
+def _picture(now: Pictured, k: int) -> Picture:
+    image, pose = (now.first, now.second)[k], np.diag([1.0, -1.0, -1.0, 1.0])
+    pose[:3, 3] = PLACES[k]
+    shown: np.ndarray | Field = np.clip(np.rint(image), 0, 255).astype(np.uint8)
+    if now.phase == "gradient" and now.strength is not None:
+        top = max(float(np.percentile(now.strength[0], 99)), 1e-6)
+        shown = Field(now.strength[k], 0.0, top, "gradient", "grey levels/px")
+    elif now.phase == "response" and now.response is not None:
+        root = np.sign(now.response[k]) * np.sqrt(np.abs(now.response[k]))
+        top = max(float(np.percentile(np.sqrt(np.abs(now.response[0])), 99.5)), 1e-6)
+        shown = Field(root, -top, top, "signed root of the response", map="diverging")
+    width = WIDTH * image.shape[1] / max(now.first.shape[1], now.second.shape[1])
+    return Picture(shown, NAMES[k], width, pose)
+
+
+def outlined(state: State, now: Outlined) -> dict[str, Primitive]:
+    """Return two outlines, the bins of a point, its histograms, and lines between matches."""
+    first, second = (
+        np.column_stack([p, np.zeros(len(p))]) + place for p, place in zip((now.first, now.second), PLACES, strict=True)
+    )
+    scene: dict[str, Primitive] = {
+        "first": Segments(segments(first, closed=True), "target", 3, name="first outline"),
+        "second": Segments(segments(second, closed=True), "source", 3, name="second outline"),
+        "picked": Points(first[[now.picked]], "highlight", 3 * SIZE, name="picked point"),
+    }
+    if now.phase in ("bins", "histogram"):
+        scene["bins"] = Segments(_bins(state, now) + PLACES[0], "neutral", 1.5, opacity=0.7, name="bins")
+    if now.phase != "outlines":
+        scene["there"] = Points(second[[now.picked]], "truth", 3 * SIZE, name="its true partner")
+    if now.phase == "histogram" and now.f_first is not None and now.f_second is not None:
+        x = np.arange(float(now.f_first.shape[1]))
+        scene["bars"] = BARS.curve(x, 100 * now.f_first[now.picked], "picked point", "highlight")
+        scene["bars there"] = BARS.curve(x, 100 * now.f_second[now.picked], "its true partner", "truth")
+    if now.costs is not None:
+        scene["costs"] = Picture(Field(now.costs, 0.0, 1.0, "cost"), "Cost of every pair")
+    if now.pairs is not None:
+        scene |= lines_between(first[now.pairs[:, 0]], second[now.pairs[:, 1]], now.right)
+    return scene
+
+
+def _bins(state: State, now: Outlined) -> np.ndarray:
+    """Return the rings and sectors around the picked point, (k, 2, 3)."""
+    p, n = now.first[now.picked], len(now.first)
+    apart = np.linalg.norm(now.first[:, None] - now.first, axis=2)
+    unit = apart.sum() / (n * (n - 1))
+    start = float(tangent_angles(now.first)[now.picked]) if state.params.angles == "along the outline" else 0.0
+    rings = [segments(p + unit * edge * circle(48), closed=True) for edge in EDGES]
+    at = start + 2 * np.pi * np.arange(SECTORS) / SECTORS
+    way = unit * np.column_stack([np.cos(at), np.sin(at)])
+    flat = np.concatenate([*rings, between(p + EDGES[0] * way, p + EDGES[-1] * way)])
+    return np.concatenate([flat, np.zeros((*flat.shape[:-1], 1))], axis=-1)
+
+
+def lines_between(
+    a: np.ndarray, b: np.ndarray, right: np.ndarray | None, known: np.ndarray | None = None, thin: str = "wrong match"
+) -> dict[str, Primitive]:
+    """Return lines between matches: those that are wrong are thin where there are many, so that the right ones show.
+
+    Args:
+        a: Places of the first set, metres.
+        b: Places of their matches.
+        right: Which are right; None where nobody knows.
+        known: Of which the truth is known; of all by default.
+        thin: What the others are called.
+    """
+    if right is None:
+        return {"matches": Segments(between(a, b), "correspondence", 1.5, opacity=0.7, name="matches")}
+    known = np.ones(len(right), bool) if known is None else known
+    width, opacity = (1.0, 0.45) if len(right) > MANY else (2.0, 0.9)
+    thick, agrees = 2.5 if right.sum() <= MANY else 1.5, "right match" if thin == "wrong match" else "agrees"
+    kinds: tuple[tuple[str, np.ndarray, Role, float, float, str], ...] = (
+        ("matches/unknown", ~known, "neutral", 1.0, 0.4, "truth not known"),
+        ("matches/wrong", known & ~right, "wrong", width, opacity, thin),
+        ("matches/right", known & right, "truth", thick, 0.9, agrees),
+    )
+    return {
+        path: Segments(between(a[some], b[some]), color, width, opacity=opacity, name=name)
+        for path, some, color, width, opacity, name in kinds
+        if some.any()
+    }

@@ -1,0 +1,36 @@
+"""Matching two outlines: log-polar bins, histograms, costs, and the cheapest assignment."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from lessons.features.state import STEPS_ALONG, Outlined, Params
+from workbench.algorithms.transport import best_assignment
+from workbench.data.silhouettes import horse
+from workbench.geometry.shape_context import context_costs, shape_contexts
+
+COUNT, SIZE, LARGER, NOISE = 100, 0.5, 1.2, 0.002
+PICKED = 12
+
+
+def outline_steps(params: Params) -> Iterator[Outlined]:
+    """Yield the steps from two outlines to their matches."""
+    first = horse(COUNT, SIZE)
+    c, s = np.cos(np.radians(params.turn)), np.sin(np.radians(params.turn))
+    second = LARGER * first @ np.array([[c, s], [-s, c]])
+    second = second + NOISE * np.random.default_rng(params.seed).standard_normal(second.shape)
+    now = Outlined(phase="outlines", first=first, second=second, picked=PICKED)
+    yield now
+    yield replace(now, phase="bins")
+    along = params.angles == "along the outline"
+    f_first, f_second = (shape_contexts(p, along_tangent=along) for p in (first, second))
+    now = replace(now, phase="histogram", f_first=f_first, f_second=f_second)
+    yield now
+    costs = context_costs(f_first, f_second)
+    now = replace(now, phase="costs", costs=costs)
+    yield now
+    rows, columns = best_assignment(costs)
+    pairs = np.column_stack([rows, columns])
+    apart = np.abs((rows - columns + COUNT // 2) % COUNT - COUNT // 2)
+    yield replace(now, phase="matched", pairs=pairs, right=apart <= STEPS_ALONG)

@@ -1,0 +1,200 @@
+"""What each step says: what just happened, its numbers, and at the end whether it is right."""
+
+import numpy as np
+
+from lessons.features.state import PIXELS, Outlined, Pictured, Scanned, State
+from workbench.numerals import angle, counted, fixed_row, length, percent
+from workbench.scene import Caption
+
+HALF = 0.5
+FILTERS = {
+    "nearest": "every nearest one",
+    "ratio": "those much nearer than the second nearest",
+    "mutual": "those nearest both ways",
+    "both": "those nearest both ways and much nearer than the second",
+}
+
+
+def caption(state: State) -> Caption:
+    """Return the caption of a step."""
+    match state.now:
+        case Scanned() as now:
+            return _scanned(state, now)
+        case Pictured() as now:
+            return _pictured(state, now)
+        case Outlined() as now:
+            return _outlined(state, now)
+
+
+def _share(state: State) -> str:
+    share = state.right_share
+    return "" if np.isnan(share) else f" {percent(share, 0)} of them are right."
+
+
+def _scanned(state: State, now: Scanned) -> Caption:
+    params, scans = state.params, now.scans
+    match now.phase:
+        case "scans":
+            text = f"Two scans, {len(scans.p_target):,} and {len(scans.p_source):,} points."
+            text += " Nobody says how they lie to each other."
+            if scans.own:
+                text += " They count as 1.2 m wide."
+            return Caption(text)
+        case "normals":
+            side = {
+                "outwards": "they face away from the middle",
+                "source flipped": "those of the source were turned inside out",
+                "random signs": "each faces either side by chance",
+            }[params.normals]
+            return Caption(f"Each point gets a normal from its 16 nearest points; {side}.")
+        case "pairs":
+            return Caption(_pair_text(state, now))
+        case "histogram":
+            return Caption(_histogram_text(now))
+        case "similar":
+            return Caption(
+                "The descriptor of the picked point against that of every target point: dark is alike."
+                " The nearest of all is its match."
+            )
+        case "nearest":
+            assert now.pairs is not None
+            which = "source point takes the target point" if params.where == "every point" else "keypoint takes the one"
+            return Caption(f"Every {which} with the nearest descriptor.{_share(state)}")
+        case "kept":
+            assert now.pairs is not None
+            asked = 0 if now.asked is None else len(now.asked)
+            kept = f"{len(now.pairs):,} of {asked:,}"
+            return Caption(f"Keep {FILTERS[params.keep]}: {kept} stay.{_share(state)}")
+        case "sample":
+            return Caption(
+                f"Sample {now.iteration:,} of three matches gives the best motion so far: {_votes(now)}.{_off(now)}"
+            )
+        case "refit":
+            return Caption(f"The motion is fitted again to all that agree: {_votes(now)}.{_off(now)}")
+        case "icp":
+            return Caption(f"Fit {now.iteration} of ICP starts from there and needs no descriptor.{_off(now)}")
+        case "end":
+            return _end(now)
+
+
+def _pair_text(state: State, now: Scanned) -> str:
+    assert now.angles is not None
+    assert now.around is not None
+    if not len(now.around):
+        return f"No other point lies within {length(state.params.radius)} of the picked one: it has no pairs."
+    text = f"{counted(len(now.around), 'pair', 'pairs')} within {length(state.params.radius)} of the picked point."
+    theta, alpha, phi = now.angles[0]
+    return f"{text} Of each three angles are kept: the first has (θ, α, φ) = ({fixed_row((theta, alpha, phi), 2)})."
+
+
+def _histogram_text(now: Scanned) -> str:
+    assert now.f_source is not None
+    assert now.f_target is not None
+    off = np.linalg.norm(now.f_target - now.f_source[now.picked], axis=1)
+    text = "33 bars: three histograms of the point's own pairs, and its neighbours' mixed in."
+    if now.scans.T_truth is None:
+        return f"{text} Beside it the most alike of the target."
+    nearer = int(np.count_nonzero(off < off[now.there]))
+    return f"{text} {counted(nearer, 'target point is', 'target points are')} more alike than the true one."
+
+
+def _votes(now: Scanned) -> str:
+    assert now.inliers is not None
+    return f"{np.count_nonzero(now.inliers):,} of {len(now.inliers):,} matches agree"
+
+
+def _off(now: Scanned) -> str:
+    if now.scans.T_truth is None:
+        return ""
+    return f" It is {angle(now.error.rotation)} and {length(now.error.displacement)} (RMS) from the truth."
+
+
+def _end(now: Scanned) -> Caption:
+    if now.T_target_source is None:
+        some = 0 if now.inliers is None else int(now.inliers.sum())
+        text = f"{some or 'No'} matches agree on a motion, and any three agree on some: nothing is found."
+        return Caption(text, "info" if now.scans.T_truth is None else "wrong")
+    text = f"ICP ends after {counted(now.iteration, 'fit', 'fits')}."
+    if now.T_before is not None and now.scans.T_truth is not None:
+        before = now.scans.error(now.T_before).rotation
+        text = f"ICP ends after {counted(now.iteration, 'fit', 'fits')}: {angle(before)} → {angle(now.error.rotation)}."
+        text += f" Points are {length(now.error.displacement)} (RMS) from the truth."
+    if now.scans.T_truth is None:
+        return Caption(text)
+    return Caption.verdict(text + (" It has come home." if now.home else ""), right=now.home)
+
+
+def _pictured(state: State, now: Pictured) -> Caption:
+    params = state.params
+    match now.phase:
+        case "pictures":
+            h, w = now.first.shape
+            turned = f", the right one turned by {angle(params.turn)}" if params.turn else ""
+            return Caption(f"Two pictures of {w} × {h} pixels, taken from two places{turned}.")
+        case "gradient":
+            return Caption("How steep the grey levels are: large along every edge, so a place on an edge can slide.")
+        case "response":
+            return Caption(
+                "det(M) − 0.04 trace(M)² of the products of derivatives around each pixel: above zero only where"
+                " two directions are steep."
+            )
+        case "corners":
+            assert now.uv_first is not None
+            assert now.uv_second is not None
+            text = f"The strongest local maxima are corners: {len(now.uv_first)} left and {len(now.uv_second)} right."
+            if min(len(now.uv_first), len(now.uv_second)) < 2:
+                return Caption(f"{text} That is too few to match.")
+            return Caption(text)
+        case "patch":
+            return Caption(
+                f"A corner is described by the {params.patch} × {params.patch} pixels around it, less their mean and of"
+                " length 1. These two are the clearest match."
+            )
+        case "nearest":
+            return Caption(f"Every left corner takes the right one with the nearest patch.{_known(state, now)}")
+        case "kept":
+            return _kept_pictures(state, now)
+
+
+def _known(state: State, now: Pictured) -> str:
+    if now.known is None:
+        return ""
+    if not now.known.any():
+        return " Of none is the truth known."
+    return f" {percent(state.right_share, 0)} lie within {PIXELS:.0f} px of the truth."
+
+
+def _kept_pictures(state: State, now: Pictured) -> Caption:
+    assert now.pairs is not None
+    assert now.uv_first is not None
+    text = f"Keep {FILTERS[state.params.keep]}: {len(now.pairs)} of {len(now.uv_first)} stay.{_known(state, now)}"
+    if now.known is None or not now.known.any():
+        return Caption(text)
+    right = state.right_share > HALF
+    return Caption.verdict(text, right=True) if right else Caption(f"{text} Most of what is kept is wrong.", "wrong")
+
+
+def _outlined(state: State, now: Outlined) -> Caption:
+    params = state.params
+    match now.phase:
+        case "outlines":
+            return Caption(
+                f"A horse's outline in {len(now.first)} points, and the same one larger and turned by {angle(params.turn)}."
+            )
+        case "bins":
+            return Caption(
+                "Around the picked point, 5 rings and 12 sectors: how many other points lie in each is its descriptor."
+                f" Angles count {params.angles}."
+            )
+        case "histogram":
+            return Caption("The histogram of the picked point, and that of its true partner on the other outline.")
+        case "costs":
+            assert now.costs is not None
+            return Caption(
+                "How different every two histograms are: rows are points of the first outline, columns of the second."
+                f" The true partners cost {float(np.diag(now.costs).mean()):.2f} on average."
+            )
+        case "matched":
+            text = f"One to one, at the least total cost.{_share(state)}"
+            right = state.right_share > HALF
+            return Caption.verdict(text, right=True) if right else Caption(f"{text} Most are wrong.", "wrong")

@@ -1,0 +1,109 @@
+"""When the sentences of the features lesson are true, decided by scipy from motions, descriptors and the truth."""
+
+import re
+
+import numpy as np
+
+from lessons.features.state import Outlined, Scanned
+from lessons.features.words import caption
+from tests.readings import LENGTH, near, near_length, number, says_percent
+from tests.truths.features import agreeing, home, nearer, off, share, turn
+from tests.verdicts import Claim, Run
+
+__all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
+
+PERCENT = r"(?:less than )?[\d.,]+ %"
+
+
+def right(run: Run, k: int) -> bool | None:
+    now = run.states[k].now
+    if isinstance(now, Scanned):
+        return home(now) if now.phase == "end" else None
+    if now.phase in ("kept", "matched"):
+        found = share(now)
+        return None if found is None else found > 0.5
+    return None
+
+
+def _share(run: Run, k: int, m: re.Match[str]) -> bool:
+    found = share(run.states[k].now)
+    return found is not None and says_percent(m["share"], found)
+
+
+def _best(run: Run, k: int, m: re.Match[str]) -> bool:
+    now = run.states[k].now
+    assert isinstance(now, Scanned)
+    before = [agreeing(s.now) for s in run.states[:k] if s.now.phase == "sample"]
+    assert now.pairs is not None
+    return number(m["n"]) == agreeing(now) > max(before, default=0) and number(m["of"]) == len(now.pairs)
+
+
+def _agree(run: Run, k: int, m: re.Match[str]) -> bool:
+    now = run.states[k].now
+    assert isinstance(now, Scanned)
+    return number(m["n"]) == agreeing(now)
+
+
+def _away(run: Run, k: int, m: re.Match[str]) -> bool:
+    now = run.states[k].now
+    assert isinstance(now, Scanned)
+    assert now.T_target_source is not None
+    assert now.scans.T_truth is not None
+    degrees = turn(now.T_target_source, now.scans.T_truth)
+    return (near(m["turn"], degrees) or degrees < 0.0011) and near_length(m["off"], off(now))
+
+
+def _most_wrong(run: Run, k: int, m: re.Match[str]) -> bool:
+    found = share(run.states[k].now)
+    return found is not None and found <= 0.5
+
+
+def _partners(run: Run, k: int, m: re.Match[str]) -> bool:
+    now = run.states[k].now
+    assert isinstance(now, Outlined)
+    assert now.f_first is not None
+    assert now.f_second is not None
+    a, b = now.f_first, now.f_second
+    cost = 0.5 * np.divide((a - b) ** 2, a + b, out=np.zeros_like(a), where=a + b > 0).sum(axis=1).mean()
+    return abs(float(m["cost"]) - cost) <= 0.0051
+
+
+def _green(at_least: float | None = None, below: float | None = None):
+    def holds(run: Run, k: int, m: re.Match[str]) -> bool:
+        found = next(share(s.now) for s in run.states if s.now.phase in ("kept", "matched"))
+        assert found is not None
+        return (at_least is None or found > at_least) and (below is None or found < below)
+
+    return holds
+
+
+def _few(run: Run, k: int, m: re.Match[str]) -> bool:
+    now = run.states[k].now
+    return isinstance(now, Scanned) and now.T_target_source is None
+
+
+CAPTIONS = (
+    Claim(rf"(?P<share>{PERCENT}) of them are right", _share),
+    Claim(rf"(?P<share>{PERCENT}) lie within 3 px of the truth", _share),
+    Claim(r"(?P<n>[\d,]+) target points? (is|are) more alike than the true one",
+          lambda run, k, m: number(m["n"]) == nearer(run.states[k].now)),
+    Claim(r"best motion so far: (?P<n>[\d,]+) of (?P<of>[\d,]+) matches agree", _best),
+    Claim(r"to all that agree: (?P<n>[\d,]+) of [\d,]+ matches agree", _agree),
+    Claim(rf"It is (?P<turn>(less than )?[\d.]+)° and (?P<off>{LENGTH}) \(RMS\) from the truth", _away),
+    Claim(r"It has come home", lambda run, k, m: home(run.states[k].now)),
+    Claim(r"It looks settled, and it is wrong", lambda run, k, m: not home(run.states[k].now)),
+    Claim(r"(?P<n>\d+|No) matches agree on a motion, and any three agree on some: nothing is found", _few),
+    Claim(r"Most of what is kept is wrong|Most are wrong", _most_wrong),
+    Claim(r"The true partners cost (?P<cost>[\d.]+) on average", _partners),
+    Claim(r"its true partner|takes the right one|the right one turned|\d+ left and \d+ right", None),
+)  # fmt: skip
+
+LINES = {
+    "wide": (Claim(r"over 40 % of the kept matches are green", _green(0.4)),),
+    "patches": (Claim(r"Over 80 % are green", _green(0.8)),),
+    "tilted": (Claim(r"The right photograph", None), Claim(r"over 75 % are green", _green(0.75))),
+    "turned": (Claim(r"The right photograph", None),),
+    "outline-x": (Claim(r"less than a quarter of the lines are green", _green(below=0.25)),),
+}
+
+WHYS: dict[str, tuple[Claim, ...]] = {}

@@ -1,0 +1,112 @@
+"""Which descriptors belong together: the nearest, and which of these a filter keeps.
+
+References: Lowe, Distinctive Image Features from Scale-Invariant Keypoints, 2004, section 7.1 (the ratio);
+Deriche, Zhang, Luong and Faugeras, Robust recovery of the epipolar geometry, 1994 (both ways round).
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+Filter = Literal["nearest", "ratio", "mutual", "both"]
+_CELLS = 4_000_000  # distances at a time
+
+
+@dataclass(frozen=True, eq=False)
+class Nearest:
+    """The nearest descriptors of two sets, both ways.
+
+    Attributes:
+        index: For each of the first set the nearest of the second.
+        distance: How far apart they are.
+        second: How far the second nearest is; infinite where there is only one.
+        back: For each of the second set the nearest of the first.
+    """
+
+    index: Int[np.ndarray, " n"]
+    distance: Float[np.ndarray, " n"]
+    second: Float[np.ndarray, " n"]
+    back: Int[np.ndarray, " m"]
+
+    def kept(self, how: Filter, ratio: float) -> Bool[np.ndarray, " n"]:
+        """Return which nearest ones a filter keeps; `ratio` is between the distances, not their squares."""
+        keep = np.ones(len(self.index), bool)
+        if how in ("ratio", "both"):
+            keep &= self.distance < ratio * self.second
+        if how in ("mutual", "both"):
+            keep &= self.back[self.index] == np.arange(len(self.index))
+        return keep
+
+
+def nearest_both_ways(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]) -> Nearest:
+    """Return the nearest descriptors of two sets, by Euclid's distance, the first of equal ones.
+
+    Raises:
+        ValueError: If a set is empty.
+    """
+    if not len(a) or not len(b):
+        raise ValueError("there is nothing to match: a set of descriptors is empty")
+    n, m = len(a), len(b)
+    index, distance, second = np.empty(n, np.intp), np.empty(n), np.full(n, np.inf)
+    back, least = np.zeros(m, np.intp), np.full(m, np.inf)
+    centre = b.mean(axis=0)  # a common offset costs digits below
+    a, b = a - centre, b - centre
+    squares = np.einsum("ij,ij->i", b, b)
+    for start in range(0, n, max(1, _CELLS // m)):
+        rows = slice(start, min(n, start + max(1, _CELLS // m)))
+        some = a[rows]
+        cost = squares - 2.0 * some @ b.T + np.einsum("ij,ij->i", some, some)[:, None]
+        here, columns = np.arange(len(some)), cost.argmin(axis=0)
+        lower = cost[columns, np.arange(m)]
+        back, least = np.where(lower < least, columns + start, back), np.minimum(lower, least)
+        index[rows] = cost.argmin(axis=1)
+        distance[rows] = cost[here, index[rows]]
+        if m > 1:
+            cost[here, index[rows]] = np.inf
+            second[rows] = cost.min(axis=1)
+    return Nearest(index, np.sqrt(np.maximum(distance, 0)), np.sqrt(np.maximum(second, 0)), back)
+
+
+def mutual_matches(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float) -> Int[np.ndarray, " n"]:
+    """Return for each descriptor of a the nearest of b, or -1 where that one is not much nearer, or nearest both ways.
+
+    Args:
+        a: Descriptors.
+        b: Descriptors of the other set.
+        ratio: The nearest must be nearer than this share of the distance of the second nearest.
+
+    Raises:
+        ValueError: If a set is empty.
+    Reference: Lowe 2004, section 7.1.
+
+    Examples:
+        >>> mutual_matches(np.array([[0.0], [5.0], [5.2]]), np.array([[0.3], [5.1], [9.0]]), 0.9).tolist()
+        [0, 1, -1]
+    """
+    found = nearest_both_ways(a, b)
+    return np.where(found.kept("both", ratio), found.index, -1)
+
+
+def filtered(
+    found: Nearest, how: Filter, ratio: float, mutual: Int[np.ndarray, " n"] | None = None
+) -> Int[np.ndarray, "k 2"]:
+    """Return rows (index in the first set, index in the second) of the matches that a filter keeps, in order.
+
+    Args:
+        found: The nearest of both sets.
+        how: Keep all, those much nearer than the second nearest, those nearest both ways, or those that are both.
+        ratio: How near the nearest must be, as a share of the distance of the second nearest.
+        mutual: Somebody's answer as `mutual_matches` gives it, which is then taken where `how` is both.
+
+    Raises:
+        ValueError: If that answer names what is not there.
+    """
+    kept = np.where(found.kept(how, ratio), found.index, -1)
+    if how == "both" and mutual is not None:
+        kept = np.asarray(mutual).astype(int)
+        if kept.shape != found.index.shape or (kept >= len(found.back)).any():
+            raise ValueError("mutual_matches has to give one index, or -1, for every descriptor of the first set")
+    rows = np.flatnonzero(kept >= 0)
+    return np.column_stack([rows, kept[rows]])
