@@ -132,7 +132,9 @@ def _clouds(params: Params, now: Classified, about: Clouds) -> dict[str, Primiti
         color = Classes.marking(decides, "highlight", "critical", others=("target", "points"))
         right = said(now, k) == name
         scene[f"clouds/{name}"] = Points(p + np.array([x, 0.0, 0.0]), color, 0.05, name="points" if k == 0 else "")
-        scene[f"said/{name}"] = Label(f"{said(now, k)}", np.array([x, 0, 1.5]), "truth" if right else "wrong")
+        scene[f"said/{name}"] = Label(
+            name if right else f"{name}: taken for {said(now, k)}", np.array([x, 0, 1.5]), "truth" if right else "wrong"
+        )
     rows = []
     for k, name in enumerate(NAMES):
         of = about.of == k

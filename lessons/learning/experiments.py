@@ -15,8 +15,9 @@ from workbench.numerals import angle, fixed, percent
 VIEW = View(eye=(0.0, -0.6, 3.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 BALL = View(eye=(1.9, -2.4, 1.3), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 ABOVE = View(eye=(0.0, -0.6, 4.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
-RABBIT = View(eye=(2.3, -3.3, 1.4), target=(0.0, -0.1, 0.0), grid=None, axes=False)
-ROW = View(eye=(0.0, -12.0, 3.0), target=(0.0, 0.0, 0.3), grid=None, axes=False)
+RABBIT = View(eye=(1.35, -1.95, 0.75), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+FLAT = View(eye=(0.0, -0.7, 5.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+ROW = View(eye=(0.0, -12.0, 3.0), target=(0.5, 0.0, 0.9), grid=None, axes=False)
 
 CUT = Params(angle="one number")
 SHORT = Params(angle="one number", largest=90.0)
@@ -127,12 +128,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "two", "Two photographs",
         "A field that explains what it was shown. Look at the new view, and at the green discs.",
-        TWO, 0, ABOVE, breaks=True,
+        TWO, 0, FLAT, breaks=True,
     ),
     Preset(
         "many", "Twenty-four photographs",
         "From all around: what fits all of them has hardly a choice left. Click a pixel of the new view.",
-        MANY, 0, ABOVE,
+        MANY, 0, FLAT,
     ),
 )  # fmt: skip
 
@@ -181,7 +182,8 @@ def _signals(states: Sequence[State]) -> Looks:
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "predict-cut",
-        "A network learns to put out an angle between −180° and 180° as one number. At which size of turn does it err most?",
+        "A network learns to put out any turn in the plane as one number, signed, in degrees. At which size does it err"
+        " most?",
         answer=_worst_at,
         why=_cut_why,
         params=CUT,
@@ -198,7 +200,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " partners makes a sum of squares least, and all points see the same radii."
         ),
         params=CIRCLE,
-        choices=("one thin circle", "a band some 0.3 m wide", "the whole ring from 0.5 m to 1.5 m"),
+        choices=("one ring of no width", "a band some 0.3 m wide", "points all over, from 0.5 m to 1.5 m"),
     ),
     Question(
         "predict-stray",

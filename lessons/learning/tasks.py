@@ -23,7 +23,7 @@ from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, Decode, turn
 from workbench.geometry.sampling import points_on_faces
 from workbench.geometry.volume_rendering import RayWeights, samples_on
 
-UPDATES: Mapping[Task, int] = {"angle": 600, "rotation": 600, "sets": 150, "mesh": 80, "classify": 250, "field": 120}
+UPDATES: Mapping[Task, int] = {"angle": 600, "rotation": 600, "sets": 150, "mesh": 80, "classify": 300, "field": 120}
 STEPS = 24
 WIDTHS = {"angle": 32, "rotation": 64}
 TURNS, SET, CLOUD, TESTS, PIXELS = 181, 48, 32, 20, 40

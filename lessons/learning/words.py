@@ -58,6 +58,13 @@ def _told(state: State) -> tuple[str, float, float, float]:
         case Classified():
             assert isinstance(about, Clouds)
             plain, changed = shares_right(now, about)
+            if now.updates == 0:
+                return (
+                    f"{done}: loss {fixed(now.loss, 2)}. Of {len(NAMES)} shapes it guesses one.",
+                    changed,
+                    KNOWN,
+                    LOST,
+                )
             text = f"{done}: loss {fixed(now.loss, 2)}; {percent(plain, 0)} of {len(about.of)} new clouds are named rightly"
             if changes := changes_of(params):
                 text += f". {changes}: {percent(changed, 0)}"
@@ -73,11 +80,13 @@ def _told(state: State) -> tuple[str, float, float, float]:
 
 def _of_turns(params: Params, about: Turns, now: Regressed) -> str:
     k, worst = params.picked % len(now.errors), int(now.errors.argmax())
+    mean = f"loss {fixed(now.loss, 3)}; wrong by {angle(float(now.errors.mean()))} on average"
+    if now.updates == 0:
+        return f"{mean}."
     of = "a turn of" if params.task == "angle" else "one of the turns by"
     return (
-        f"loss {fixed(now.loss, 3)}; wrong by {angle(float(now.errors.mean()))} on average, at most by"
-        f" {angle(float(now.errors[worst]))}, at {of} {fixed(float(about.degrees[worst]), 0)}°. At the picked"
-        f" {fixed(float(about.degrees[k]), 0)}°: {angle(float(now.errors[k]))}."
+        f"{mean}, at most by {angle(float(now.errors[worst]))}, at {of} {fixed(float(about.degrees[worst]), 0)}°."
+        f" At the picked {fixed(float(about.degrees[k]), 0)}°: {angle(float(now.errors[k]))}."
     )
 
 
