@@ -1,19 +1,19 @@
 """What is true of a run of the learning lesson: by scipy's rotations, whole distance matrices, trimesh and plain sums."""
 
 import functools
+from typing import Any
 
 import numpy as np
 import scipy
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from lessons.learning.state import State
 from workbench.data import flatland
 
 CENTRES, RADII = flatland.DISCS[:, :2], flatland.DISCS[:, 2]
 
 
-def wrong_by(state: State) -> np.ndarray:
+def wrong_by(state: Any) -> np.ndarray:
     """Degrees between each test rotation and what is put out for it."""
     if state.params.task == "angle":
         put = np.degrees(np.arctan2(state.now.R[:, 1, 0], state.now.R[:, 0, 0]))
@@ -22,7 +22,7 @@ def wrong_by(state: State) -> np.ndarray:
     return np.degrees((Rotation.from_matrix(state.now.R) * true.inv()).magnitude())
 
 
-def radii(state: State) -> np.ndarray:
+def radii(state: Any) -> np.ndarray:
     """How far the points of a set are from the middle."""
     return np.hypot(state.now.p[:, 0], state.now.p[:, 1])
 
@@ -35,12 +35,12 @@ def _folds(p: bytes, faces: bytes) -> float:
     return float((mesh.face_adjacency_angles > np.pi / 2).mean())
 
 
-def folded(state: State) -> float:
+def folded(state: Any) -> float:
     """The share of edges that are folded by over 90°, by trimesh."""
     return _folds(state.now.p.tobytes(), state.about.faces.tobytes())
 
 
-def to_given(state: State) -> float:
+def to_given(state: Any) -> float:
     """Chamfer distance of points on the mesh to the given ones, m²: of other points on it than the lesson takes."""
     mesh = trimesh.Trimesh(state.now.p, state.about.faces, process=False)
     q, _ = trimesh.sample.sample_surface(mesh, 3000, seed=5)
@@ -48,14 +48,14 @@ def to_given(state: State) -> float:
     return float((D.min(axis=1) ** 2).mean() + (D.min(axis=0) ** 2).mean())
 
 
-def named(state: State, which: str) -> float:
+def named(state: Any, which: str) -> float:
     """The share of test clouds that are named rightly, one by one."""
     clouds = getattr(state.about, which)
     told = [int(np.argmax(state.now.network(one[None])[0])) for one in clouds]
     return float(np.mean(np.array(told) == state.about.of))
 
 
-def overlap(state: State) -> float:
+def overlap(state: Any) -> float:
     """Of the nodes that are dense, or in a disc, the share that is both."""
     raw = state.now.field.raw[:, 0]
     dense = 10 * np.log1p(np.exp(raw)) > 5

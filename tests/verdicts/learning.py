@@ -1,6 +1,7 @@
 """Decides what the learning lesson says: by scipy's rotations, trimesh, and networks asked one cloud at a time."""
 
 import re
+from typing import Any
 
 import numpy as np
 
@@ -38,7 +39,7 @@ def judged(run: Run, k: int) -> tuple[float, float, float]:
             return state.about.unseen, 18, 12
 
 
-def same_angle(text: str, degrees: float) -> bool:
+def same_angle(text: str, degrees: Any) -> bool:
     """Whether an angle is said to three digits."""
     return abs(number(text) - degrees) <= 0.006 * max(degrees, 0.01) + 1e-3
 
