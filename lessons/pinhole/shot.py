@@ -5,7 +5,7 @@ import functools
 import numpy as np
 
 from lessons.pinhole.state import Edit, Params, Shot
-from workbench.data.street import BALL_CENTER, BALL_RADIUS, street
+from workbench.data.street import BALL_CENTER, BALL_RADIUS, street, street_items
 from workbench.errors import InputError
 from workbench.geometry.cameras import (
     camera_center,
@@ -23,8 +23,7 @@ from workbench.geometry.cameras import (
 )
 from workbench.geometry.distortion import Distortion
 from workbench.geometry.polylines import segments
-from workbench.geometry.raster import MeshItem, SegmentItem, render
-from workbench.scene import color_rows
+from workbench.geometry.raster import render
 
 WIDTH, HEIGHT = 320, 240
 CROP_LEFT, CROP_TOP = 60, 40
@@ -57,7 +56,7 @@ def _shot(
     T_near = look_at(p_world_eye, p_world_target)
     K_near = intrinsics(f, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
     T_camera_world, K_first = dolly(T_near, K_near, distance, factor)
-    photo = render(_scenery(), T_camera_world, K_first, WIDTH, HEIGHT, lens, background=(238, 243, 248))
+    photo = render(street_items(), T_camera_world, K_first, WIDTH, HEIGHT, lens, background=(238, 243, 248))
     picture = _edited(photo.colors, edit)
     K, K_before = _edited_intrinsics(K_first, edit), _edited_intrinsics(K_near, edit)
     points = street().points
@@ -88,13 +87,6 @@ def wires(T_camera_world: np.ndarray) -> np.ndarray:
     if np.linalg.norm(camera_center(T_camera_world) - BALL_CENTER) > 1.01 * BALL_RADIUS:
         ball = segments(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 48), closed=True)
     return np.concatenate([scene.edges, scene.rails, ball])
-
-
-@functools.cache
-def _scenery() -> tuple[MeshItem | SegmentItem, ...]:
-    scene = street()
-    meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids.values()]
-    return (*meshes, SegmentItem(scene.rails, color_rows("neutral", 2), 2))
 
 
 def _edited(picture: np.ndarray, edit: Edit) -> np.ndarray:

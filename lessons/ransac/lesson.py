@@ -19,7 +19,7 @@ from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params, Rival, State, Subject
 from workbench.algorithms.models import PLANE, from_points
 from workbench.algorithms.ransac import Fit, Judge, iterations_needed, ransac
-from workbench.algorithms.robust import huber_fit
+from workbench.algorithms.robust import HUBER, reweighted_fit
 from workbench.algorithms.samplers import prosac_samples, uniform_samples
 from workbench.algorithms.scores import Score, count_inliers, count_score, mlesac_score, msac_score
 from workbench.errors import InputError
@@ -152,7 +152,7 @@ def rivals_of(subject: Subject, corner: float) -> tuple[Rival, ...]:
     with np.errstate(
         over="ignore", invalid="ignore"
     ):  # rows that determine nothing: what is not finite is left out below
-        first, *_, last = huber_fit(subject.p, subject.model, corner=corner, max_iterations=30)
+        first, *_, last = reweighted_fit(subject.p, subject.model, HUBER, corner=corner, max_iterations=30)
     found = (("least squares", first.estimate), ("Huber", last.estimate))
     return tuple(
         Rival(name, estimate, subject.error(estimate)) for name, estimate in found if np.isfinite(estimate).all()

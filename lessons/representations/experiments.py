@@ -72,7 +72,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "neighbours", "Who is whose neighbour",
         "600 points, each joined to ever more of its nearest ones: pieces become one, and edges leave the surface.",
-        NEIGHBOURS, 5, breaks=True,
+        NEIGHBOURS, 5, ALONE, breaks=True,
     ),
     Preset(
         "search", "The nearest of a thousand",

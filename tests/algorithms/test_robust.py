@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.algorithms.models import LINE, PLANE, rms_distance
-from workbench.algorithms.robust import Settled, huber_fit, huber_loss, huber_weights
+from workbench.algorithms.robust import HUBER, LOSSES, Settled, huber_loss, huber_weights, reweighted_fit
 from workbench.data.robust import line_scene, plane_scene
 
 
@@ -22,7 +22,7 @@ def test_the_weights_give_least_squares_the_slope_of_the_loss(distance, corner):
 @given(seed=st.integers(0, 1000))
 def test_the_cost_never_rises_and_it_settles(seed):
     scene = plane_scene(np.random.default_rng(seed), count=200, outlier_ratio=0.3, sigma=0.01)
-    states = list(huber_fit(scene.p, PLANE, corner=0.03, max_iterations=300))
+    states = list(reweighted_fit(scene.p, PLANE, HUBER, corner=0.03, max_iterations=300))
     assert (np.diff([state.cost for state in states]) <= 1e-9).all()
     assert states[-1].stop is Settled.CONVERGED
     assert states[-1].stop.message
@@ -32,7 +32,7 @@ def test_the_cost_never_rises_and_it_settles(seed):
 
 def test_it_ends_at_the_minimum_of_hubers_loss():
     scene = line_scene(np.random.default_rng(1), count=100, outlier_ratio=0.2, sigma=0.02)
-    *_, end = huber_fit(scene.p, LINE, corner=0.04, tolerance=1e-8, max_iterations=500)
+    *_, end = reweighted_fit(scene.p, LINE, HUBER, corner=0.04, tolerance=1e-8, max_iterations=500)
 
     def cost(x):
         line = np.array([np.cos(x[0]), np.sin(x[0]), x[1]])
@@ -45,7 +45,7 @@ def test_it_ends_at_the_minimum_of_hubers_loss():
 
 def test_without_outliers_it_stays_at_least_squares():
     scene = plane_scene(np.random.default_rng(2), count=200, outlier_ratio=0.0, sigma=0.01)
-    *_, end = huber_fit(scene.p, PLANE, corner=1.0)
+    *_, end = reweighted_fit(scene.p, PLANE, HUBER, corner=1.0)
     assert end.iteration == 1
     np.testing.assert_allclose(end.estimate, PLANE.refit(scene.p), atol=1e-12)
 
@@ -54,7 +54,7 @@ def test_huber_lies_between_least_squares_and_a_fit_to_the_inliers():
     errors = []
     for seed in range(10):
         scene = plane_scene(np.random.default_rng(seed), count=400, outlier_ratio=0.3, sigma=0.01)
-        *_, end = huber_fit(scene.p, PLANE, corner=0.02)
+        *_, end = reweighted_fit(scene.p, PLANE, HUBER, corner=0.02)
         fits = PLANE.refit(scene.p), end.estimate, PLANE.refit(scene.p[scene.is_inlier])
         errors.append([rms_distance(PLANE, fit, scene.p_true) for fit in fits])
     squares, huber, clean = np.median(errors, axis=0)
@@ -63,5 +63,34 @@ def test_huber_lies_between_least_squares_and_a_fit_to_the_inliers():
 
 def test_one_round_only_says_so():
     scene = plane_scene(np.random.default_rng(0), count=200, outlier_ratio=0.5, sigma=0.01)
-    *_, end = huber_fit(scene.p, PLANE, corner=0.02, max_iterations=1)
+    *_, end = reweighted_fit(scene.p, PLANE, HUBER, corner=0.02, max_iterations=1)
     assert end.stop is Settled.MAX_ITERATIONS
+
+
+@pytest.mark.parametrize("loss", LOSSES.values(), ids=LOSSES)
+@settings(max_examples=25, deadline=None)
+@given(distance=st.floats(-10, 10), corner=st.floats(0.05, 5))
+def test_all_weights_are_slopes_divided_by_distances(loss, distance, corner):
+    r, h = np.array([distance]), 1e-5
+    slope = (loss.cost(r + h, corner) - loss.cost(r - h, corner)) / (2 * h)
+    np.testing.assert_allclose(loss.weights(r, corner) * r, slope, atol=1e-4)
+
+
+@pytest.mark.parametrize("loss", LOSSES.values(), ids=LOSSES)
+def test_efficient_corners_cost_five_per_cent(loss):
+    """Asymptotic efficiency at normal errors, (E ψ')² / E ψ², by sums; Holland and Welsch 1977, table 1."""
+    x = np.linspace(-8, 8, 20_001)
+    density = np.exp(-(x**2) / 2) / np.sqrt(2 * np.pi) * (x[1] - x[0])
+    corner = loss.efficient_corner if np.isfinite(loss.efficient_corner) else 1.0
+    pull = loss.weights(x, corner) * x
+    efficiency = (pull * x * density).sum() ** 2 / (pull**2 * density).sum()
+    assert efficiency == pytest.approx(1.0 if loss.name == "squares" else 0.95, abs=2e-4)
+
+
+def test_tukey_ends_where_it_starts():
+    scene = plane_scene(np.random.default_rng(0), count=300, outlier_ratio=0.5, sigma=0.01)
+    errors = []
+    for start in (None, PLANE.refit(scene.p[scene.is_inlier])):
+        *_, end = reweighted_fit(scene.p, PLANE, LOSSES["Tukey"], corner=0.05, start=start)
+        errors.append(rms_distance(PLANE, end.estimate, scene.p_true))
+    assert errors[1] < 0.005 < 0.05 < errors[0]

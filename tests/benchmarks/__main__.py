@@ -23,7 +23,7 @@ ROOT = FOLDER.parents[1]
 OURS = ("numpy", "scipy", "viser", "rerun-sdk", "trimesh", "scikit-image")
 PEERS = (
     "open3d", "small-gicp", "opencv-python-headless", "opencv-python", "libigl", "pyvista", "lapy", "pot", "pykdtree",
-    "poselib", "pycolmap",
+    "poselib", "pycolmap", "scikit-fmm", "potpourri3d", "geomdl", "circle-fit", "scikit-learn", "astropy", "pyproj",
 )  # fmt: skip
 LONGEST = 1800.0
 """Seconds until a benchmark is given up."""

@@ -14,8 +14,14 @@ import pytest
 from PIL import Image
 
 from workbench.data import arrays, files, formats
+from workbench.data.corners import read_corners
+from workbench.data.edge_lists import read_edges
 from workbench.data.files import read_cloud, read_image, read_mesh, read_pose
+from workbench.data.flat_points import read_flat_or_cloud
+from workbench.data.intrinsics import read_intrinsics
 from workbench.data.matches import read_matches
+from workbench.data.places import read_places
+from workbench.data.sightings import read_sightings
 from workbench.errors import InputError
 
 READERS: dict[str, Callable] = {"cloud": read_cloud, "matches": read_matches}
@@ -35,6 +41,36 @@ def refused(read: Callable, path: Path, said: str) -> None:
     with pytest.raises(InputError, match=said) as caught:
         read(path)
     assert str(caught.value).isprintable()
+
+
+TEXTS = (
+    "", "\n\n", ",,\n", ";;\n,,\n", "# nothing\n", "x y z u v\n", "a,b\n;\n", "1\n", "1 2 3 4 5 6 7 8 9 10 11\n",
+    "nan nan nan nan nan\n" * 9, "1e999 2 3 4 5\n" * 9, ",,\n1 2\n,,\n", "view\n", "\x00\x00\x00\n", "1,2;3\t4 5\n" * 3,
+)  # fmt: skip
+TEXT_READERS: dict[str, Callable] = {
+    "cloud": read_cloud,
+    "corners": read_corners,
+    "edges": lambda path: read_edges(path, 100),
+    "flat points": read_flat_or_cloud,
+    "intrinsics": read_intrinsics,
+    "matches": read_matches,
+    "places": read_places,
+    "sightings": read_sightings,
+}
+
+
+@pytest.mark.parametrize("reader", TEXT_READERS)
+def test_text_that_is_no_table_is_refused_in_one_line(tmp_path, reader):
+    for k, text in enumerate(TEXTS):
+        path = tmp_path / f"own{k}.csv"
+        path.write_text(text, encoding="utf-8")
+        said = path.name
+        try:
+            TEXT_READERS[reader](path)
+        except InputError as error:
+            said = str(error)
+        assert said.isprintable(), text
+        assert path.name in said, text
 
 
 @pytest.mark.parametrize("reader", READERS)

@@ -5,11 +5,14 @@ from hypothesis import strategies as st
 
 from workbench.data.robust import match_scene
 from workbench.geometry.epipolar import (
+    epipolar_constraints,
     epipolar_lines,
+    epipoles,
     fit_fundamental,
     fundamental_from_cameras,
     fundamentals_from_seven,
     orientation_agrees,
+    rank_two,
     real_cubic_roots,
     refine_fundamental,
     sampson_distances,
@@ -201,3 +204,34 @@ def test_the_real_pair_of_photographs_fits_its_truth(shared_data):
     x1, x2 = pair["x1"].astype(float), pair["x2"].astype(float)
     distances = np.abs(sampson_distances(pair["F"], x1, x2))
     assert np.count_nonzero(distances < 1.0) == 1365
+
+
+def test_the_equations_hold_and_rank_two_is_the_nearest():
+    F, uv_first, uv_second = views(4, 12)
+    rows = epipolar_constraints(homogeneous(uv_first), homogeneous(uv_second))
+    np.testing.assert_allclose(
+        rows @ F.ravel(), (homogeneous(uv_second) * (homogeneous(uv_first) @ F.T)).sum(1), atol=1e-6
+    )
+    G = np.random.default_rng(0).normal(size=(3, 3))
+    near = rank_two(G)
+    assert np.linalg.svd(near)[1][2] < 1e-12
+    assert np.linalg.norm(G - near) == pytest.approx(np.linalg.svd(G)[1][2])
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds)
+def test_all_lines_go_through_the_epipoles(seed):
+    F, uv_first, uv_second = views(seed, 9)
+    first, second = epipoles(F)
+    np.testing.assert_allclose(epipolar_lines(F, uv_first) @ second, 0.0, atol=1e-6)
+    np.testing.assert_allclose(epipolar_lines(F.T, uv_second) @ first, 0.0, atol=1e-6)
+
+
+def test_opencv_solves_eight_points_alike():
+    cv2 = pytest.importorskip("cv2")
+    for seed in range(3):
+        _, uv_first, uv_second = views(seed, 40, sigma=1.0)
+        theirs, _ = cv2.findFundamentalMat(uv_first, uv_second, cv2.FM_8POINT)
+        theirs /= np.linalg.norm(theirs)
+        ours = fit_fundamental(uv_first, uv_second)
+        same_up_to_sign(theirs, ours, 1e-8)

@@ -19,6 +19,7 @@ from workbench.geometry.motions import (
     rotation_angle,
     skew,
     turn_about,
+    turns,
 )
 
 DIRECTIONS = arrays(float, 3, elements=st.floats(-1, 1)).filter(lambda v: np.linalg.norm(v) > 0.1)
@@ -128,3 +129,8 @@ def test_the_angle_between_vectors_does_not_depend_on_their_lengths(turn, length
     v, w = np.array([2.0, 0.0, 0.0]), length * np.array([np.cos(turn), 0.0, np.sin(turn)])
     assert angle_between(v, w) == pytest.approx(turn, abs=1e-12)
     assert angle_between(v, np.zeros(3)) == 0
+
+
+def test_turns_are_those_of_one():
+    w = np.random.default_rng(0).normal(size=(6, 3)) * [[0], [1e-9], [1e-3], [1], [2], [3]]
+    np.testing.assert_allclose(turns(w), [exp_so3(one) for one in w], atol=1e-14)

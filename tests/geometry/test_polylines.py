@@ -3,7 +3,16 @@
 import numpy as np
 import pytest
 
-from workbench.geometry.polylines import between, circle, fan, rectangle, segments, sphere_rings
+from workbench.geometry.polylines import (
+    between,
+    circle,
+    cylinder_rings,
+    fan,
+    near_arc,
+    rectangle,
+    segments,
+    sphere_rings,
+)
 
 
 @pytest.mark.parametrize("closed", [False, True])
@@ -56,3 +65,22 @@ def test_the_rings_of_a_sphere_lie_on_it():
     ends = sphere_rings(centre, 0.7, 16)
     assert ends.shape == (5 * 16, 2, 3)
     np.testing.assert_allclose(np.linalg.norm(ends - centre, axis=-1), 0.7, atol=1e-12)
+
+
+@pytest.mark.parametrize("circle_", [[0.3, -0.2, 0.8], [0.3, -0.2, -0.8], [4000.0, 300.0, 4010.0]])
+def test_an_arc_lies_on_its_circle_and_passes_the_origin_nearest(circle_):
+    c = np.array(circle_)
+    p = near_arc(c, 4.0)
+    np.testing.assert_allclose(np.linalg.norm(p - c[:2], axis=1), abs(c[2]))
+    nearest = abs(np.linalg.norm(c[:2]) - abs(c[2]))
+    assert np.linalg.norm(p, axis=1).min() == pytest.approx(nearest, abs=1e-3)
+    length = np.linalg.norm(np.diff(p, axis=0), axis=1).sum()
+    assert length == pytest.approx(min(2 * np.pi * abs(c[2]), 8.0), rel=1e-3)
+
+
+def test_rings_of_a_cylinder_lie_on_it():
+    turn = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
+    p_axis = np.array([1.0, 2.0, 3.0])
+    p = (cylinder_rings(p_axis, turn, 0.5).reshape(-1, 3) - p_axis) @ turn
+    np.testing.assert_allclose(np.hypot(p[:, 0], p[:, 1]), 0.5)
+    assert np.ptp(p[:, 2]) == pytest.approx(1.0)

@@ -1,6 +1,6 @@
-"""Huber's fit: it uses all points at once, and trusts each by its distance."""
+"""Robust fits: they use all points at once, and trust each by its distance."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 
@@ -28,11 +28,11 @@ class Reweighted:
     """One iteration of a reweighted fit.
 
     Attributes:
-        iteration: 0 is the plain least-squares fit.
+        iteration: 0 is where it starts: the plain least-squares fit, if nothing else was given.
         estimate: The parameters.
         distances: Of each row to it, in the unit of the model.
         weights: How much each row's squared distance counted in this fit.
-        cost: The sum of Huber's loss at these distances.
+        cost: The sum of the loss at these distances.
         stop: Why this is the last state, or None.
     """
 
@@ -49,46 +49,106 @@ def huber_loss(distances: Float[np.ndarray, " n"], corner: float) -> Float[np.nd
 
     Reference: Huber, Robust estimation of a location parameter, 1964.
     """
-    return np.where(distances <= corner, 0.5 * distances**2, corner * (distances - 0.5 * corner))
+    far = np.abs(distances)
+    return np.where(far <= corner, 0.5 * distances**2, corner * (far - 0.5 * corner))
 
 
 def huber_weights(distances: Float[np.ndarray, " n"], corner: float) -> Float[np.ndarray, " n"]:
-    """Return the weights that give least squares the slope of Huber's loss: 1 up to the corner, then corner / distance."""
-    return corner / np.maximum(distances, corner)
+    """Return the weights that give least squares the slope of Huber's loss: 1 up to the corner, then corner / |distance|."""
+    return corner / np.maximum(np.abs(distances), corner)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Loss:
+    """What a distance costs.
+
+    Attributes:
+        name: Whose it is.
+        efficient_corner: In standard deviations of the noise: where the corner costs 5 % of the points when all are good.
+        cost: From distances of either sign and a corner the loss of each.
+        weights: Likewise the weights that give least squares its slope: slope / distance.
+    """
+
+    name: str
+    efficient_corner: float
+    cost: Callable[[np.ndarray, float], np.ndarray]
+    weights: Callable[[np.ndarray, float], np.ndarray]
+
+
+def _tukey_cost(distances: np.ndarray, corner: float) -> np.ndarray:
+    return corner**2 / 6.0 * (1.0 - np.maximum(1.0 - np.square(distances / corner), 0.0) ** 3)
+
+
+SQUARES = Loss(
+    name="squares",
+    efficient_corner=np.inf,
+    cost=lambda distances, corner: 0.5 * np.square(distances),
+    weights=lambda distances, corner: np.ones(len(distances)),
+)
+HUBER = Loss(name="Huber", efficient_corner=1.345, cost=huber_loss, weights=huber_weights)
+CAUCHY = Loss(
+    name="Cauchy",
+    efficient_corner=2.385,
+    cost=lambda distances, corner: 0.5 * corner**2 * np.log1p(np.square(distances / corner)),
+    weights=lambda distances, corner: 1.0 / (1.0 + np.square(distances / corner)),
+)
+GEMAN_MCCLURE = Loss(
+    name="Geman-McClure",
+    efficient_corner=3.787,
+    cost=lambda distances, corner: 0.5 * np.square(distances) / (1.0 + np.square(distances / corner)),
+    weights=lambda distances, corner: 1.0 / np.square(1.0 + np.square(distances / corner)),
+)
+TUKEY = Loss(
+    name="Tukey",
+    efficient_corner=4.685,
+    cost=_tukey_cost,
+    weights=lambda distances, corner: np.square(np.maximum(1.0 - np.square(distances / corner), 0.0)),
+)
+LOSSES = {loss.name: loss for loss in (SQUARES, HUBER, CAUCHY, GEMAN_MCCLURE, TUKEY)}
 
 
 @traced
-def huber_fit(
-    p: Float[np.ndarray, "n d"], model: Model, *, corner: float, max_iterations: int = 50, tolerance: float = 1e-4
+def reweighted_fit(
+    p: Float[np.ndarray, "n d"],
+    model: Model,
+    loss: Loss,
+    *,
+    corner: float,
+    start: Float[np.ndarray, "..."] | None = None,
+    max_iterations: int = 50,
+    tolerance: float = 1e-4,
 ) -> Iterator[Reweighted]:
-    """Yield the iterations of Huber's robust fit by iteratively reweighted least squares, from the plain fit on.
+    """Yield the iterations of a robust fit by iteratively reweighted least squares.
 
     Args:
         p: The rows: points, or matches.
         model: What to fit.
-        corner: The distance from which the loss grows linearly, in the unit of the model's distances.
+        loss: What a distance costs.
+        corner: The distance from which the loss grows less than the square, in the unit of the model's distances.
+        start: Where to start; the plain fit to all rows if None.
         max_iterations: Reweighted fits at most.
         tolerance: Converged when no distance changes by more than this share of the corner.
 
     Raises:
-        ValueError: If there are too few rows for the model's refit.
+        ValueError: If there are too few rows for the model's refit, or too few of them keep a weight.
 
     Note:
-        A far outlier pulls with the same force as one at the corner, but it does pull: many on one side win.
+        Under Huber's loss a far outlier pulls with the same force as one at the corner, but it does pull: many on one side
+        win. Losses whose slope returns to 0 have several minima: where they start decides.
     Reference: Holland and Welsch, Robust regression using iteratively reweighted least-squares, 1977.
     """
     weights = np.ones(len(p))
-    estimate = model.refit(p, weights)
+    estimate = model.refit(p, weights) if start is None else start
     distances = model.distances(estimate, p)
-    yield Reweighted(0, estimate, distances, weights, float(huber_loss(distances, corner).sum()))
+    yield Reweighted(0, estimate, distances, weights, float(loss.cost(distances, corner).sum()))
 
     for iteration in range(1, max_iterations + 1):
-        weights = huber_weights(distances, corner)
+        weights = loss.weights(distances, corner)
         estimate = model.refit(p, weights, estimate)
         before, distances = distances, model.distances(estimate, p)
         stop = Settled.MAX_ITERATIONS if iteration == max_iterations else None
         if np.abs(distances - before).max() <= tolerance * corner:
             stop = Settled.CONVERGED
-        yield Reweighted(iteration, estimate, distances, weights, float(huber_loss(distances, corner).sum()), stop)
+        yield Reweighted(iteration, estimate, distances, weights, float(loss.cost(distances, corner).sum()), stop)
         if stop:
             return

@@ -127,7 +127,8 @@ def the_examples_are_true(subject: Subject, exercise: Exercise) -> Found:
         for function in (exercise.reference, *exercise.alternatives):
             try:
                 value, told = eval(call, known | {exercise.name: function}), eval(result, known)
-                true = np.allclose(value, told, atol=5e-4, rtol=5e-4, equal_nan=True)
+                parts = zip(value, told, strict=True) if isinstance(told, tuple) else [(value, told)]
+                true = all(np.allclose(one, wanted, atol=5e-4, rtol=5e-4, equal_nan=True) for one, wanted in parts)
                 said = f"is {' '.join(str(value).split())} by {function.__name__}, and the example says {result}"
             except Exception as error:
                 true, said = False, f"raises {type(error).__name__}: {error}"

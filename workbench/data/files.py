@@ -13,7 +13,7 @@ import scipy
 from jaxtyping import Float, Int, Shaped, UInt8
 
 from workbench.data.arrays import read_arrays
-from workbench.data.formats import mesh_error, obj_points, pcd_points, ply_points, text_points
+from workbench.data.formats import is_number, mesh_error, obj_points, pcd_points, ply_points, text_points, words_of
 from workbench.errors import InputError
 from workbench.geometry.motions import inverse, motion
 
@@ -279,6 +279,26 @@ def text_rows(path: Path, what: str, kinds: tuple[str, ...], comments: str = "#"
     except UnicodeDecodeError:
         raise InputError(f"{path.name}: not UTF-8 text") from None
     return [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] not in comments]
+
+
+def word_rows(path: Path, what: str, kinds: tuple[str, ...]) -> list[tuple[int, list[str]]]:
+    """Return the words of each line of a text file with its number, as `text_rows` does; none without a word.
+
+    Args:
+        path: The file.
+        what: What is read from it, for a refusal.
+        kinds: The endings that its name may have, in lower case.
+
+    Raises:
+        InputError: If it is no file, too large, of another kind, or no UTF-8.
+    """
+    return [(i, words) for i, line in text_rows(path, what, kinds) if (words := words_of(line))]
+
+
+def number_rows(path: Path, what: str, kinds: tuple[str, ...]) -> list[tuple[int, list[str]]]:
+    """Return what `word_rows` does, without a first line of names: one that begins with no number."""
+    rows = word_rows(path, what, kinds)
+    return rows[bool(rows) and not is_number(rows[0][1][0]) :]
 
 
 def stamp(path: Path) -> tuple[int, int]:

@@ -244,6 +244,11 @@ def is_number(word: str) -> bool:
     return True
 
 
+def words_of(line: str) -> list[str]:
+    """Return the words of a line: between commas, semicolons, tabs or spaces."""
+    return line.replace(",", " ").replace(";", " ").split()
+
+
 def _table(body: bytes, fields: list, n: int, name: str) -> np.ndarray:
     record = np.dtype(fields)
     _need_all(len(body) // record.itemsize, n, name)

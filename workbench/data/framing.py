@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.errors import InputError
-from workbench.geometry.motions import apply, exp_so3, motion
+from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
 Unit = Literal["m", "cm", "mm", "km"]
 METRES: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0}
@@ -56,6 +56,11 @@ class Frame:
         A_world = R @ A @ R.T
         moved = self.scale * R @ (apply(T, self.centre) - self.centre)
         return motion(A_world, moved + self.offset - A_world @ self.offset)
+
+    def shown_camera(self, T_camera_file: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
+        """Return where a camera that sees points of the file stands in the picture, and how it is turned."""
+        T_file_camera = inverse(T_camera_file)
+        return motion(self.R_world_file @ T_file_camera[:3, :3], self.shown(T_file_camera[:3, 3]))
 
     def standing(self, p_file: Float[np.ndarray, "n 3"], floor: float = 0.0) -> "Frame":
         """Return the frame raised or lowered until the lowest of these points stands at the height `floor`."""

@@ -7,8 +7,10 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.data.arrays import read_arrays
-from workbench.data.formats import is_number
+from workbench.data.formats import is_number, words_of
+from workbench.data.intrinsics import checked_intrinsics
 from workbench.errors import InputError
+from workbench.geometry.motions import motion
 
 MOST_BYTES = 100 * 10**6
 _FIRST, _SECOND = ("x1", "uv1", "p1", "first"), ("x2", "uv2", "p2", "second")
@@ -24,19 +26,26 @@ class Matches:
         quality: How much each is trusted, more is better; None where the file does not say.
         H: The true homography, first to second, where the file has one.
         F: The true fundamental matrix, `uv_second_h.T @ F @ uv_first_h = 0`, where the file has one.
+        K_first: Intrinsics of the first camera, where the file has them.
+        K_second: Those of the second.
+        T_second_first: The true motion between the cameras, where the file has one; its length means nothing.
     """
 
     p: Float[np.ndarray, "n 4"]
     quality: Float[np.ndarray, " n"] | None
     H: Float[np.ndarray, "3 3"] | None
     F: Float[np.ndarray, "3 3"] | None
+    K_first: Float[np.ndarray, "3 3"] | None = None
+    K_second: Float[np.ndarray, "3 3"] | None = None
+    T_second_first: Float[np.ndarray, "4 4"] | None = None
 
 
 def read_matches(path: Path, fewest: int = 4) -> Matches:
     """Return the matches of a file.
 
-    Formats: npz with arrays x1 and x2 (n, 2), or matches (n, 4), and optionally quality (n,), H and F (3, 3); or text with
-    four numbers a line, u v u' v', separated by commas or white space, and optionally a quality as the fifth.
+    Formats: npz with arrays x1 and x2 (n, 2), or matches (n, 4), and optionally quality (n,), H, F, K or K1 and K2 (3, 3),
+    R (or R_rel) and t (or t_rel) from the first camera to the second; or text with four numbers a line, u v u' v', separated
+    by commas or white space, and optionally a quality as the fifth.
 
     Raises:
         InputError: If the file is missing, too large, not understood, holds NaN, or has fewer than `fewest` matches.
@@ -75,16 +84,21 @@ def _from_arrays(path: Path) -> Matches:
         raise InputError(
             f"{path.name}: quality is {quality.dtype} {quality.shape}, where ({len(p)},) numbers are wanted"
         )
+    K_first, K_second = (_camera(path, arrays, name) for name in ("K1", "K2"))
     return Matches(
-        p, None if quality is None else quality.astype(float), _truth(path, arrays, "H"), _truth(path, arrays, "F")
+        p=p,
+        quality=None if quality is None else quality.astype(float),
+        H=_scaled(_truth(path, arrays, ("H",))),
+        F=_scaled(_truth(path, arrays, ("F",))),
+        K_first=K_first,
+        K_second=K_first if K_second is None else K_second,
+        T_second_first=_motion(path, arrays),
     )
 
 
 def _from_text(path: Path) -> Matches:
     lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-    kept = [
-        line.replace(",", " ").replace(";", " ").split() for line in lines if line.strip() and line.strip()[0] != "#"
-    ]
+    kept = [words for line in lines if line.strip()[:1] != "#" and (words := words_of(line))]
     if kept and not is_number(kept[0][0]):
         kept = kept[1:]  # a line of names
     widths = {len(words) for words in kept}
@@ -109,10 +123,31 @@ def _rows(path: Path, array: np.ndarray, columns: int) -> np.ndarray:
     return array.astype(float)
 
 
-def _truth(path: Path, arrays: dict[str, np.ndarray], name: str) -> np.ndarray | None:
-    if name not in arrays:
+def _truth(
+    path: Path, arrays: dict[str, np.ndarray], names: tuple[str, ...], shape: tuple[int, ...] = (3, 3)
+) -> np.ndarray | None:
+    matrix = _named(arrays, names)
+    if matrix is None:
         return None
-    matrix = arrays[name]
-    if matrix.shape != (3, 3) or matrix.dtype.kind not in "fiu" or not np.isfinite(matrix).all() or not matrix.any():
-        raise InputError(f"{path.name}: {name} is no 3 x 3 matrix of finite numbers")
-    return matrix / np.linalg.norm(matrix)
+    if matrix.shape != shape or matrix.dtype.kind not in "fiu" or not np.isfinite(matrix).all() or not matrix.any():
+        what = "3 x 3 matrix of finite numbers" if shape == (3, 3) else "vector of 3 finite numbers"
+        raise InputError(f"{path.name}: {names[0]} is no {what}")
+    return matrix.astype(float)
+
+
+def _scaled(matrix: np.ndarray | None) -> np.ndarray | None:
+    return None if matrix is None else matrix / np.linalg.norm(matrix)
+
+
+def _camera(path: Path, arrays: dict[str, np.ndarray], name: str) -> np.ndarray | None:
+    K = _truth(path, arrays, (name, "K"))
+    return None if K is None else checked_intrinsics(K, f"{path.name}: {name} is")
+
+
+def _motion(path: Path, arrays: dict[str, np.ndarray]) -> np.ndarray | None:
+    R, t = _truth(path, arrays, ("R", "R_rel")), _truth(path, arrays, ("t", "t_rel"), (3,))
+    if R is None or t is None:
+        return None
+    if np.abs(R @ R.T - np.eye(3)).max() > 1e-3 or np.linalg.det(R) < 0:
+        raise InputError(f"{path.name}: R is no rotation")
+    return motion(R, t)

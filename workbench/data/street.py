@@ -6,8 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int, UInt8
 
+from workbench.geometry.raster import MeshItem, SegmentItem
+
 RAIL_HALF_GAUGE = 0.75
 RAIL_END = 60.0
+RAIL_COLOR = (110, 118, 129)
 SUN = np.array([0.35, -0.55, 0.76])  # unit direction towards the light
 BALL_CENTER = np.array([2.2, 5.0, 0.6])
 BALL_RADIUS = 0.6
@@ -72,6 +75,14 @@ def street() -> Street:
     balls = [solids[name].p_world[::40] for name in ("ball", "far ball")]
     points = np.concatenate([list(named.values()), crate[0], tower[0], house[0], roof[0], along, *balls])
     return Street(solids, rails, edges, points, tuple(named))
+
+
+@functools.cache
+def street_items() -> tuple[MeshItem | SegmentItem, ...]:
+    """Return what `workbench.geometry.raster.render` takes to make a photograph of the street."""
+    scene = street()
+    meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids.values()]
+    return (*meshes, SegmentItem(scene.rails, np.tile(np.array(RAIL_COLOR, np.uint8), (2, 1)), 2))
 
 
 Mesh = tuple[np.ndarray, np.ndarray]

@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from workbench.errors import InputError
+from workbench.geometry.motions import across
 
 # Beyond a quarter of a cell, jitter could turn a triangle over.
 MOST_JITTER = 0.25
@@ -51,8 +52,7 @@ def sphere(count: int, radius: float = 1.0, *, jitter: float = 0.0, rng: np.rand
         spacing = np.sqrt(4 * np.pi / len(normals))
         normals = _unit(normals + jitter * spacing * _rng(rng).uniform(-1, 1, normals.shape))
     k = np.full(len(normals), 1 / radius)
-    tangent = _unit(np.cross(normals, np.eye(3)[np.argmin(np.abs(normals), axis=1)]))
-    return Surface(radius * normals, faces, normals, k, k, tangent)
+    return Surface(radius * normals, faces, normals, k, k, across(normals)[0])
 
 
 def torus(

@@ -171,13 +171,18 @@ def point_to_plane_step(
     return motion(R, centre + x[3:] - R @ centre)
 
 
-def nearest_rotation(A: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
+def nearest_rotation(A: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 3 3"]:
     """Return the rotation nearest to a matrix in the least-squares sense: the turn that a similarity or affine map holds.
+
+    Args:
+        A: One matrix or several.
 
     Note:
         A matrix of rank below 2 leaves the answer open; any one of them is returned.
     """
-    return _rotation(A)[0]
+    U, _, Vt = np.linalg.svd(A)
+    U[..., 2] *= np.sign(np.linalg.det(U) * np.linalg.det(Vt))[..., None]  # no reflection
+    return U @ Vt
 
 
 def degrees_between(T: Float[np.ndarray, "n n"], other: Float[np.ndarray, "n n"]) -> float:

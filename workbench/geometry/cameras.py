@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from workbench.geometry.distortion import NONE, Distortion, bend, chunks, invertible_radius, undistort
-from workbench.geometry.motions import apply, inverse, motion
+from workbench.geometry.motions import across, apply, inverse, motion
 
 OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
 """Takes points of an OpenCV camera frame to the OpenGL frame of the same camera (+Y up, looking along -Z)."""
@@ -392,9 +392,8 @@ def sphere_outline(
     if not distance > radius:
         raise ValueError(f"the camera is inside the sphere: distance {distance:.3g} m, radius {radius:.3g} m")
     n_axis = v_center / distance
-    n_side = np.cross(n_axis, np.eye(3)[np.argmin(np.abs(n_axis))])
-    n_side /= np.linalg.norm(n_side)
+    n_side, n_up = across(n_axis)
     angle = np.linspace(0.0, 2.0 * np.pi, n, endpoint=False)
-    circle = np.cos(angle)[:, None] * n_side + np.sin(angle)[:, None] * np.cross(n_axis, n_side)
+    circle = np.cos(angle)[:, None] * n_side + np.sin(angle)[:, None] * n_up
     cosine = math.sqrt(1.0 - (radius / distance) ** 2)
     return p_world_center - radius * radius / distance * n_axis + radius * cosine * circle

@@ -72,13 +72,31 @@ def fit_sphere(
         start = np.append(start[:-1] - origin, start[-1])
 
     def linearise(sphere: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        v = q - sphere[:-1]
-        length = np.sqrt(np.square(v).sum(1))
-        slopes = -v / np.where(length > 0.0, length, np.inf)[:, None]
-        return root * (length - sphere[-1]), root[:, None] * np.column_stack([slopes, -np.ones(len(q))])
+        residuals, jacobian = linearise_sphere(sphere, q)
+        return root * residuals, root[:, None] * jacobian
 
     sphere = levenberg_marquardt(linearise, np.add, start)
     return np.append(sphere[:-1] + origin, abs(sphere[-1]))
+
+
+def linearise_sphere(
+    sphere: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "*m n d"]
+) -> tuple[Float[np.ndarray, "*r n"], Float[np.ndarray, "*r n c"]]:
+    """Return the signed distances of points from a circle or sphere, metres, and their slopes by its centre and radius.
+
+    Moving the centre by a small v brings a point nearer by what v has along the way from the centre to the point; a larger
+    radius brings all nearer alike. A point at the centre has no such way: its slopes by the centre are 0.
+
+    Args:
+        sphere: One or several, each the centre and then the radius.
+        p: The points, the same for all of them or a set for each.
+
+    Reference: Gander, Golub and Strebel, Least-squares fitting of circles and ellipses, 1994, section 3.
+    """
+    v = p - sphere[..., None, :-1]
+    length = np.sqrt(np.square(v).sum(-1))
+    slopes = -v / np.where(length > 0.0, length, np.inf)[..., None]
+    return length - sphere[..., -1:], np.concatenate([slopes, np.full((*length.shape, 1), -1.0)], axis=-1)
 
 
 def sphere_distances(sphere: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "*k n"]:

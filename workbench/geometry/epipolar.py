@@ -166,13 +166,48 @@ def fit_fundamental(
     if len(uv_first) < 8 or len(uv_first) != len(uv_second):
         raise ValueError(f"eight points need at least 8 pairs of pixels, got {uv_first.shape} and {uv_second.shape}")
     T_first, T_second = normalising_similarity(uv_first), normalising_similarity(uv_second)
-    x, y = homogeneous(uv_first) @ T_first.T, homogeneous(uv_second) @ T_second.T
-    constraints = (y[:, :, None] * x[:, None, :]).reshape(-1, 9)
+    constraints = epipolar_constraints(homogeneous(uv_first) @ T_first.T, homogeneous(uv_second) @ T_second.T)
     if weights is not None:
         constraints = constraints * np.sqrt(weights)[:, None]
-    U, s, Vt = np.linalg.svd(null_vector(constraints).reshape(3, 3))
-    F = T_second.T @ (U[:, :2] * s[:2]) @ Vt[:2] @ T_first
+    F = T_second.T @ rank_two(null_vector(constraints).reshape(3, 3)) @ T_first
     return F / np.linalg.norm(F)
+
+
+def epipolar_constraints(x_h: Float[np.ndarray, "n 3"], y_h: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 9"]:
+    """Return one row per match whose product with F, row by row, is y' F x: the equations of the eight-point algorithm.
+
+    Args:
+        x_h: Homogeneous points of the first image.
+        y_h: Their matches in the second.
+
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 11.3.
+    """
+    return (y_h[:, :, None] * x_h[:, None, :]).reshape(-1, 9)
+
+
+def rank_two(F: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
+    """Return the nearest matrix of rank two: the smallest singular value dropped, so that all lines meet in one point.
+
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 11.1.1.
+    """
+    U, s, Vt = np.linalg.svd(F)
+    return (U[:, :2] * s[:2]) @ Vt[:2]
+
+
+def epipoles(F: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
+    """Return the epipoles (u, v, w) in the first and in the second image, unit vectors: F e = 0 and F' e' = 0.
+
+    Each is the picture of the other camera's centre. Where w is 0 it lies at infinity, and the lines are parallel.
+
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.2.4.
+
+    Examples:
+        >>> first, second = epipoles(np.array([[0.0, -1.0, 5.0], [1.0, 0.0, -3.0], [-5.0, 3.0, 0.0]]))
+        >>> (first / first[2]).round(9).tolist()
+        [3.0, 5.0, 1.0]
+    """
+    U, _, Vt = np.linalg.svd(F)
+    return Vt[2], U[:, 2]
 
 
 def refine_fundamental(
@@ -203,17 +238,11 @@ def refine_fundamental(
     root = np.ones(len(uv_first)) if weights is None else np.sqrt(weights)
     T = normalising_similarity(np.concatenate([uv_first, uv_second]))
     x, y = T @ homogeneous(uv_first).T, T @ homogeneous(uv_second).T  # one match per column: sums over rows are quick
-    outer = _outer(y, x)
+    outer = outer_products(y, x)
 
     def linearise(unknown: _Factors) -> tuple[np.ndarray, np.ndarray]:
-        F = _compose(unknown)
-        lines_y, lines_x = F @ x, F.T @ y
-        lines_y[2] = lines_x[2] = 0.0
-        scale = np.sqrt(np.maximum(np.square(lines_y).sum(0) + np.square(lines_x).sum(0), _SMALLEST))
-        residuals = F.ravel() @ outer / scale
-        # The quotient rule: the numerator changes by y x', half the squared scale by l_y x' + y l_x'.
-        by_F = outer - (residuals / scale) * (_outer(lines_y, x) + _outer(y, lines_x))
-        return root * residuals, (_tangent(unknown) @ by_F * (root / scale)).T
+        residuals, by_F = sampson_slopes(_compose(unknown), x, y, outer)
+        return root * residuals, (_tangent(unknown) @ by_F * root).T
 
     def retract(unknown: _Factors, step: np.ndarray) -> _Factors:
         U, V, angle = unknown
@@ -223,6 +252,36 @@ def refine_fundamental(
     U, s, Vt = np.linalg.svd(back.T @ F @ back)
     F = T.T @ _compose(levenberg_marquardt(linearise, retract, (U, Vt.T, np.arctan2(s[1], s[0])), steps=steps)) @ T
     return F / np.linalg.norm(F)
+
+
+def outer_products(y: Float[np.ndarray, "3 n"], x: Float[np.ndarray, "3 n"]) -> Float[np.ndarray, "9 n"]:
+    """Return the products y_i x_j of each column."""
+    return (y[:, None, :] * x[None, :, :]).reshape(9, -1)
+
+
+def sampson_slopes(
+    F: Float[np.ndarray, "3 3"],
+    x: Float[np.ndarray, "3 n"],
+    y: Float[np.ndarray, "3 n"],
+    outer: Float[np.ndarray, "9 n"],
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "9 n"]]:
+    """Return the signed Sampson distances, and how they change with each of the nine entries of F.
+
+    Args:
+        F: A fundamental matrix, of any scale.
+        x: Homogeneous pixels of the first image, one match per column, with last entry 1.
+        y: Their matches in the second.
+        outer: Their `outer_products(y, x)`, which do not change while F does.
+
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 11.9, differentiated.
+    """
+    lines_y, lines_x = F @ x, F.T @ y
+    lines_y[2] = lines_x[2] = 0.0
+    scale = np.sqrt(np.maximum(np.square(lines_y).sum(0) + np.square(lines_x).sum(0), _SMALLEST))
+    residuals = F.ravel() @ outer / scale
+    # The quotient rule: the numerator changes by y x', half the squared scale by l_y x' + y l_x'.
+    by_F = outer - (residuals / scale) * (outer_products(lines_y, x) + outer_products(y, lines_x))
+    return residuals, by_F / scale
 
 
 def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarray, "*k 3"]:
@@ -267,11 +326,6 @@ def _turn(w: np.ndarray) -> np.ndarray:
     """Return a rotation that is `exp(skew(w))` to second order (Cayley's map)."""
     half = skew(0.5 * w)
     return np.eye(3) + (2.0 / (1.0 + 0.25 * (w @ w))) * (half + half @ half)
-
-
-def _outer(y: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Return the products y_i x_j of each column: (9, n)."""
-    return (y[:, None, :] * x[None, :, :]).reshape(9, -1)
 
 
 def _cross(v: np.ndarray, w: np.ndarray) -> np.ndarray:

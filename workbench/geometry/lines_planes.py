@@ -68,6 +68,36 @@ def fit_hyperplane(
     return np.append(normal, -normal @ center)
 
 
+def regression_line(p: Float[np.ndarray, "n 2"], on: int) -> Float[np.ndarray, "3"]:
+    """Return the line whose distances from points along one axis have the least squares: ordinary regression, metres.
+
+    Args:
+        p: Points, not all at one place of the axis that is taken as exact.
+        on: The column that is taken as exact: 0 makes upright distances small (y on x), 1 level ones.
+
+    Note:
+        Errors in that column make the line too flat against its axis, by v / (v + σ²) in the slope, v being the variance of
+        the true values there.
+    Reference: Fuller, Measurement error models, 1987, section 1.1.
+    """
+    q = p - p.mean(axis=0)
+    slope = q[:, on] @ q[:, 1 - on] / (q[:, on] @ q[:, on])
+    normal = np.array([-slope, 1.0]) if on == 0 else np.array([1.0, -slope])
+    normal = normal / np.linalg.norm(normal)
+    return np.append(normal, -normal @ p.mean(axis=0))
+
+
+def line_angle(line: Float[np.ndarray, "3"]) -> float:
+    """Return how steep a line of the plane is, radians above -pi/2 up to pi/2.
+
+    Examples:
+        >>> line_angle(np.array([-1.0, 1.0, 5.0])) / np.pi  # y = x - 5
+        0.25
+    """
+    a, b, _ = line
+    return float(np.arctan2(-a * np.sign(b), abs(b)) if b else np.pi / 2.0)
+
+
 def hyperplane_distances(
     hyperplane: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "n d"]
 ) -> Float[np.ndarray, "*k n"]:

@@ -64,6 +64,14 @@ def angle_between(v: Float[np.ndarray, "3"], w: Float[np.ndarray, "3"]) -> float
     return float(np.arctan2(np.linalg.norm(np.cross(v, w)), v @ w))
 
 
+def across(n: Float[np.ndarray, "*k 3"]) -> tuple[Float[np.ndarray, "*k 3"], Float[np.ndarray, "*k 3"]]:
+    """Return two unit vectors at right angles to a unit vector and to each other."""
+    least = np.eye(3)[np.abs(n).argmin(axis=-1)]
+    u = np.cross(n, least)
+    u = u / np.linalg.norm(u, axis=-1, keepdims=True)
+    return u, np.cross(n, u)
+
+
 def rotation_angle(R: Float[np.ndarray, "3 3"]) -> float:
     """Return the angle of a rotation in [0, pi] radians, exact at both ends.
 
@@ -95,6 +103,19 @@ def exp_so3(w: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
     angle = np.linalg.norm(w)
     W = skew(w)
     return np.eye(3) + _sine_term(angle) * W + _cosine_term(angle) * W @ W
+
+
+def turns(w: Float[np.ndarray, "*k 3"]) -> Float[np.ndarray, "*k 3 3"]:
+    """Return the rotation by |w| radians about each of many rotation vectors, as `exp_so3` for one.
+
+    Args:
+        w: Rotation vectors, radians.
+    """
+    angle = np.sqrt(np.square(w).sum(axis=-1))[..., None, None]
+    W = np.zeros((*w.shape[:-1], 3, 3))
+    W[..., 2, 1], W[..., 0, 2], W[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
+    W -= np.swapaxes(W, -1, -2)
+    return np.eye(3) + np.sinc(angle / np.pi) * W + 0.5 * np.sinc(0.5 * angle / np.pi) ** 2 * (W @ W)
 
 
 def log_so3(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3"]:

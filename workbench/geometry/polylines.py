@@ -47,6 +47,36 @@ def sphere_rings(centre: Float[np.ndarray, "3"], radius: float, pieces: int = 64
     return np.concatenate([segments(centre + radius * ring) for ring in rings])
 
 
+def near_arc(circle: Float[np.ndarray, "3"], reach: float, pieces: int = 96) -> Float[np.ndarray, "n 2"]:
+    """Return the points of a circle (x, y, r), or of a large one the arc nearest to the origin.
+
+    Args:
+        circle: Centre and radius; the sign of the radius does not matter.
+        reach: How long half of the arc is at most.
+        pieces: Segments of it.
+    """
+    radius = max(abs(float(circle[2])), 1e-9)
+    half = min(np.pi, reach / radius)
+    turn = np.arctan2(-circle[1], -circle[0]) + np.linspace(-half, half, pieces + 1)
+    return circle[:2] + radius * np.column_stack([np.cos(turn), np.sin(turn)])
+
+
+def cylinder_rings(
+    p_axis: Float[np.ndarray, "3"], R_world_cylinder: Float[np.ndarray, "3 3"], radius: float
+) -> Float[np.ndarray, "n 2 3"]:
+    """Return three rings of a cylinder and six lines along it, as segments; it is two radii long.
+
+    Args:
+        p_axis: The middle of its axis.
+        R_world_cylinder: Its third column is the axis.
+        radius: Of the cylinder.
+    """
+    ring = radius * circle(48) @ R_world_cylinder[:, :2].T + p_axis
+    up = radius * R_world_cylinder[:, 2]
+    rings = np.concatenate([segments(ring + k * up) for k in (-1.0, 0.0, 1.0)])
+    return np.concatenate([rings, between(ring[::8] - up, ring[::8] + up)])
+
+
 def fan(corners: int) -> np.ndarray:
     """Return the triangles (n - 2, 3) of a convex polygon with so many corners, all from the first."""
     k = np.arange(1, corners - 1)

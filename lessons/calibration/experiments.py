@@ -1,0 +1,184 @@
+"""Experiments with boards, and what to predict before looking."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from lessons.calibration.state import Params, State
+from workbench.lesson import Preset, Question
+from workbench.numerals import fixed, percent, pixels
+
+POSES = 9  # the step of the default run that places the boards
+FLAT = Params(tilt=2.0, seed=3)
+FEW = Params(views=3)
+PINHOLE = Params(lens="none")
+MIDDLE = Params(lens="k1 k2 p1 p2 k3", spread=0.1, distance=0.8)
+BAD = Params(bad_corners=3, seed=1)
+DROPPED = replace(BAD, leave_out=1)
+CAUCHY = replace(BAD, loss="Cauchy")
+STRETCHED = Params(fault="stretched 2 %")
+BENT = Params(fault="bent 1 mm")
+LARGER = Params(fault="2 % larger")
+TWO = Params(views=4)
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "home", "Eight boards", "Closed form, then all together: step through, and read the ± at the end.", Params(), 0
+    ),
+    Preset(
+        "flat", "Boards hardly tilted",
+        "Tilted by 2° only. Watch what becomes of f and, at the end, of its ±: more than 50 px.",
+        FLAT, POSES, breaks=True,
+    ),
+    Preset("few", "Three views", "Few, and of what they say about f less still: look at its ± at the end.", FEW, -1),
+    Preset(
+        "pinhole", "No lens in the model",
+        "K and poses have to take up what the lens does: f goes astray, and arrows in the picture show a pattern.",
+        PINHOLE, -1, breaks=True,
+    ),
+    Preset(
+        "middle", "Corners in the middle only",
+        "Far boards, five terms of the lens: corners fit as well as ever. Towards the border the map is off by thousands"
+        " of pixels.",
+        MIDDLE, -1, breaks=True,
+    ),
+    Preset(
+        "bad", "Three bad corners",
+        "Three corners of view 1 were found 5 px away. The bars tell which view it is.",
+        BAD, -2, breaks=True,
+    ),
+    Preset(
+        "dropped", "The bad view left out", "The same pictures without view 1. Compare f and its ± with before.",
+        DROPPED, -1,
+    ),
+    Preset(
+        "cauchy", "The bad corners hardly pull",
+        "Cauchy's loss instead: view 1 stays, and its good corners count.",
+        CAUCHY, -1,
+    ),
+    Preset(
+        "stretched", "A stretched print",
+        "The printer made x 2 % longer and nobody knows: fx and fy come out over half a per cent apart, though pixels"
+        " are square.",
+        STRETCHED, -1, breaks=True,
+    ),
+    Preset(
+        "bent", "A bowed board",
+        "The middle stands 1 mm nearer than it should. Compare the error of f with its ±.",
+        BENT, POSES, breaks=True,
+    ),
+)  # fmt: skip
+
+
+def f_error(states: Sequence[State]) -> float:
+    """Return how far f is off at the end, px."""
+    now, truth = states[-1].now.K, states[-1].subject.K
+    assert now is not None
+    assert truth is not None
+    return float(now[0, 0] - truth[0, 0])
+
+
+def f_deviation(states: Sequence[State]) -> float:
+    """Return the ± of f at the end, px."""
+    now = states[-1].now.adjustment
+    assert now is not None
+    return float(now.deviations[0])
+
+
+def views_needed(states: Sequence[State]) -> float:
+    """Return after how many views the rows determine B up to its scale: four of five numbers."""
+    for state in states:
+        s = state.now.singular_values
+        if len(s) >= 4 and s[3] > 1e-6 * s[0]:
+            return len(state.now.Hs_image_board)
+    return float("inf")
+
+
+def distance_ratio(states: Sequence[State]) -> float:
+    """Return the length of t as found over the true one, of all views together."""
+    found, true = (Ts[:, :3, 3] for Ts in (states[-1].now.Ts_camera_board, states[-1].subject.Ts_camera_board))
+    return float(np.linalg.norm(found, axis=1).sum() / np.linalg.norm(true, axis=1).sum())
+
+
+def _changed(states: Sequence[State]) -> float:
+    f, t = abs(f_error(states)) > 5.0, abs(distance_ratio(states) - 1) > 0.01
+    return 3.0 if f and t else 0.0 if f else 1.0 if t else 2.0
+
+
+def _closed_forms(states: Sequence[State]) -> str:
+    said = []
+    for state in states:
+        if state.now.phase == "constraints" and state.now.K is not None:
+            said.append(f"{fixed(state.now.K[0, 0], 0)} px with {len(state.now.Hs_image_board)}")
+    return ", ".join(said) or "none"
+
+
+def _flat_answer(states: Sequence[State]) -> float:
+    sigma = states[-1].params.noise
+    return float(np.digitize(states[-1].rms / (np.sqrt(2) * sigma), [1.5, 4.0]))
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        "flat-rms",
+        "Boards are tilted by 2° instead of 30°, all else is the same. What becomes of the rms at the end of the"
+        " calibration?",
+        answer=_flat_answer,
+        why=lambda states: (
+            f"{pixels(states[-1].rms)}, while f is off by {pixels(abs(f_error(states)))} (± {pixels(f_deviation(states))})."
+            " Corners fit because f and the distances make up for each other. The rms measures noise, not knowledge."
+        ),
+        params=FLAT,
+        choices=("about the same", "two or three times as large", "more than ten times as large"),
+    ),
+    Question(
+        "noise-rms",
+        "Each coordinate of each corner has noise of 0.2 px. Lens, camera and poses are estimated without a mistake."
+        " What rms is reported?",
+        answer=lambda states: states[-1].rms,
+        why=lambda states: (
+            f"{pixels(states[-1].rms)}: the rms is that of points, and a point has two coordinates, √2 · 0.2 = 0.283 px. It"
+            f" is a little less, for {6 * len(states[-1].subject.views) + 8} unknowns fit some of the noise too."
+        ),
+        params=Params(),
+        unit="px",
+        tolerance=0.03,
+    ),
+    Question(
+        "views",
+        "The skew is known to be 0. From how many views on, at least, does the closed form determine K?",
+        answer=views_needed,
+        why=lambda states: (
+            f"{fixed(views_needed(states), 0)}: B has five entries, four up to its scale, and each view gives two equations."
+            f" Determined is not known well, for there is no lens in it: f = {_closed_forms(states)} views."
+        ),
+        params=TWO,
+        step=2,
+        tolerance=0.1,
+    ),
+    Question(
+        "larger",
+        "The board was printed 2 % larger than everybody thinks, in both directions. What comes out wrong?",
+        answer=_changed,
+        why=lambda states: (
+            f"f is off by {pixels(abs(f_error(states)))} (± {pixels(f_deviation(states))}), and all distances are"
+            f" {percent(abs(distance_ratio(states) - 1))} too {'short' if distance_ratio(states) < 1 else 'long'}. A picture"
+            " cannot tell a large board from a near one: no unit of length reaches K."
+        ),
+        params=LARGER,
+        choices=("the focal length", "the distances to the boards", "nothing", "both of them"),
+    ),
+    Question(
+        "bent-error",
+        "A board is bowed by 1 mm over its 20 cm. The covariance promises a ± for f. How large is the true error of f?",
+        answer=lambda states: float(np.digitize(abs(f_error(states)) / f_deviation(states), [1.0, 2.5])),
+        why=lambda states: (
+            f"f is off by {pixels(abs(f_error(states)))}, {fixed(abs(f_error(states)) / f_deviation(states), 1)} times"
+            f" its ± of {pixels(f_deviation(states))}. The covariance knows of noise only; a wrong board is wrong in all"
+            " views alike."
+        ),
+        params=BENT,
+        choices=("within its ±", "up to 2.5 times its ±", "over 2.5 times its ±"),
+    ),
+)

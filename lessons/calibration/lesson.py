@@ -1,0 +1,106 @@
+"""A camera from pictures of a board: closed form, refinement, and how well the answer is known.
+
+What it teaches: each picture of a flat board is a homography and gives two equations about K; that is only a start, for
+lens and poses have to be refined together; and the residual alone tells neither whether the views determine f, nor whether
+the model holds beyond the corners, nor whether the board was printed as one believes.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from lessons.calibration.draw import VIEW, draw
+from lessons.calibration.experiments import PRESETS, QUESTIONS
+from lessons.calibration.state import COEFFICIENTS, Ending, Params, State
+from lessons.calibration.views import deviations, map_error, over_tilt, subject_of
+from workbench.algorithms.board_adjustment import adjust
+from workbench.algorithms.calibration import Pose, Rows, calibrate
+from workbench.errors import InputError
+from workbench.geometry import calibration
+from workbench.lesson import Lesson, Sweep
+
+Rms = Callable[[np.ndarray], float]
+MOST_ITERATIONS, TOLERANCE = 30, 1e-6
+
+
+def run(
+    params: Params,
+    *,
+    constraint_rows: Rows = calibration.constraint_rows,
+    pose_from_homography: Pose = calibration.pose_from_homography,
+    reprojection_rms: Rms = calibration.reprojection_rms,
+) -> Iterator[State]:
+    """Yield the steps of the calibration, and then what can be asked of it."""
+    subject = subject_of(params)
+    corner = params.corner if params.loss == "Cauchy" else None
+    shown = subject.views.index(params.shown) if params.shown in subject.views else 0
+    rms, state = float("nan"), None
+    for now in calibrate(
+        subject.p_board,
+        subject.uv,
+        subject.size,
+        constraint_rows=constraint_rows,
+        pose_from_homography=pose_from_homography,
+        coefficients=COEFFICIENTS[params.lens],
+        corner=corner,
+        max_iterations=MOST_ITERATIONS,
+        tolerance=TOLERANCE,
+    ):
+        before, rms = rms, float(reprojection_rms(now.residuals.reshape(-1, 2)))
+        if not np.isfinite(now.residuals).all():
+            raise InputError("the poses put corners at depth 0: nothing can be projected")
+        state = State(
+            params=params,
+            subject=subject,
+            now=now,
+            rms=rms,
+            before=before,
+            shown=len(now.residuals) - 1 if now.phase in ("homography", "constraints") else shown,
+            map_error=np.empty(0) if now.K is None else map_error(subject, now.K, now.lens),
+        )
+        yield state
+    if state is not None:
+        yield from endings(state, corner)
+
+
+def endings(state: State, corner: float | None) -> Iterator[State]:
+    """Yield how well each view fits, what changes without the worst one, and how well all is known."""
+    subject, found, worst = state.subject, state.now.adjustment, int(np.argmax(state.per_view))
+    assert found is not None
+    views = Ending(kind="views", worst=worst)
+    yield replace(state, shown=worst, ending=views)
+    if len(subject.views) > 2:
+        keep = np.arange(len(subject.views)) != worst
+        *_, without = adjust(
+            found.K, found.lens, found.Ts_camera_board[keep], subject.p_board, subject.uv[keep],
+            coefficients=COEFFICIENTS[state.params.lens], corner=corner, max_iterations=MOST_ITERATIONS, tolerance=TOLERANCE,
+        )  # fmt: skip
+        yield replace(state, shown=worst, ending=replace(views, kind="without", without=without))
+    known = Ending(
+        kind="known",
+        worst=worst,
+        deviation=deviations(subject.size, found.K, found.lens, found.covariance),
+        tilts=over_tilt(state.params) if subject.K is not None and state.params.noise > 0 else None,
+    )
+    yield replace(state, ending=known)
+
+
+lesson = Lesson(
+    name="calibration",
+    title="Calibration",
+    summary="A camera from pictures of a board: two equations a view, one refinement of all, and an honest ± of f.",
+    page=Path(__file__).with_name("page.md"),
+    params=Params,
+    run=run,
+    draw=draw,
+    order=1500,
+    needs=("pinhole",),
+    view=VIEW,
+    presets=PRESETS,
+    questions=QUESTIONS,
+    first_step=9,
+    sweeps=(Sweep("tilt", (2.0, 5.0, 10.0, 20.0, 30.0, 45.0)),),
+    telling="Focal length",
+)

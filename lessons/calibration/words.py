@@ -1,0 +1,170 @@
+"""The captions: what a step did, with its numbers, and whether the end is right."""
+
+import numpy as np
+
+from lessons.calibration.state import Ending, State
+from workbench.algorithms.board_adjustment import Stop
+from workbench.numerals import brief, counted, fixed, percent, pixels
+from workbench.scene import Caption
+
+SHARE, NEAR = 0.01, 10.0  # a camera is right with f off by 1 % at most, and rays by 10 px at most
+ORTHONORMAL = 1e-6
+UNEQUAL = 0.005  # share by which fx and fy differ from which on it is told
+STOPS = {
+    Stop.CONVERGED: "The cost has come to rest.",
+    Stop.STUCK: "No step lowers the cost any more.",
+    Stop.MAX_ITERATIONS: "Stopped here, after the most iterations allowed.",
+}
+
+
+def caption(state: State) -> Caption:
+    """Return what happened in this step and why."""
+    if state.ending is not None:
+        return {"views": _views, "without": _without, "known": _known}[state.ending.kind](state, state.ending)
+    return {
+        "homography": _homography,
+        "constraints": _constraints,
+        "poses": _poses,
+        "lens": _lens,
+        "refine": _refine,
+    }[state.now.phase](state)
+
+
+def is_right(state: State) -> bool:
+    """Tell whether the camera is right: f to 1 %, and every ray of the picture to 10 px."""
+    assert state.subject.K is not None
+    assert state.now.K is not None
+    f_true = state.subject.K[0, 0]
+    return bool(abs(state.now.K[0, 0] - f_true) <= SHARE * f_true and state.worst_in_picture <= NEAR)
+
+
+def f_of(state: State) -> str:
+    """Return the focal length in words, beside the true one where it is known."""
+    assert state.now.K is not None
+    truth = "" if state.subject.K is None else f", in truth {fixed(state.subject.K[0, 0], 0)} px"
+    return f"f = {fixed(state.now.K[0, 0], 1)} px{truth}"
+
+
+def _homography(state: State) -> Caption:
+    text = (
+        f"View {state.subject.views[0]}: a homography takes the flat board to its picture, straight lines to straight"
+        f" lines. It misses the corners by {pixels(state.rms)} (rms)"
+    )
+    if state.subject.K is None:
+        return Caption(f"{text}: noise, and what a lens bends.")
+    sigma = state.params.noise
+    if state.rms > 1.4 * np.sqrt(2) * sigma:
+        return Caption(f"{text}, more than noise of {pixels(sigma)} in each coordinate explains: the lens bends lines.")
+    return Caption(f"{text}, about what noise of {pixels(sigma)} in each coordinate leaves.")
+
+
+def _constraints(state: State) -> Caption:
+    now, view = state.now, state.subject.views[len(state.now.Hs_image_board) - 1]
+    text = f"View {view} adds two rows: {len(now.rows)} in all for B = K⁻ᵀK⁻¹."
+    if len(now.rows) < 4:
+        return Caption(f"{text} They leave B open; more views are needed.")
+    if now.K is None:
+        return Caption(f"{text} The B that fits best is not positive definite: no camera sees such views.")
+    cx, cy = now.K[:2, 2]
+    return Caption(
+        f"{text} K so far: {f_of(state)}; principal point ({fixed(cx, 0)}, {fixed(cy, 0)}). No lens is in it yet."
+    )
+
+
+def _poses(state: State) -> Caption:
+    now = state.now
+    Ts = now.Ts_camera_board
+    start = "No likely camera has these rows: f is guessed as the picture's width. " if now.guessed else ""
+    behind = int((Ts[:, 2, 3] <= 0).sum())
+    R = Ts[:, :3, :3]
+    off = np.abs(R @ np.swapaxes(R, 1, 2) - np.eye(3)).max(axis=(1, 2)) > ORTHONORMAL
+    mirrored = int((np.linalg.det(R) < 0).sum())
+    if behind or off.any() or mirrored:
+        what = [
+            (behind, "stands behind the camera", "stand behind the camera"),
+            (int(off.sum()), "has an R that is not orthonormal", "have an R that is not orthonormal"),
+            (mirrored, "is a mirror image", "are mirror images"),
+        ]
+        said = "; ".join(counted(count, f"board {one}", f"boards {more}") for count, one, more in what if count)
+        return Caption(f"{start}{said}: these are no poses.", "wrong")
+    return Caption(
+        f"{start}With this K every view gets a pose: {counted(len(Ts), 'board')} before the camera. {f_of(state)}."
+        f" No lens yet: corners are off by {pixels(state.rms)} (rms)."
+    )
+
+
+def _lens(state: State) -> Caption:
+    k1 = state.now.lens.k1
+    text = f"K and poses stay, and a linear system gives the lens: k1 = {fixed(k1, 3)}"
+    tail = f" The rms goes from {pixels(state.before)} to {pixels(state.rms)}."
+    if state.subject.K is None:
+        return Caption(f"{text}.{tail} K and poses were made without a lens and may have taken it up.")
+    true = state.subject.lens.k1
+    text += f", in truth {fixed(true, 2)}."
+    if abs(k1 - true) > 0.3 * abs(true):
+        text += " K and poses were made without a lens, and have taken up most of it."
+    return Caption(text + tail)
+
+
+def _refine(state: State) -> Caption:
+    now = state.now.adjustment
+    assert now is not None
+    unknowns = int(now.free.sum()) + 6 * len(now.Ts_camera_board)
+    if not now.accepted:
+        text = f"Iteration {now.iteration}: the step would raise the cost and is not taken; the damping grows tenfold."
+    elif now.iteration == 1:
+        text = (
+            f"Iteration 1: camera, lens and poses move together, {unknowns} unknowns at once. The rms falls from"
+            f" {pixels(state.before)} to {pixels(state.rms)}; {f_of(state)}."
+        )
+    else:
+        text = f"Iteration {now.iteration}: rms {pixels(state.rms)}; {f_of(state)}."
+    return Caption(f"{text} {STOPS[now.stop]}" if now.stop else text)
+
+
+def _views(state: State, ending: Ending) -> Caption:
+    rms = state.per_view
+    others = np.delete(rms, ending.worst)
+    return Caption(
+        f"View {state.subject.views[ending.worst]} fits least: {pixels(float(rms[ending.worst]))} (rms), the others"
+        f" {pixels(float(np.median(others)))} in the median. Its residuals carry"
+        f" {fixed(100 * float(rms[ending.worst] ** 2 / (rms**2).sum()), 0)} % of the sum of squares."
+    )
+
+
+def _without(state: State, ending: Ending) -> Caption:
+    found, now = state.now.adjustment, ending.without
+    assert found is not None
+    assert now is not None
+    sd = found.deviations[0]
+    moved = float(now.K[0, 0] - found.K[0, 0])
+    by = f"{brief(abs(moved) / sd, 2)} times its ±" if np.isfinite(sd) and sd > 0 else "with no ± to compare"
+    return Caption(
+        f"Without view {state.subject.views[ending.worst]}: f = {fixed(found.K[0, 0], 1)} px becomes"
+        f" {fixed(now.K[0, 0], 1)} px, a move of {pixels(abs(moved))}, {by}."
+    )
+
+
+def _known(state: State, ending: Ending) -> Caption:
+    now = state.now.adjustment
+    assert now is not None
+    sd = now.deviations[0]
+    known = np.isfinite(sd)
+    pm = f" ± {fixed(sd, 1)}" if known else ""
+    text = f"f = {fixed(now.K[0, 0], 1)}{pm} px" + ("" if known else ", and the views do not determine it")
+    if state.subject.K is None:
+        return Caption(
+            f"{text}; rms {pixels(state.rms)}. Nobody knows the truth here: the ± takes the board for flat, and errors"
+            " of corners for independent."
+        )
+    text += f", in truth {fixed(state.subject.K[0, 0], 0)} px"
+    worst = state.worst_in_picture
+    apart = abs(now.K[0, 0] / now.K[1, 1] - 1)
+    if apart > UNEQUAL:
+        text += f"; fx and fy are {percent(apart, 1)} apart"
+    said = f"somewhere in the picture by {pixels(worst)}" if np.isfinite(worst) else "where, nobody can tell"
+    return Caption.verdict(
+        f"{text}. Rays are off {said}.",
+        right=is_right(state),
+        settled=now.stop is Stop.CONVERGED,
+    )

@@ -1,0 +1,112 @@
+"""Epipolar geometry: a pixel of one picture is a line of the other, and many matches hold the motion of the camera.
+
+What it teaches: where the other camera's centre is seen all lines meet; eight matches and a singular value decomposition
+give the lines, K makes a motion of them, up to four readings and an unknown length; and some matches hold no motion at all.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lessons.epipolar.draw import VIEW, draw
+from lessons.epipolar.exercises.eight_point import eight_point
+from lessons.epipolar.exercises.essential_to_poses import essential_to_poses
+from lessons.epipolar.exercises.triangulate import triangulate
+from lessons.epipolar.experiments import PRESETS, QUESTIONS
+from lessons.epipolar.state import MOST_MATCHES, Params, State
+from workbench.algorithms.two_views import EightPoint, Poses, Triangulate, follow_ray, relate, solve_linear
+from workbench.data.two_views import TwoViews, own_views, shown_length, street_views
+from workbench.geometry.homography import normalising_similarity
+from workbench.geometry.motions import motion
+from workbench.lesson import Lesson, Sweep
+
+DEPTHS = np.array([3.0, 4.0, 6.0, 8.0, 12.0, np.inf])  # metres along the ray of the followed pixel
+
+
+def run(
+    params: Params,
+    *,
+    eight_point: EightPoint = eight_point,
+    essential_to_poses: Poses = essential_to_poses,
+    triangulate: Triangulate = triangulate,
+) -> Iterator[State]:
+    """Yield the line of one pixel, where the true cameras are known, and the way from matches to a motion."""
+    views = views_of(params)
+    w, h = views.sizes[0]
+    believed = np.array([1 + params.f_error / 100, 1 + params.f_error / 100, 1.0])  # of the columns of K
+    length, T = shown_length(views), views.T_second_first
+    if T is not None and np.any(T[:3, 3]):
+        T = motion(T[:3, :3], length * T[:3, 3] / np.linalg.norm(T[:3, 3]))
+    known: dict[str, Any] = {
+        "params": params,
+        "views": views,
+        "uv_first": np.minimum(np.array(params.pixel, float) * views.strides[0], [w - 1.0, h - 1.0]),
+        "K_first": views.K_first * believed,
+        "K_second": views.K_second * believed,
+        "length": length,
+        "T_true": T,
+    }
+    if T is not None:
+        for now in follow_ray(known["uv_first"], DEPTHS, T, views.K_first, views.K_second):
+            yield State(**known, now=now)
+
+    uv_first, uv_second = views.matches[:, :2], views.matches[:, 2:]
+    scales = normalising_similarity(np.stack([uv_first, uv_second])) if params.normalise else np.stack([np.eye(3)] * 2)
+    linear = solve_linear(uv_first, uv_second, *scales)
+    if not (params.normalise and params.rank_two):
+        F = linear.F_rank_two if params.rank_two else linear.F
+        eight_point = lambda *_: F  # noqa: E731
+    for now in relate(
+        uv_first,
+        uv_second,
+        known["K_first"],
+        known["K_second"],
+        linear=linear,
+        eight_point=eight_point,
+        essential_to_poses=essential_to_poses,
+        triangulate=triangulate,
+        route=params.route,
+        keep_upright=params.keep_upright,
+    ):
+        yield State(**known, now=now, last=now.stage == "rectified")
+
+
+def views_of(params: Params) -> TwoViews:
+    """Return the pictures and matches of a run."""
+    if params.own_matches is not None:
+        return own_views(
+            params.own_matches,
+            first_image=params.first_image,
+            second_image=params.second_image,
+            K=params.intrinsics,
+            most=MOST_MATCHES,
+        )
+    return street_views(
+        params.scene,
+        count=params.matches,
+        sigma=params.noise,
+        baseline=params.baseline,
+        heading=np.radians(params.heading),
+        rng=np.random.default_rng(params.seed),
+    )
+
+
+lesson = Lesson(
+    name="epipolar",
+    title="Epipolar geometry",
+    summary="A pixel of one picture is a line of the other, and eight such pairs hold the motion between two cameras.",
+    page=Path(__file__).with_name("page.md"),
+    params=Params,
+    run=run,
+    draw=draw,
+    order=1600,
+    needs=("pinhole", "ransac"),
+    view=VIEW,
+    presets=PRESETS,
+    questions=QUESTIONS,
+    first_step=7,
+    sweeps=(Sweep("heading", (0.0, 20.0, 45.0, 60.0, 90.0)),),
+    telling="Error of the pose",
+)

@@ -1,0 +1,1 @@
+"""Fitting: walk down the sum of squares."""

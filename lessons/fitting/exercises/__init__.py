@@ -1,0 +1,30 @@
+"""The exercises of this lesson: a circle's linear problem, the damped step, Huber's weights."""
+
+import numpy as np
+
+from workbench.exercise import Verdict, band, fail, number
+
+STUDENTS, GRADERS = 71, 8610  # seeds of what a student sees run, and of what only a grader does
+
+
+def entries(
+    what: str, got: np.ndarray, right: np.ndarray, hint: str, *, good: float = 1e-6, fair: float = 1e-3
+) -> Verdict:
+    """Judge numbers by the one that is farthest off, as a share of the largest right one, and say which it is.
+
+    Args:
+        what: What the numbers are.
+        got: The answer.
+        right: The right one.
+        hint: What to look at.
+        good: Up to where all points are earned.
+        fair: Up to where half of them are.
+    """
+    size = float(np.abs(right).max()) or 1.0
+    off = np.abs(got - right)
+    at = np.unravel_index(int(np.argmax(np.where(np.isfinite(off), off, np.inf))), off.shape)
+    where = ", ".join(str(int(k)) for k in at)
+    said = f"Entry [{where}] is {number(float(got[at]), 4)}, right is {number(float(right[at]), 4)}."
+    if not np.isfinite(off[at]):
+        return fail(f"{what}: {said} {hint}")
+    return band(f"{what}: off by a share of", float(off[at]) / size, "", good=good, fair=fair, hint=f"{said} {hint}")

@@ -1,0 +1,1 @@
+"""Where a camera was that saw known points."""

@@ -1,0 +1,253 @@
+"""What one step looks like: the target, the cameras that could have seen it, the picture, and the errors."""
+
+import functools
+
+import numpy as np
+
+from lessons.pose.state import Repeated, State, Subject
+from lessons.pose.words import caption
+from workbench.algorithms import ransac
+from workbench.algorithms.camera_search import Searched
+from workbench.geometry.cameras import camera_center, project
+from workbench.geometry.motions import apply, inverse
+from workbench.geometry.polylines import between
+from workbench.lesson import View
+from workbench.numerals import angle, coordinates, length, pixels
+from workbench.scene import (
+    Camera,
+    Chart,
+    Classes,
+    Color,
+    Mesh,
+    Picture,
+    Points,
+    Primitive,
+    Role,
+    Scene,
+    Segments,
+    Table,
+    is_rigid,
+)
+
+VIEW = View(eye=(7.2, -0.9, 3.0), target=(0.6, 0.0, 0.1), grid=None, axes=False, fov_degrees=40.0)
+CLOSE = View(eye=(0.1, -0.4, 0.3), target=(0.06, 0.0, 0.0), grid=None, axes=False, fov_degrees=40.0)
+ABOVE = View(eye=(9.5, -6.0, 5.5), target=(0.8, 0.6, 1.7), grid=None, axes=False, fov_degrees=40.0)
+SCREENS = {
+    "box": (VIEW.facing(1.6, -0.65), 2.2),
+    "marker": (CLOSE.facing(0.13, 0.0), 0.16),
+    "triangle": (ABOVE.facing(2.6, 0.3), 2.8),
+}
+ENLARGED, SMALL = 10, 4.0  # residuals are drawn so many times as long while their RMS is below so many pixels
+QUARTIC = Chart("Quartic", "v = s₃ / s₁", "scaled")
+PICTURE_ERROR, TURN_ERROR = Chart("RMS error in the picture", unit="px"), Chart("Rotation error", unit="°")
+CENTRE_ERROR = Chart("Error of the centre", unit="m")
+TURNS = Chart("Rotation errors in other pictures", "degrees", "pictures")
+SOLUTIONS = Chart("Solutions of random triples", "how many", "triples")
+
+
+def draw(state: State) -> Scene:
+    """Return the picture of one step."""
+    subject, now = state.subject, state.now
+    scene: dict[str, Primitive] = {"caption": caption(state), **_still(subject, state.params.target)}
+    photograph = scene["picture"]
+    assert isinstance(photograph, Picture)
+    scene |= _pixels(state, photograph)
+    if subject.T_true is not None:
+        scene["truth"] = _camera(subject, subject.T_true, "truth", "true camera")
+    if isinstance(now, Searched):
+        scene |= _three(state, now) | _candidates(state, now)
+    elif isinstance(now, ransac.State) and len(now.sample) and now.phase not in ("refit", "stop"):
+        scene["sample"] = Points(subject.p_shown[now.sample], "highlight", 2.0 * _radius(subject), name="sample")
+    if isinstance(now, Repeated):
+        return scene | _repeated(subject, now)
+    if state.T is not None and is_rigid(state.T):
+        scene["estimate"] = _camera(subject, state.T, "source", "estimate")
+        if (
+            not (isinstance(now, Searched) and now.phase == "root")
+            and subject.T_true is not None
+            and subject.body is not None
+        ):
+            scene["seen"] = Segments(
+                _as_seen(subject, state.T), "source", 2.5, name="target, if the camera stood still"
+            )
+    return scene | _numbers(state)
+
+
+def _radius(subject: Subject) -> float:
+    return 0.0035 if subject.body is not None and len(subject.body.p) == 4 else 0.02
+
+
+@functools.lru_cache(maxsize=64)
+def _still(subject: Subject, target: str) -> dict[str, Primitive]:
+    """Return what is the same in all steps: the target, its points, the photograph and where points were seen in it."""
+    pose, width = SCREENS[target if subject.body is not None else "box"]
+    photograph = Picture(subject.photograph, "What the camera saw", width, pose)
+    scene: dict[str, Primitive] = {
+        "points": Points(subject.p_shown, "target", _radius(subject), name="known points"),
+        "picture": photograph,
+        "picture/border": Segments(photograph.border(0.001 * width), "neutral", 1.0),
+    }
+    if (body := subject.body) is not None:
+        scene["target"] = Mesh(body.p, body.faces, "neutral", opacity=0.25, flat=True)
+        scene["target/lines"] = Segments(body.lines, "neutral", 1.5)
+    return scene
+
+
+def _on(photograph: Picture, subject: Subject, uv: np.ndarray) -> np.ndarray:
+    """Return the places of pixels on the photograph, and no further from it than half its size."""
+    w, h = photograph.size
+    left_top, size = subject.window[:2], subject.window[2:] - subject.window[:2]
+    inside = np.clip((uv - left_top) / size, -0.5, 1.5)
+    assert photograph.width is not None
+    return photograph.places(inside * [w, h] - 0.5, 0.01 * photograph.width)
+
+
+def _pixels(state: State, photograph: Picture) -> dict[str, Primitive]:
+    """Return where points were seen, and where the pose in question sees them."""
+    subject, T, now = state.subject, state.T, state.now
+    assert photograph.width is not None
+    radius, color = 0.012 * photograph.width, _votes(now)
+    scene: dict[str, Primitive] = {"picture/seen": Points(_on(photograph, subject, subject.given.uv), color, radius)}
+    if T is None:
+        return scene
+    uv = project(subject.given.p_world, T, subject.K)
+    front = np.isfinite(uv).all(axis=1)
+    if not front.any():
+        return scene
+    errors = subject.pixel_errors(T)[front]
+    factor = ENLARGED if np.sqrt(np.square(errors).mean()) < SMALL else 1
+    start, end = subject.given.uv[front], uv[front]
+    ends = between(*(_on(photograph, subject, at) for at in (start, start + factor * (end - start))))
+    times = f", drawn {factor} times as long" if factor > 1 else ""
+    scene["picture/residuals"] = Segments(ends, "wrong", 2.5, name=f"error in the picture{times}")
+    scene["picture/calculated"] = Points(_on(photograph, subject, uv[front]), "source", 0.7 * radius)
+    return scene
+
+
+def _votes(now: object) -> Color:
+    fit = (now.trial or now.best) if isinstance(now, ransac.State) else None
+    return "target" if fit is None else Classes.marking(~fit.inliers, "wrong", "outlier", others=("target", "inlier"))
+
+
+def _camera(subject: Subject, T: np.ndarray, color: Role, name: str = "", opacity: float = 1.0) -> Camera:
+    depth = 0.02 if subject.body is not None and len(subject.body.p) == 4 else 0.45
+    return Camera(subject.K, 640, 480, subject.frame.shown_camera(T), depth, None, color, opacity, name)
+
+
+def _three(state: State, now: Searched) -> dict[str, Primitive]:
+    """Return the three points and their rays, from the true camera; then the quartic."""
+    subject = state.subject
+    if state.params.method != "P3P" or now.phase in ("step", "stop"):
+        return {}
+    scene: dict[str, Primitive] = {
+        "three": Points(subject.p_shown[:3], "highlight", 1.6 * _radius(subject), name="three points"),
+    }
+    if now.phase == "choose":
+        scene["fourth"] = Points(subject.p_shown[3:4], "other", 1.6 * _radius(subject), name="the fourth point")
+    if subject.T_true is not None and now.phase in ("rays", "quartic"):
+        eye = subject.frame.shown(camera_center(subject.T_true))
+        scene["rays"] = Segments(
+            between(np.tile(eye, (3, 1)), subject.p_shown[:3]), "highlight", 2.0, name="three rays"
+        )
+    if len(now.quartic):
+        scene |= _curve(now)
+    return scene
+
+
+def _curve(now: Searched) -> dict[str, Primitive]:
+    roots = now.lengths[:, 2] / now.lengths[:, 0]
+    low, high = (roots.min(), roots.max()) if len(roots) else (0.8, 1.2)
+    pad = max(0.35 * (high - low), 0.02)
+    v = np.linspace(max(low - pad, 0.0), high + pad, 121)
+    y = np.polyval(now.quartic, v)
+    y = y / max(float(np.abs(y).max()), 1e-300)
+    marks = (
+        tuple(float(root) for root in roots[len(now.candidates) - 1 : len(now.candidates)])
+        if now.phase == "root"
+        else ()
+    )
+    scene: dict[str, Primitive] = {
+        "quartic": QUARTIC.curve(v, y, "quartic", "target", marks=marks),
+        "quartic/zero": QUARTIC.curve(v[[0, -1]], np.zeros(2), "zero", "correspondence"),
+    }
+    if len(roots):
+        scene["quartic/roots"] = QUARTIC.dots(roots, np.zeros(len(roots)), "roots", "highlight")
+    return scene
+
+
+def _candidates(state: State, now: Searched) -> dict[str, Primitive]:
+    """Return the motions to choose from, as cameras with the rays to their points, and for planes as planes."""
+    subject, scene = state.subject, dict[str, Primitive]()
+    if now.phase not in ("root", "both", "choose"):
+        return scene
+    rows = []
+    for k, T in enumerate(now.candidates, 1):
+        if not (np.isfinite(T).all() and is_rigid(T)):
+            continue
+        if state.T is None or np.abs(T - state.T).max() > 1e-9:
+            scene[f"candidates/{k}"] = _camera(subject, T, "other", "possible camera")
+        if now.phase == "both" and subject.T_true is not None and subject.body is not None:
+            seen = _as_seen(subject, T)
+            scene[f"candidates/{k}/seen"] = Segments(seen, "other", 2.5, name="what it would see" if k == 1 else "")
+        elif state.params.method == "P3P":
+            eye, last = subject.frame.shown(camera_center(T)), k == len(now.candidates) and now.phase == "root"
+            ends = between(np.tile(eye, (3, 1)), subject.p_shown[:3])
+            scene[f"candidates/{k}/rays"] = Segments(
+                ends, "highlight" if last else "correspondence", 2.0 if last else 1.0
+            )
+        (degrees, _), miss, where = subject.off(T), state.judged(T), subject.frame.shown(camera_center(T))
+        off = "" if np.isnan(degrees) else angle(degrees)
+        rows.append((f"{k}", coordinates(where, 2), pixels(miss) if np.isfinite(miss) else "behind", off))
+    judged = "4th point" if state.params.method == "P3P" else "RMS error"
+    scene["numbers/candidates"] = Table("Possible cameras", ("", "centre (m)", judged, "off"), tuple(rows))
+    return scene
+
+
+def _as_seen(subject: Subject, T: np.ndarray) -> np.ndarray:
+    """Return the lines of the target where the true camera would have to see them, were this its pose."""
+    assert subject.T_true is not None
+    assert subject.body is not None
+    ends = subject.body.lines.reshape(-1, 3) + subject.frame.centre
+    return subject.frame.shown(apply(inverse(subject.T_true) @ T, ends)).reshape(-1, 2, 3)
+
+
+def _repeated(subject: Subject, now: Repeated) -> dict[str, Primitive]:
+    scene: dict[str, Primitive] = {}
+    if not len(now.Ts):
+        return scene
+    right = subject.near(now.degrees, now.metres)
+    color = Classes.marking(~right, "wrong", "wrong", others=("source", "right"))
+    centres = np.stack([subject.frame.shown(camera_center(T)) for T in now.Ts])
+    if subject.body is not None and len(subject.body.p) == 4:
+        assert subject.T_true is not None
+        tips = np.stack([(inverse(subject.T_true) @ T)[:3, :3] @ [0.0, 0.0, 0.12] for T in now.Ts])
+        scene["normals"] = Segments(between(np.zeros_like(tips), tips), color, 1.5, name="normals of the marker")
+    else:
+        near = np.linalg.norm(centres, axis=1) < 20.0
+        if near.any():
+            kept = Classes(color.ids[near], color.roles, color.names)
+            scene["centres"] = Points(centres[near], kept, 0.03, name="cameras found")
+    scene["turns"] = TURNS.histogram(now.degrees, 30, "pictures", "source")
+    if now.counts is not None:
+        scene["solutions"] = SOLUTIONS.histogram(
+            np.repeat(np.arange(5), now.counts), np.arange(6) - 0.5, "triples", "target"
+        )
+    return scene
+
+
+def _numbers(state: State) -> dict[str, Primitive]:
+    """Return the error in the picture and those to the truth, and the pose in numbers."""
+    subject, T = state.subject, state.T
+    if T is None:
+        return {}
+    error = state.rms if np.isfinite(state.rms) else np.nan
+    scene: dict[str, Primitive] = {"error": PICTURE_ERROR.scalar(error, "all points", log=True)}
+    degrees, metres = state.off
+    if np.isfinite(degrees):
+        scene["error/turn"] = TURN_ERROR.scalar(degrees, "to the truth", "truth", log=True)
+        scene["error/centre"] = CENTRE_ERROR.scalar(metres, "to the truth", "truth", log=True)
+    rows = [("t", coordinates(T[:3, 3], 3)), ("C = −Rᵀt", coordinates(camera_center(T), 3))]
+    if subject.T_true is not None:
+        rows += [("true C", coordinates(camera_center(subject.T_true), 3)), ("C is off by", length(metres))]
+    scene["numbers"] = Table("The pose, metres", ("", "value"), tuple(rows))
+    return scene

@@ -1,0 +1,224 @@
+"""Experiments with poses, and what to predict before looking."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from lessons.pose.draw import ABOVE, CLOSE, VIEW
+from lessons.pose.state import Params, Repeated, State
+from lessons.pose.trials import TRIPLES
+from workbench.algorithms.ransac import iterations_needed
+from workbench.lesson import Preset, Question
+from workbench.numerals import angle, fixed, percent
+
+__all__ = ["PRESETS", "QUESTIONS", "VIEW"]
+
+FOUR = Params(target="triangle", camera=(0.1, 0.05, 2.0), noise=0.0, refine=False)
+CYLINDER = Params(target="triangle", camera=(1.0, 0.0, 4.0), noise=0.5, refine=False, seed=1)
+OUTSIDE = Params(target="triangle", camera=(2.0, 0.0, 4.0), noise=0.5, refine=False)
+MARKER = Params(target="marker", method="IPPE", noise=0.5)
+TINY = Params(target="marker", method="IPPE", noise=0.5, distance=4.0, seed=9)
+TILTED = Params(target="marker", method="IPPE", noise=0.5, distance=4.0, tilt=60.0, seed=9)
+FRONTAL = Params(target="marker", method="IPPE", noise=0.5, distance=0.5, tilt=10.0)
+THIN = Params(method="DLT", thickness=0.1)
+SHEET = Params(method="DLT", thickness=0.01)
+SAFE = Params(method="SQPnP", thickness=0.01)
+PLANE = Params(method="DLT", thickness=0.0)
+MAP = Params(method="DLT", origin=10.0, centred=False, seed=1)
+CENTRED = Params(method="DLT", origin=10.0, seed=1)
+SEVENTY = Params(method="RANSAC", points=100, outliers=0.7)
+HALF = Params(method="RANSAC", points=100, outliers=0.5)
+BELIEVED = Params(method="SQPnP", outliers=0.1)
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "four", "Four cameras, one picture",
+        "Four ways to put a triangle on three rays: each of the four cameras sees the three points where they were"
+        " seen. Then"
+        " a fourth point chooses.",
+        FOUR, 6, replace(ABOVE, eye=(7.2, -4.5, 4.3), target=(1.0, 0.65, 1.1)),
+    ),
+    Preset(
+        "cylinder", "On the danger cylinder",
+        "The camera is straight above the circle through the three points. Here two solutions run into one: half a"
+        " pixel of noise"
+        " moves the answer far, or loses it.",
+        CYLINDER, -1, ABOVE, breaks=True,
+    ),
+    Preset(
+        "outside", "Off the danger cylinder",
+        "The same triangle from twice as far beside its middle: the same noise moves the camera by centimetres.",
+        OUTSIDE, -1, ABOVE,
+    ),
+    Preset(
+        "marker", "A square marker",
+        "80 pixels wide and turned away by 40°: two poses, and perspective tells them apart, as the errors of both"
+        " show.",
+        MARKER, 1, CLOSE,
+    ),
+    Preset(
+        "tiny", "The same marker, four times as far",
+        "20 pixels wide. Both poses fit to within the noise, and which of them fits better is left to chance: look"
+        " at the"
+        " normals in other pictures.",
+        TINY, -1, CLOSE, breaks=True,
+    ),
+    Preset(
+        "frontal", "A large marker, nearly frontal",
+        "160 pixels wide and hardly turned: IPPE's two poses are two, but both refine to one. Looking straight at it"
+        " is no"
+        " ambiguity in itself.",
+        FRONTAL, 2, CLOSE,
+    ),
+    Preset(
+        "thin", "A thin box, by the linear transform",
+        "A box of a tenth of the thickness. The linear transform lives on depth: see how far it is off, and what"
+        " Gauss-Newton"
+        " makes of that.",
+        THIN, 1, breaks=True,
+    ),
+    Preset(
+        "sheet", "A sheet",
+        "6 mm thick: what the linear transform gives is no place to go down from. Look where the cameras of other"
+        " pictures are.",
+        SHEET, -1, breaks=True,
+    ),
+    Preset(
+        "safe", "The same sheet, by SQPnP",
+        "SQPnP looks for a rotation from the start, so it needs no depth: the same points, the same noise, and it"
+        " ends right.",
+        SAFE, -1,
+    ),
+    Preset(
+        "map", "Coordinates of a map",
+        "The origin is 10 km off, and the linear transform takes the points as they are: metres of error out of"
+        " nothing but"
+        " large numbers.",
+        MAP, 1, breaks=True,
+    ),
+    Preset(
+        "centred", "The same map, minus the mean",
+        "Points are taken relative to their mean, and the motion is moved back at the end. Now the origin may be"
+        " anywhere.",
+        CENTRED, -1,
+    ),
+    Preset(
+        "believed", "Two wrong points of twenty",
+        "Two points are seen somewhere else, and least squares believes them. The error in the picture is large for all"
+        " points, so it does not tell whom to blame.",
+        BELIEVED, -1, breaks=True,
+    ),
+    Preset(
+        "seventy", "70 % outliers",
+        "Only one sample of three points in 37 is clean, and yet RANSAC needs few hundred of them: that is what P3P"
+        " is for.",
+        SEVENTY, -1,
+    ),
+)  # fmt: skip
+
+
+def others(states: Sequence[State]) -> Repeated:
+    """Return what was found in other pictures."""
+    found = states[-1].now
+    assert isinstance(found, Repeated)
+    return found
+
+
+def most_frequent(states: Sequence[State]) -> int:
+    """Return how many solutions most random triples have."""
+    counts = others(states).counts
+    assert counts is not None
+    return int(np.argmax(counts))
+
+
+def swapped(states: Sequence[State]) -> float:
+    """Return in which per cent of the pictures the wrong one of a plane's poses fitted better."""
+    found = others(states)
+    return 100.0 * (found.swapped or 0) / found.pictures
+
+
+def needed(states: Sequence[State], size: int) -> float:
+    """Return how many samples of a size are needed at the true share of inliers."""
+    clean = float(np.mean(~states[0].subject.given.is_outlier))
+    return iterations_needed(clean, size, 0.99)
+
+
+def _most_why(states: Sequence[State]) -> str:
+    found, most = others(states), most_frequent(states)
+    assert found.counts is not None
+    return (
+        f"{percent(found.counts[most] / TRIPLES, 0)} of {TRIPLES:,} random triples have {most}. A quartic has up to"
+        " four real"
+        f" roots, and {percent(found.counts[4] / TRIPLES, 1)} of the triples use them all; what you saw here is one"
+        " of these."
+    )
+
+
+def _wrong_why(states: Sequence[State]) -> str:
+    return (
+        f"In {fixed(swapped(states), 0)} % of the pictures. It is not looking straight at it that makes a marker"
+        " ambiguous:"
+        " at 20 pixels the two poses differ by less than the noise, however it is turned."
+    )
+
+
+def _samples_why(states: Sequence[State]) -> str:
+    return (
+        f"0.5³ of the samples of three are clean, 0.5⁶ of those of six: {needed(states, 3):.0f} and"
+        f" {needed(states, 6):.0f} samples for 99 %. Draw as few points as determine a pose."
+    )
+
+
+def _plane_answer(states: Sequence[State]) -> float:
+    return float(np.digitize(np.median(others(states).degrees), [2.0, 20.0]))
+
+
+def _plane_why(states: Sequence[State]) -> str:
+    middle = angle(float(np.median(others(states).degrees)))
+    return (
+        f"By {middle} in the middle of 40 pictures. Of points in a plane the twelve numbers of the matrix are not"
+        " determined:"
+        " whole families fit, and noise picks one. The rotation in it means nothing."
+    )
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        name="predict-solutions",
+        text="Three known points leave up to four places for a camera. How many are there for most triples of points,"
+        " drawn by chance?",
+        answer=lambda states: most_frequent(states) - 1,
+        why=_most_why,
+        params=FOUR,
+        choices=("one", "two", "three", "four"),
+    ),
+    Question(
+        name="predict-wrong",
+        text="A marker is 20 pixels wide and turned away by 60°; the noise is half a pixel. In how many per cent of"
+        " such pictures does the wrong one of its two poses fit better?",
+        answer=swapped,
+        why=_wrong_why,
+        params=TILTED,
+        unit="%",
+        tolerance=15.0,
+    ),
+    Question(
+        name="predict-samples",
+        text="Half of the points are wrong. Samples of three need 35 draws for 99 % confidence that one is clean. How"
+        " many would samples of six need, which the linear transform takes?",
+        answer=lambda states: needed(states, 6),
+        why=_samples_why,
+        params=HALF,
+        tolerance=60.0,
+    ),
+    Question(
+        name="predict-plane",
+        text="All points lie in one plane, and the linear transform makes a pose of them; then it is refined. How far"
+        " is the rotation off?",
+        answer=_plane_answer,
+        why=_plane_why,
+        params=PLANE,
+        choices=("by less than 2°", "by 2° to 20°", "by more: it means nothing"),
+    ),
+)

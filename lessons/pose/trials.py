@@ -1,0 +1,50 @@
+"""The same method in other pictures, and on many triples: what one run cannot show."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from lessons.pose.state import Params, Repeated, Subject
+from workbench.algorithms.camera_search import by_fourth_points, downhill, planar_pairs
+from workbench.data.sightings import random_triples, seen
+from workbench.geometry.camera_motions import dlt_motion, gauss_newton_step, refined, sqpnp
+from workbench.geometry.cameras import normalize
+from workbench.geometry.three_points import solution_counts
+
+PICTURES, MARKERS = 40, 60  # of a marker more, as they are of two kinds
+TRIPLES = 2000
+
+
+def repeated(params: Params, subject: Subject) -> Repeated:
+    """Return what the method finds in other pictures of the same scene, with other noise."""
+    assert subject.T_true is not None
+    rng, p, swapped = np.random.default_rng([params.seed, 1]), subject.given.p_world, None
+    n = MARKERS if params.method == "IPPE" else PICTURES
+    options = {"sigma": params.noise, "is_outlier": subject.given.is_outlier}
+    uv = np.stack([seen(p, subject.T_true, subject.K, rng, **options).uv for _ in range(n)])
+    xy, of_picture = normalize(uv.reshape(-1, 2), subject.K).reshape(uv.shape), np.arange(n)
+    if params.method == "P3P":
+        Ts, of_picture = by_fourth_points(p, xy)
+    elif params.method == "DLT":
+        Ts = np.stack([dlt_motion(p, one, centred=params.centred) for one in xy])
+    elif params.method == "SQPnP":
+        Ts = sqpnp(np.broadcast_to(p, (n, *p.shape)), xy)
+    else:
+        pairs = planar_pairs(p, xy)
+        better, worse = (np.array([subject.off(T)[0] for T in Ts]) for Ts in (pairs[:, 0], pairs[:, 1]))
+        swapped = int(np.count_nonzero(better > worse + 1.0))  # below a degree both are one
+        Ts = pairs[:, 0]
+    if params.refine and params.method == "DLT":  # the way down matters where it begins far off
+        ends = [list(downhill(T, p, one, gauss_newton_step))[-1].T for T, one in zip(Ts, xy, strict=True)]
+        Ts = np.stack([T for T in ends if T is not None])
+    elif params.refine and params.method != "IPPE":
+        Ts = refined(Ts, p, xy[of_picture])
+    degrees, metres = np.array([subject.off(T) for T in Ts]).reshape(-1, 2).T
+    counts = counted_solutions(params.seed) if params.target == "triangle" else None
+    return Repeated(Ts, degrees, metres, n, swapped, counts)
+
+
+@lru_cache(maxsize=8)
+def counted_solutions(seed: int) -> np.ndarray:
+    """Return how many of the random triples have none, one, ..., four solutions."""
+    return solution_counts(*random_triples(TRIPLES, np.random.default_rng([seed, 2])))

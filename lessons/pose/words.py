@@ -1,0 +1,191 @@
+"""What a step says."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lessons.pose.state import Repeated, State
+from lessons.pose.trials import TRIPLES
+from workbench.algorithms import ransac
+from workbench.algorithms.camera_search import Searched
+from workbench.geometry.alignment import degrees_between
+from workbench.geometry.cameras import camera_center
+from workbench.geometry.motions import angle_between
+from workbench.geometry.three_points import unit_rays
+from workbench.numerals import angle, coordinates, counted, fixed, length, percent, pixels
+from workbench.scene import Caption
+
+COUNTS = ("none", "one", "two", "three", "four")
+SIDES = ((1, 2), (0, 2), (0, 1))  # of the triangle, opposite to its corners
+SEES_EXACTLY = 0.01  # px
+
+
+def caption(state: State) -> Caption:
+    """Return what just happened, with its numbers."""
+    match state.now:
+        case None:
+            return Caption(_given(state))
+        case Repeated():
+            return _repeated(state, state.now)
+        case Searched(phase="stop") as now:
+            assert now.stop is not None
+            text = f"Stop after {counted(now.steps, 'step')}: {now.stop.message}."
+            if state.T is None:
+                return Caption(f"{text} It is wrong: without a pose there is nothing to refine.", "wrong")
+            return _end(state, f"{text} RMS error in the picture {_px(state.rms)}.{_off(state)}")
+        case Searched(phase="choose" | "solved" | "step") as now:
+            text = {"choose": _choose, "solved": _solved, "step": _step}[now.phase](state, now) + _off(state)
+            return Caption(text) if now.phase == "step" or state.params.refine else _end(state, text)
+        case Searched() as now:
+            tone = "wrong" if now.phase == "root" and state.T is None else "info"
+            return Caption(
+                {"rays": _rays, "quartic": _quartic, "root": _root, "both": _both}[now.phase](state, now), tone
+            )
+        case _:
+            return _sampled(state, state.now)
+
+
+def _end(state: State, text: str) -> Caption:
+    return Caption(text) if state.subject.T_true is None else Caption.verdict(text, right=state.right)
+
+
+def _given(state: State) -> str:
+    subject, params = state.subject, state.params
+    if subject.T_true is None:
+        n = len(subject.p_shown)
+        return f"{n} points of your own and their pixels, f = {pixels(params.f)}. Where was the camera?"
+    noise = f"with noise of σ = {pixels(params.noise)}" if params.noise > 0 else "without noise"
+    wrong = int(subject.given.is_outlier.sum())
+    also = f"; {wrong} of the points are seen somewhere else altogether" if wrong else ""
+    return (
+        f"{len(subject.p_shown)} known points (blue), and in the picture where a camera saw them, {noise}{also}. Where"
+        " was the camera? The green one is the truth, which no method knows."
+    )
+
+
+def _rays(state: State, now: Searched) -> str:
+    p, n = state.subject.given.p_world, unit_rays(state.subject.xy[:3])
+    sides = ", ".join(length(float(np.linalg.norm(p[i] - p[j]))) for i, j in SIDES)
+    angles = ", ".join(angle(float(np.degrees(angle_between(n[i], n[j])))) for i, j in SIDES)
+    return (
+        f"Three points (purple), three rays. Known are the sides of the triangle, {sides}, and the angles between the"
+        f" rays to their ends, {angles}; unknown is how long the three rays are."
+    )
+
+
+def _quartic(state: State, now: Searched) -> str:
+    v = np.sort(now.lengths[:, 2] / now.lengths[:, 0])
+    listed = f": v = {', '.join(fixed(value, 3) for value in v)}" if len(v) else ""
+    return (
+        "Three laws of cosines in three lengths come down to one quartic in v, the third length over the first. Of its"
+        f" roots {COUNTS[len(v)]} {'gives' if len(v) == 1 else 'give'} three positive lengths{listed}."
+    )
+
+
+def _root(state: State, now: Searched) -> str:
+    k, subject = len(now.candidates), state.subject
+    if state.T is None:
+        return f"Solution {k} of {len(now.lengths)}: its pose holds numbers that are not finite. It is wrong."
+    miss = float(np.sqrt(np.square(subject.pixel_errors(state.T)[:3]).mean()))
+    sees = "exactly where they were seen" if miss < SEES_EXACTLY else f"{_px(miss)} from where they were seen"
+    rays = ", ".join(length(s) for s in now.lengths[k - 1])
+    where = coordinates(subject.frame.shown(camera_center(state.T)), 2)
+    return (
+        f"Solution {k} of {len(now.lengths)}: rays of {rays} put the triangle's corners as far apart as they are. The"
+        f" camera at {where} sees the three points {sees}."
+    )
+
+
+def _both(state: State, now: Searched) -> str:
+    return (
+        f"A plane, so there are two poses, {angle(degrees_between(*now.candidates))} apart, that give the same picture"
+        f" to first order about its middle. Perspective tells them apart: they miss the points by {_misses(state, now)}."
+    )
+
+
+def _choose(state: State, now: Searched) -> str:
+    if state.params.method == "IPPE":
+        return (
+            f"Both refined: they miss the points by {_misses(state, now)}, root mean square. The better one is taken."
+        )
+    if len(now.candidates) == 1:
+        return f"The fourth point agrees with the only solution to {_misses(state, now)}."
+    cameras = f"{COUNTS[len(now.candidates)]} cameras"
+    return f"A fourth point chooses: the {cameras} see it {_misses(state, now)} from its pixel."
+
+
+def _solved(state: State, now: Searched) -> str:
+    text = f"SQPnP: of all rotations the one that brings all {len(state.subject.p_shown)} points nearest to their rays"
+    if state.params.method == "DLT":
+        text = (
+            f"The linear transform: a 3×4 matrix from all {len(state.subject.p_shown)} points at once, and the rotation"
+        )
+        text += " nearest to its left"
+    return f"{text}. RMS error in the picture {_px(state.rms)}."
+
+
+def _step(state: State, now: Searched) -> str:
+    part = f", of which {fixed(now.share, 4).rstrip('0')} is taken, as more would raise the error" * (now.share < 1.0)
+    return f"Gauss-Newton step {now.steps}{part}: RMS error in the picture {_px(state.rms)}."
+
+
+def _sampled(state: State, now: ransac.State) -> Caption:
+    known, limit = state.subject.T_true is not None, pixels(state.params.inlier_pixels)
+    fit, sample, off = now.trial or now.best, f"Sample {now.iteration}", _off(state)
+    within = f"{fit.count if fit else 0} of {len(state.subject.p_shown)} points"
+    if now.phase == "stop":
+        assert now.stop is not None
+        text = f"Stop after {counted(now.iteration, 'sample')}: {now.stop.message}."
+        return (
+            _end(state, f"{text} {within} are within {limit}.{off}")
+            if fit
+            else Caption(f"{text} It is wrong.", "wrong")
+        )
+    wrong = int(state.subject.given.is_outlier[now.sample].sum())
+    truth = f" In truth {COUNTS[wrong]} of them {'is an outlier' if wrong == 1 else 'are outliers'}." * known
+    needed = counted(int(min(now.needed, 500)), "sample")
+    return Caption(
+        {
+            "sample": f"{sample}: three points by chance.{truth}",
+            "degenerate": f"{sample} has no solution: no camera sees its three points like this.",
+            "model": f"{sample} gives a camera. All points vote: yes if it sees them within {limit}.{off}",
+            "inliers": f"{sample}: its camera sees {within} within {limit}.{off}",
+            "refit": f"Refit on the inliers, by least squares: now {within} are within {limit}.{off}",
+            "best": f"New best after {counted(now.iteration, 'sample')}: {within} within {limit}. If that is the share"
+            f" of inliers, {needed} give 99 % confidence.{off}",
+        }[now.phase]
+    )
+
+
+def _repeated(state: State, now: Repeated) -> Caption:
+    n, right = now.pictures, int(np.count_nonzero(state.subject.near(now.degrees, now.metres)))
+    if not len(now.Ts):
+        return Caption(f"In none of {n} other pictures, with other noise, is there a solution: all are wrong.", "wrong")
+    turn, centre = angle(float(np.median(now.degrees))), length(float(np.median(now.metres)))
+    text = f"The same in {n} other pictures, with other noise: half of the rotations are within {turn}, half of the"
+    text += f" centres within {centre}."
+    if now.swapped:
+        text += f" In {percent(now.swapped / n, 0)} the wrong one of the two poses fitted better."
+    if now.counts is not None:
+        shares = ", ".join(f"{percent(k / TRIPLES, 1)} {word}" for k, word in zip(now.counts, COUNTS, strict=True) if k)
+        text += f" Of {TRIPLES:,} random triples have so many solutions: {shares}."
+    text += f" {right} of {n} are right." if right < n else f" All {n} are right."
+    return Caption(text, "good" if right == n else "wrong" if right < 0.9 * n else "info")
+
+
+def _off(state: State) -> str:
+    """Say how far the pose is from the truth; a sentence, or nothing."""
+    if state.subject.T_true is None or state.T is None:
+        return ""
+    return f" The pose is {angle(state.off[0])} and {length(state.off[1])} from the truth."
+
+
+def _px(error: float) -> str:
+    return pixels(error) if np.isfinite(error) else "without bound, as a point is behind it"
+
+
+def _misses(state: State, now: Searched) -> str:
+    """Say how far each candidate sees the points that judge, or the fourth one, from their pixels."""
+    errors: Sequence[float] = [state.judged(T) for T in now.candidates]
+    words = [pixels(error) if np.isfinite(error) else "from behind" for error in errors]
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

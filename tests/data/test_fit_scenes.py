@@ -1,0 +1,42 @@
+"""Places on shapes, errors of one size, coins whose rims are known."""
+
+import numpy as np
+import pytest
+
+from workbench.data.fit_scenes import arc_points, cap_points, errors, outlying_plane, pipe_points
+from workbench.data.rims import rim_points
+
+
+@pytest.mark.parametrize("arc", [0.4, 2.0, 2 * np.pi])
+def test_places_lie_on_their_shapes_and_within_their_arc(arc):
+    p, q, r = arc_points(arc, 50), cap_points(arc, 50), pipe_points(arc, 50)
+    for lengths in (np.linalg.norm(p, axis=1), np.linalg.norm(q, axis=1), np.linalg.norm(r[:, :2], axis=1)):
+        np.testing.assert_allclose(lengths, 1)
+    for x, y in (p.T, r.T[:2]):
+        assert np.abs(np.arctan2(y, x)).max() <= arc / 2 + 1e-9
+    assert np.arccos(q[:, 0]).max() <= arc / 2 + 1e-9
+    assert np.ptp(np.arctan2(p[:, 1], p[:, 0])) == pytest.approx(arc * 49 / 50)
+
+
+@pytest.mark.parametrize("kind", ["independent", "alike in neighbours"])
+def test_errors_have_their_size_whoever_they_agree_with(kind):
+    found = errors(np.random.default_rng(0), (400, 60, 2), 0.3, kind)
+    assert found.std() == pytest.approx(0.3, rel=0.02)
+    next_one = (found[:, 1:] * found[:, :-1]).mean() / found.var()
+    assert next_one == pytest.approx(0.0 if kind == "independent" else 0.9, abs=0.03)
+
+
+def test_outliers_lie_where_they_are_said_to():
+    p, off = outlying_plane(np.random.default_rng(0), 400, 0.01, 0.25, 0.5, both_sides=False)
+    assert off.sum() == 100
+    assert 0 <= p[off, 2].min() < p[off, 2].max() <= 0.5
+    assert np.abs(p[~off, 2]).max() < 0.05
+    assert outlying_plane(np.random.default_rng(0), 400, 0.01, 0.25, 0.5, both_sides=True)[0][:, 2].min() < -0.3
+
+
+def test_a_drawn_disc_has_its_rim():
+    v, u = np.mgrid[:80, :100]
+    disc = np.where(np.hypot(u - 52, v - 41) < 20, 200, 30).astype(np.uint8)
+    for image in (disc, np.repeat(disc[..., None], 3, 2)):
+        rim = rim_points(image, np.array([50.0, 38.0]), 90, 35.0)
+        assert np.abs(np.hypot(*(rim - [52, 41]).T) - 20).max() < 0.8

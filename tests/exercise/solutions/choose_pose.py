@@ -1,0 +1,211 @@
+"""What students hand in for choose_pose."""
+
+import numpy as np
+
+NAMED = {
+    "wrong_no_depths": "without depths",
+    "wrong_no_depths_in_a_loop": "without depths",
+    "wrong_first_three": "by three",
+    "wrong_inverse": "inverted",
+    "wrong_read_inverted": "read inverted",
+    "wrong_largest": "the worst",
+    "wrong_mean_depth": "mean depth",
+    "wrong_no_division": "without division",
+    "wrong_sign_of_depth": "only behind",
+    "wrong_first": "the first",
+    "wrong_most_in_front": "most in front",
+    "wrong_last_point_alone": "by the last",
+}
+
+
+def right_loop(candidates, p_world, xy):
+    best, least = None, np.inf
+    for T in candidates:
+        p = p_world @ T[:3, :3].T + T[:3, 3]
+        if np.any(p[:, 2] <= 0):
+            continue
+        e = np.sqrt(np.mean(np.sum((p[:, :2] / p[:, 2:] - xy) ** 2, axis=1)))
+        if e < least:
+            best, least = T, e
+    return candidates[0] if best is None else best
+
+
+def right_vectorised(candidates, p_world, xy):
+    p = np.einsum("mij,nj->mni", candidates[:, :3, :3], p_world) + candidates[:, None, :3, 3]
+    with np.errstate(all="ignore"):
+        e = ((p[..., :2] / p[..., 2:] - xy) ** 2).sum((1, 2))
+    e[(p[..., 2] <= 0).any(1)] = np.inf
+    return candidates[np.argmin(e)]
+
+
+def right_homogeneous(candidates, p_world, xy):
+    ph = np.c_[p_world, np.ones(len(p_world))]
+    errors = []
+    for T in candidates:
+        q = (T @ ph.T).T
+        ok = np.all(q[:, 2] > 0)
+        errors.append(np.linalg.norm(q[:, :2] / q[:, [2]] - xy) if ok else float("inf"))
+    return candidates[int(np.argmin(errors))].copy()
+
+
+def right_min_with_key(candidates, p_world, xy):
+    def cost(T):
+        x, y, z = T[:3, :3] @ p_world.T + T[:3, 3:]
+        return np.inf if z.min() <= 0 else np.mean((x / z - xy[:, 0]) ** 2 + (y / z - xy[:, 1]) ** 2)
+
+    return min(candidates, key=cost)
+
+
+def right_sorted(candidates, p_world, xy):
+    scored = []
+    for i, T in enumerate(candidates):
+        p = (T[:3] @ np.vstack([p_world.T, np.ones(len(p_world))])).T
+        if (p[:, 2] > 0).all():
+            scored.append((np.sum((p[:, :2] / p[:, 2:3] - xy) ** 2), i))
+    return candidates[sorted(scored)[0][1] if scored else 0]
+
+
+def right_filter_first(candidates, p_world, xy):
+    depth = candidates[:, 2, :3] @ p_world.T + candidates[:, 2, 3:4]
+    front = np.where((depth > 0).all(axis=1))[0]
+    if len(front) == 0:
+        return candidates[0]
+    rms = []
+    for k in front:
+        seen = (candidates[k][:2, :3] @ p_world.T + candidates[k][:2, 3:]) / depth[k]
+        rms.append(np.sqrt(((seen - xy.T) ** 2).mean()))
+    return candidates[front[int(np.argmin(rms))]]
+
+
+def right_points_one_by_one(candidates, p_world, xy):
+    best, least = 0, float("inf")
+    for k in range(len(candidates)):
+        R, t, total = candidates[k, :3, :3], candidates[k, :3, 3], 0.0
+        for X, x in zip(p_world, xy):
+            p = R @ X + t
+            if p[2] <= 0:
+                total = float("inf")
+                break
+            total += (p[0] / p[2] - x[0]) ** 2 + (p[1] / p[2] - x[1]) ** 2
+        if total < least:
+            best, least = k, total
+    return candidates[best]
+
+
+def right_large_number_for_behind(candidates, p_world, xy):
+    costs = np.zeros(len(candidates))
+    for k, T in enumerate(candidates):
+        p = p_world @ T[:3, :3].T + T[:3, 3]
+        costs[k] = 1e30 if (p[:, 2] <= 0).any() else np.square(p[:, :2] / p[:, 2:] - xy).sum()
+    return candidates[costs.argmin()]
+
+
+def right_masked(candidates, p_world, xy):
+    p = candidates[:, :3, :3] @ p_world.T + candidates[:, :3, 3:]
+    z = p[:, 2]
+    e = np.ma.masked_array(np.square(p[:, :2] / z[:, None] - xy.T).mean((1, 2)), mask=(z <= 0).any(axis=1))
+    return candidates[0] if e.mask.all() else candidates[int(e.argmin())]
+
+
+# wrong ---------------------------------------------------------------------------------------------------------------
+
+
+def wrong_no_depths(candidates, p_world, xy):
+    p = np.einsum("mij,nj->mni", candidates[:, :3, :3], p_world) + candidates[:, None, :3, 3]
+    return candidates[np.argmin(((p[..., :2] / p[..., 2:] - xy) ** 2).sum((1, 2)))]
+
+
+def wrong_no_depths_in_a_loop(candidates, p_world, xy):
+    best, least = None, np.inf
+    for T in candidates:
+        p = p_world @ T[:3, :3].T + T[:3, 3]
+        e = np.linalg.norm(p[:, :2] / p[:, 2:] - xy)
+        if e < least:
+            best, least = T, e
+    return best
+
+
+def wrong_first_three(candidates, p_world, xy):
+    return right_loop(candidates, p_world[:3], xy[:3])
+
+
+def wrong_inverse(candidates, p_world, xy):
+    return np.linalg.inv(right_loop(candidates, p_world, xy))
+
+
+def wrong_read_inverted(candidates, p_world, xy):
+    k = [np.allclose(T, right_loop(np.linalg.inv(candidates), p_world, xy)) for T in np.linalg.inv(candidates)]
+    return candidates[int(np.argmax(k))]
+
+
+def wrong_largest(candidates, p_world, xy):
+    errors = []
+    for T in candidates:
+        p = p_world @ T[:3, :3].T + T[:3, 3]
+        errors.append(np.linalg.norm(p[:, :2] / p[:, 2:] - xy) if (p[:, 2] > 0).all() else -1)
+    return candidates[int(np.argmax(errors))]
+
+
+def wrong_mean_depth(candidates, p_world, xy):
+    errors = []
+    for T in candidates:
+        p = p_world @ T[:3, :3].T + T[:3, 3]
+        errors.append(np.linalg.norm(p[:, :2] / p[:, 2:] - xy) if p[:, 2].mean() > 0 else np.inf)
+    return candidates[int(np.argmin(errors))]
+
+
+def wrong_no_division(candidates, p_world, xy):
+    errors = []
+    for T in candidates:
+        p = p_world @ T[:3, :3].T + T[:3, 3]
+        errors.append(np.linalg.norm(p[:, :2] - xy) if (p[:, 2] > 0).all() else np.inf)
+    return candidates[int(np.argmin(errors))]
+
+
+def wrong_first(candidates, p_world, xy):
+    return candidates[0]
+
+
+def wrong_most_in_front(candidates, p_world, xy):
+    front = [(p_world @ T[2, :3] + T[2, 3] > 0).sum() for T in candidates]
+    return candidates[int(np.argmax(front))]
+
+
+def wrong_last_point_alone(candidates, p_world, xy):
+    return right_loop(candidates, p_world[-1:], xy[-1:])
+
+
+def wrong_mean(candidates, p_world, xy):
+    return candidates.mean(axis=0)
+
+
+def wrong_row_vectors(candidates, p_world, xy):
+    errors = []
+    for T in candidates:
+        p = p_world @ T[:3, :3] + T[:3, 3]
+        errors.append(np.linalg.norm(p[:, :2] / p[:, 2:] - xy) if (p[:, 2] > 0).all() else np.inf)
+    return candidates[int(np.argmin(errors))]
+
+
+def wrong_no_translation(candidates, p_world, xy):
+    errors = []
+    for T in candidates:
+        p = p_world @ T[:3, :3].T
+        errors.append(np.linalg.norm(p[:, :2] / p[:, 2:] - xy))
+    return candidates[int(np.argmin(errors))]
+
+
+def wrong_signed_mean(candidates, p_world, xy):
+    errors = []
+    for T in candidates:
+        p = p_world @ T[:3, :3].T + T[:3, 3]
+        errors.append((p[:, :2] / p[:, 2:] - xy).mean() if (p[:, 2] > 0).all() else np.inf)
+    return candidates[int(np.argmin(errors))]
+
+
+def wrong_sign_of_depth(candidates, p_world, xy):
+    errors = []
+    for T in candidates:
+        p = p_world @ T[:3, :3].T + T[:3, 3]
+        errors.append(np.linalg.norm(p[:, :2] / p[:, 2:] - xy) if (p[:, 2] < 0).all() else np.inf)
+    return candidates[int(np.argmin(errors))]

@@ -1,0 +1,236 @@
+"""What students hand in for pose_step."""
+
+import numpy as np
+
+NAMED = {
+    "wrong_sign": "uphill",
+    "wrong_side": "composed on the right",
+    "wrong_affine": "without division",
+    "wrong_translation_only": "translation only",
+    "wrong_no_rotation": "no proper rotation",
+    "wrong_cross": "turned backwards",
+    "wrong_step_alone": "step alone",
+}
+
+
+def skew(w):
+    return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+
+
+def rodrigues(w):
+    a = np.linalg.norm(w)
+    if a < 1e-12:
+        return np.eye(3)
+    K = skew(w / a)
+    return np.eye(3) + np.sin(a) * K + (1 - np.cos(a)) * K @ K
+
+
+def rows(T, p_world, xy):
+    J, r = [], []
+    for X, x in zip(p_world, xy):
+        p = T[:3, :3] @ X + T[:3, 3]
+        D = np.array([[1 / p[2], 0, -p[0] / p[2] ** 2], [0, 1 / p[2], -p[1] / p[2] ** 2]])
+        J.append(np.hstack([D, -D @ skew(p)]))
+        r.append(p[:2] / p[2] - x)
+    return np.vstack(J), np.concatenate(r)
+
+
+def moved(x, T):
+    S = np.eye(4)
+    S[:3, :3] = rodrigues(x[3:])
+    S[:3, 3] = x[:3]
+    return S @ T
+
+
+def right_lstsq(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    return moved(np.linalg.lstsq(J, -r, rcond=None)[0], T)
+
+
+def right_normal_equations(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    return moved(-np.linalg.solve(J.T @ J, J.T @ r), T)
+
+
+def right_pinv(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    d = -np.linalg.pinv(J) @ r
+    return moved(d, T)
+
+
+def right_r_and_t_apart(T, p_world, xy):
+    R, t = T[:3, :3], T[:3, 3]
+    q = p_world @ R.T
+    J, r = [], []
+    for a, x in zip(q, xy):
+        p = a + t
+        D = np.array([[1 / p[2], 0, -p[0] / p[2] ** 2], [0, 1 / p[2], -p[1] / p[2] ** 2]])
+        J.append(np.hstack([-D @ skew(a), D]))
+        r.append(p[:2] / p[2] - x)
+    d = np.linalg.lstsq(np.vstack(J), -np.concatenate(r), rcond=None)[0]
+    out = np.eye(4)
+    out[:3, :3] = rodrigues(d[:3]) @ R
+    out[:3, 3] = t + d[3:]
+    return out
+
+
+def right_in_the_body(T, p_world, xy):
+    R, t = T[:3, :3], T[:3, 3]
+    m = p_world.mean(0)
+    J, r = [], []
+    for X, x in zip(p_world, xy):
+        p = R @ X + t
+        D = np.array([[1 / p[2], 0, -p[0] / p[2] ** 2], [0, 1 / p[2], -p[1] / p[2] ** 2]])
+        J.append(np.hstack([D @ R, -D @ R @ skew(X - m)]))
+        r.append(p[:2] / p[2] - x)
+    d = np.linalg.lstsq(np.vstack(J), -np.concatenate(r), rcond=None)[0]
+    S = np.eye(4)
+    S[:3, :3] = rodrigues(d[3:])
+    S[:3, 3] = d[:3] + m - S[:3, :3] @ m
+    return T @ S
+
+
+def right_expm(T, p_world, xy):
+    from scipy.linalg import expm
+
+    J, r = rows(T, p_world, xy)
+    d = np.linalg.lstsq(J, -r, rcond=None)[0]
+    X = np.zeros((4, 4))
+    X[:3, :3], X[:3, 3] = skew(d[3:]), d[:3]
+    return expm(X) @ T
+
+
+def right_scipy_rotation(T, p_world, xy):
+    from scipy.spatial.transform import Rotation
+
+    J, r = rows(T, p_world, xy)
+    d = np.linalg.lstsq(J, -r, rcond=None)[0]
+    S = np.eye(4)
+    S[:3, :3] = Rotation.from_rotvec(d[3:]).as_matrix()
+    S[:3, 3] = d[:3]
+    return S @ T
+
+
+def right_numerical_jacobian(T, p_world, xy):
+    def residual(d):
+        p = (moved(d, T)[:3] @ np.c_[p_world, np.ones(len(p_world))].T).T
+        return (p[:, :2] / p[:, 2:] - xy).ravel()
+
+    h = 1e-6
+    J = np.array([(residual(h * e) - residual(-h * e)) / (2 * h) for e in np.eye(6)]).T
+    return moved(-np.linalg.lstsq(J, residual(np.zeros(6)), rcond=None)[0], T)
+
+
+def right_vectorised(T, p_world, xy):
+    x, y, z = T[:3, :3] @ p_world.T + T[:3, 3:]
+    u, v, o = x / z, y / z, np.zeros_like(z)
+    A = np.stack([1 / z, o, -u / z, -u * v, 1 + u * u, -v], axis=1)
+    B = np.stack([o, 1 / z, -v / z, -1 - v * v, u * v, u], axis=1)
+    J = np.vstack([A, B])
+    r = np.concatenate([u - xy[:, 0], v - xy[:, 1]])
+    return moved(np.linalg.lstsq(J, -r, rcond=None)[0], T)
+
+
+def right_svd_of_the_linear_turn(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    d = np.linalg.lstsq(J, -r, rcond=None)[0]
+    U, _, Vt = np.linalg.svd(np.eye(3) + skew(d[3:]))
+    S = np.eye(4)
+    S[:3, :3] = U @ Vt
+    S[:3, 3] = d[:3]
+    return S @ T
+
+
+# wrong ---------------------------------------------------------------------------------------------------------------
+
+
+def wrong_sign(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    return moved(np.linalg.lstsq(J, r, rcond=None)[0], T)
+
+
+def wrong_side(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    return T @ moved(np.linalg.lstsq(J, -r, rcond=None)[0], np.eye(4))
+
+
+def wrong_affine(T, p_world, xy):
+    J, r = [], []
+    for X, x in zip(p_world, xy):
+        p = T[:3, :3] @ X + T[:3, 3]
+        D = np.array([[1 / p[2], 0, 0], [0, 1 / p[2], 0]])
+        J.append(np.hstack([D, -D @ skew(p)]))
+        r.append(p[:2] / p[2] - x)
+    return moved(np.linalg.lstsq(np.vstack(J), -np.concatenate(r), rcond=None)[0], T)
+
+
+def wrong_translation_only(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    d = np.linalg.lstsq(J[:, :3], -r, rcond=None)[0]
+    return moved(np.r_[d, 0, 0, 0], T)
+
+
+def wrong_no_rotation(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    d = np.linalg.lstsq(J, -r, rcond=None)[0]
+    S = np.eye(4)
+    S[:3, :3] += skew(d[3:])
+    S[:3, 3] = d[:3]
+    return S @ T
+
+
+def wrong_cross(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    J[:, 3:] *= -1
+    return moved(np.linalg.lstsq(J, -r, rcond=None)[0], T)
+
+
+def wrong_step_alone(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    return moved(np.linalg.lstsq(J, -r, rcond=None)[0], np.eye(4))
+
+
+def wrong_no_step(T, p_world, xy):
+    return T
+
+
+def wrong_order_of_the_twist(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    d = np.linalg.lstsq(J, -r, rcond=None)[0]
+    return moved(np.r_[d[3:], d[:3]], T)
+
+
+def wrong_degrees(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    d = np.linalg.lstsq(J, -r, rcond=None)[0]
+    return moved(np.r_[d[:3], np.radians(d[3:])], T)
+
+
+def wrong_sign_of_the_depth_terms(T, p_world, xy):
+    J, r = [], []
+    for X, x in zip(p_world, xy):
+        p = T[:3, :3] @ X + T[:3, 3]
+        D = np.array([[1 / p[2], 0, p[0] / p[2] ** 2], [0, 1 / p[2], p[1] / p[2] ** 2]])
+        J.append(np.hstack([D, -D @ skew(p)]))
+        r.append(p[:2] / p[2] - x)
+    return moved(np.linalg.lstsq(np.vstack(J), -np.concatenate(r), rcond=None)[0], T)
+
+
+def wrong_world_points_in_the_cross_product(T, p_world, xy):
+    J, r = [], []
+    for X, x in zip(p_world, xy):
+        p = T[:3, :3] @ X + T[:3, 3]
+        D = np.array([[1 / p[2], 0, -p[0] / p[2] ** 2], [0, 1 / p[2], -p[1] / p[2] ** 2]])
+        J.append(np.hstack([D, -D @ skew(X)]))
+        r.append(p[:2] / p[2] - x)
+    return moved(np.linalg.lstsq(np.vstack(J), -np.concatenate(r), rcond=None)[0], T)
+
+
+def wrong_rotation_only(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    d = np.linalg.lstsq(J[:, 3:], -r, rcond=None)[0]
+    return moved(np.r_[0, 0, 0, d], T)
+
+
+def wrong_inverse(T, p_world, xy):
+    return np.linalg.inv(right_lstsq(T, p_world, xy))

@@ -1,0 +1,304 @@
+"""Every claim of the fitting lesson in numbers: presets, questions, page and slots."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lessons.fitting.experiments import ALIKE, EDGE, LARGE, SMALL, iterations_to
+from lessons.fitting.lesson import lesson, run
+from lessons.fitting.state import Params, Walked
+from tests.runs import finished
+from tests.truths.fitting import cost, least, plane_error, straight, wider
+from workbench.errors import InputError
+from workbench.geometry.circles_spheres import linearise_sphere
+from workbench.scene import Curve, Points, Segments, Table, caption_of
+
+
+def states(params: Params) -> tuple[Any, ...]:
+    return finished(lesson.name, params).states()
+
+
+def of(name: str) -> tuple[Any, ...]:
+    return states(lesson.preset(name).params)
+
+
+def last(name: str) -> Any:
+    return of(name)[-1].now
+
+
+def moments(name: str) -> list[Any]:
+    return [state.now.now for state in of(name) if isinstance(state.now, Walked)]
+
+
+def tone(name: str) -> str:
+    return caption_of(lesson.draw(of(name)[-1])).tone
+
+
+# presets --------------------------------------------------------------------------------------------------------------
+
+
+def test_home_goes_down_and_says_what_it_is_worth():
+    found = moments("home")
+    kept = [now.cost for now in found if now.phase in ("start", "accepted")]
+    assert kept[:4] == pytest.approx([3.73, 1.04, 0.0379, 0.0320], rel=5e-3)
+    assert found[-1].iteration == 5
+    assert found[-1].unknown[2] == pytest.approx(1.019, abs=1e-3)
+    assert kept[-1] == pytest.approx(least(of("home")[0]), rel=1e-4)
+    assert np.sqrt(last("home").covariance[2, 2]) == pytest.approx(0.032, abs=1e-3)
+    assert [now.phase for now in found[:4]] == ["start", "linearised", "tried", "accepted"]
+    assert of("home")[10].now.radii.size == 0  # where the page sends a reader for the covariance
+
+
+def test_where_errors_are_independent_repetition_agrees():
+    for name in ("home", "repetition", "sphere", "cylinder", "large-errors"):
+        assert 0.75 < wider(of(name)[-1]) < 1.35
+        assert tone(name) == "good"
+
+
+def test_where_neighbours_err_alike_it_does_not():
+    assert wider(of("alike")[-1]) == pytest.approx(3.7, abs=0.1)
+    assert tone("alike") == "wrong"
+    assert "too narrow" not in caption_of(lesson.draw(of("alike")[10])).text  # where the preset opens
+
+
+def test_on_twenty_degrees_radii_scatter_to_one_side():
+    now = last("twenty")
+    low, high = np.percentile(now.radii, [5, 95])
+    assert (low, high) == (pytest.approx(0.53, abs=0.05), pytest.approx(8.0, abs=2.5))
+    assert high - np.median(now.radii) > 5 * (np.median(now.radii) - low)
+    assert tone("twenty") == "wrong"
+
+
+def test_the_escape_is_a_straight_line_of_equal_cost():
+    found, p = moments("escape"), of("escape")[0].subject.p
+    assert (np.diff([now.cost for now in found]) <= 0).all()
+    assert found[-1].unknown[2] > 40_000
+    assert found[-1].cost == pytest.approx(straight(p), rel=1e-3)
+    assert found[-1].cost > 15 * least(of("escape")[0])
+    scene = lesson.draw(of("escape")[-1])
+    line, circle = scene["straight"], scene["estimate"]
+    assert isinstance(line, Segments)
+    assert isinstance(circle, Segments)
+    way = line.ends[0, 1] - line.ends[0, 0]
+    across = np.array([-way[1], way[0], 0]) / np.linalg.norm(way)
+    near = np.abs(circle.ends.reshape(-1, 3)[:, :2]).max(axis=1) < 3
+    assert near.sum() > 20
+    assert np.abs((circle.ends.reshape(-1, 3)[near] - line.ends[0, 0]) @ across).max() < 0.02
+    assert tone("escape") == "wrong"
+
+
+def test_undamped_it_jumps():
+    radii = [now.unknown[2] for now in moments("jumps") if now.phase == "accepted"]
+    assert radii[:3] == pytest.approx([7.0, 72.4, 6000], rel=0.1)
+    assert max(now.cost for now in moments("jumps")[3:]) > 100 * moments("jumps")[-1].cost
+    assert tone("jumps") == "wrong"
+
+
+def share_home(name: str) -> float:
+    now = last(name)
+    return float((np.abs(np.abs(now.now.unknowns) - np.abs(now.best)).max(axis=1) < 0.02).mean())
+
+
+def test_basins():
+    assert share_home("basin-full") == 1.0
+    assert share_home("basin") == pytest.approx(0.6, abs=0.03)
+    assert share_home("basin-jumps") < 0.33
+
+
+def test_closed_forms_over_arcs():
+    now = last("short-arc")
+    kasa = dict(zip(now.arcs, (row[0] for row in now.medians), strict=True))
+    assert [kasa[arc] for arc in (90, 60, 45, 30)] == pytest.approx([0.96, 0.83, 0.60, 0.26], abs=0.02)
+    others = np.array([row[1:] for arc, row in zip(now.arcs, now.medians, strict=True) if arc >= 30])
+    assert np.abs(others - 1).max() < 0.05
+
+
+def test_biases_all_round():
+    now = last("bias")
+    of_name = dict(zip(now.circles, now.medians[-1], strict=True))
+    for name, theory in (("geometric", 0.005), ("Taubin", 0.010), ("Pratt", 0.020), ("Hyper", 0.0)):
+        assert of_name[name] - 1 == pytest.approx(theory, abs=0.0017)
+
+
+def test_a_coin():
+    now = last("coin")
+    of_name = dict(zip(now.circles, now.medians[-1], strict=True))
+    assert of_name["Kåsa"] == pytest.approx(0.936, abs=0.01)
+    assert of_name["Taubin"] == pytest.approx(0.992, abs=0.01)
+    assert of_name["geometric"] == pytest.approx(0.995, abs=0.01)
+
+
+def test_over_many_coins_kasas_is_small_and_the_others_are_not():
+    coins = [(335, 43), (155, 51), (276, 52), (337, 125), (348, 186), (102, 196), (154, 198), (46, 260), (114, 266)]
+    found = []
+    for coin in coins:
+        *_, end = run(Params(stage="coin", arc=60.0, coin=coin))
+        assert not isinstance(end.now, Walked)
+        found.append(end.now.medians[-1])  # type: ignore[union-attr]
+    kasa, _, taubin, _, geometric = np.median(found, axis=0)
+    assert kasa < 0.97
+    assert abs(taubin - 1) < 0.025
+    assert abs(geometric - 1) < 0.025
+
+
+def test_a_line_by_three_distances():
+    now = last("line")
+    assert np.median(now.angles["upright"]) == pytest.approx(57.1, abs=0.6)
+    assert np.median(now.angles["perpendicular"]) == pytest.approx(60, abs=0.5)
+    assert np.median(now.angles["level"]) > 60.3
+
+
+def test_the_plane_turns_on_edge_above_a_quarter():
+    tilts = {}
+    for share in (0.15, 0.3):
+        *_, end = run(replace(EDGE, outliers=share))
+        tilts[share] = np.degrees(np.arccos(abs(end.now.now.estimate[2])))  # type: ignore[union-attr]
+    assert tilts[0.15] < 20
+    assert tilts[0.3] > 60
+    assert plane_error(last("edge-on").now.estimate) == pytest.approx(0.59, abs=0.01)
+
+
+def test_losses_on_one_plane():
+    errors = {name: 1e3 * plane_error(last(name).now.estimate) for name in ("drift", "tukey", "cascade")}
+    assert errors == {
+        "drift": pytest.approx(39.3, abs=0.5),
+        "tukey": pytest.approx(157, abs=1),
+        "cascade": pytest.approx(2.4, abs=0.1),
+    }
+    assert 1e3 * last("drift").squares_error == pytest.approx(132, abs=1)
+    assert [tone(name) for name in ("drift", "tukey", "cascade", "edge-on")] == ["wrong", "wrong", "good", "wrong"]
+
+
+def test_gauss_newton_is_quick_where_residuals_are_small():
+    small, large = (
+        [np.abs(now.unknown - found[0].subject.best).max() for now in kept(found)]
+        for found in (states(SMALL), states(LARGE))
+    )
+    assert small[3] / small[2] < 0.005
+    assert 0.05 < large[4] / large[3] < 0.4
+    assert 0.05 < large[5] / large[4] < 0.4
+    assert iterations_to(states(SMALL), 1e-5) == 3
+
+
+def kept(found: tuple[Any, ...]) -> list[Any]:
+    return [s.now.now for s in found if isinstance(s.now, Walked) and s.now.now.phase in ("start", "accepted")]
+
+
+def test_runs_are_short():
+    assert all(len(of(preset.name)) < 60 for preset in lesson.presets)
+
+
+# questions ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "within"),
+    [
+        ("predict-kasa", 0.60, 0.01),
+        ("predict-end", 2, 0),
+        ("predict-iterations", 6, 0),
+        ("predict-slope", 56.8, 0.1),
+        ("predict-alike", 3.7, 0.1),
+        ("predict-tukey", 2, 0),
+    ],
+)
+def test_answers(name, answer, within):
+    question = next(question for question in lesson.questions if question.name == name)
+    assert question.answer(states(question.params)) == pytest.approx(answer, abs=within)
+
+
+def test_answers_are_read_off_the_run():
+    asked = {question.name: question for question in lesson.questions}
+    assert asked["predict-end"].answer(of("home")) == 0
+    assert asked["predict-tukey"].answer(of("cascade")) == 0
+    assert asked["predict-tukey"].answer(of("drift")) == 1
+    assert asked["predict-alike"].answer(states(replace(ALIKE, errors="independent"))) == pytest.approx(0.82, abs=0.05)
+
+
+# slots ----------------------------------------------------------------------------------------------------------------
+
+
+def end_of(params: Params, **slots: Any) -> Any:
+    found = [state for state in run(params, **slots) if isinstance(state.now, Walked)]
+    return found[-1]
+
+
+def test_a_wrong_linear_problem_ends_elsewhere():
+    def squared(circle, p):
+        v = p - circle[:2]
+        return (v**2).sum(1) - circle[2] ** 2, np.column_stack([-2 * v, np.full(len(p), -2 * circle[2])])
+
+    def uphill(circle, p):
+        residuals, jacobian = linearise_sphere(circle, p)
+        return residuals, -jacobian
+
+    for wrong in (squared, uphill):
+        end = end_of(Params(arc=45.0), circle_linearised=wrong)
+        assert cost(end, end.now.now.unknown) > 1.05 * least(end)
+        assert caption_of(lesson.draw(end)).tone != "good"
+    kasa = end_of(Params(arc=45.0), circle_linearised=squared).now.now.unknown
+    assert kasa[2] < 0.75
+
+
+def test_a_wrong_step_is_taken_back_or_goes_astray():
+    def up(residuals, jacobian, damping):
+        return jacobian.T @ residuals
+
+    end = end_of(Params(), damped_step=up).now.now
+    assert end.cost == pytest.approx(3.73, abs=0.01)
+    assert end.phase == "rejected"
+    lost = end_of(Params(), damped_step=lambda r, J, d: np.full(3, np.nan))
+    assert caption_of(lesson.draw(lost)).tone == "wrong"
+
+
+def test_wrong_weights_show_in_the_plane():
+    right = last("drift").error
+    *_, end = run(lesson.preset("drift").params, huber_weights=lambda r, c: c / np.maximum(r, c))
+    assert abs(end.now.error - right) > 0.01  # type: ignore[union-attr]
+    with pytest.raises(InputError, match="nothing is left to fit"):
+        list(run(lesson.preset("drift").params, huber_weights=lambda r, c: np.zeros(len(r))))
+
+
+# pictures -------------------------------------------------------------------------------------------------------------
+
+
+def test_feet_lie_on_the_shape_and_tangents_touch_it():
+    for name in ("home", "sphere", "cylinder"):
+        state = of(name)[1]
+        scene = lesson.draw(state)
+        ends = scene["distances"]
+        assert isinstance(ends, Segments)
+        feet = ends.ends[:, 1, : state.subject.p.shape[1]]
+        off, _ = state.subject.kind.linearise(state.now.now.unknown, feet)
+        np.testing.assert_allclose(off, 0, atol=1e-9)
+    tangents = lesson.draw(of("home")[1])["tangents"]
+    assert isinstance(tangents, Segments)
+    middles = tangents.ends.mean(axis=1)[:, :2] - [0.5, 0.4]
+    np.testing.assert_allclose(np.linalg.norm(middles, axis=1), 0.7)
+
+
+def test_the_ellipse_holds_most_centres_measured_anew():
+    state = of("repetition")[-1]
+    now = state.now
+    off = now.centers - now.centers.mean(axis=0)
+    inside = np.einsum("ki,ij,kj->k", off, np.linalg.inv(now.covariance[:2, :2]), off) < 2.448**2
+    assert inside.mean() > 0.9
+    scene = lesson.draw(state)
+    assert isinstance(scene["table"], Table)
+    bars, bell = scene["radii"], scene["bell"]
+    assert isinstance(bars, Curve)
+    assert isinstance(bell, Curve)
+    assert bars.y.sum() == 300
+    assert bell.y.sum() == pytest.approx(300, rel=0.05)
+
+
+def test_the_coins_rim_lies_on_the_photograph():
+    scene = lesson.draw(of("coin")[0])
+    picture, rim = scene["photograph"], scene["rim"]
+    assert isinstance(rim, Points)
+    subject = of("coin")[0].subject
+    x, y, radius = subject.middle
+    uv = np.column_stack([x + radius * rim.p[:, 0], y - radius * rim.p[:, 1]])
+    np.testing.assert_allclose(picture.places(uv)[:, :2], rim.p[:, :2], atol=1e-9)  # type: ignore[union-attr]

@@ -1,0 +1,74 @@
+"""Own points and pixels in the pose lesson, real ones among them, and files that must be refused."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lessons.pose.lesson import lesson, run
+from lessons.pose.state import Params
+from tests.geometry.views import view
+from workbench.errors import InputError
+from workbench.knobs import with_own_files
+from workbench.scene import Camera, Points, caption_of
+
+
+def written(folder: Path, p_world: np.ndarray, uv: np.ndarray) -> Path:
+    np.savetxt(folder / "points.csv", np.column_stack([p_world, uv]), delimiter=",")
+    return folder / "points.csv"
+
+
+def stop_of(params: Params) -> Any:
+    *_, last = run(params)
+    return last
+
+
+@pytest.mark.parametrize("method", ["P3P", "DLT", "SQPnP", "RANSAC"])
+def test_own_points_give_their_camera(tmp_path, method):
+    T, p_world, xy = view(3, 20, sigma=0.5 / 800)
+    path = written(tmp_path, p_world + 3000.0, 800 * xy + [400, 300])
+    last = stop_of(Params(sightings=path, method=method, principal=(400.0, 300.0)))
+    assert last.T is not None
+    np.testing.assert_allclose(last.T[:3, :3], T[:3, :3], atol=0.01)
+    scene = lesson.draw(last)
+    assert caption_of(scene).tone == "info"  # nobody knows the truth
+    points, camera = scene["points"], scene["estimate"]
+    assert isinstance(points, Points)
+    assert isinstance(camera, Camera)
+    assert np.ptp(points.p, axis=0).max() == pytest.approx(1.0)
+    assert camera.T_world_object is not None
+    assert np.linalg.norm(camera.T_world_object[:3, 3]) < 10
+    assert "truth" not in scene
+
+
+def test_a_real_board_by_ippe(tmp_path, shared_data):
+    corners = np.load(shared_data / "calibration" / "corners_9x6.npz")
+    path = written(tmp_path, corners["object_points"], corners["left"][0])
+    last = stop_of(Params(sightings=path, method="IPPE", f=540.0, principal=(342.0, 236.0)))
+    known = np.array([-0.0752, -0.1089, 0.3997])  # left_intrinsics.yml, the first view's translation, with its lens
+    assert np.linalg.norm(last.T[:3, 3] - known) < 0.02
+    assert last.subject.pixel_errors(last.T).mean() < 3  # what the lens, which is left out here, does to a corner
+
+
+def test_files_of_one_place_or_of_too_few_points_are_refused(tmp_path):
+    with pytest.raises(InputError, match="one place"):
+        stop_of(Params(sightings=written(tmp_path, np.ones((5, 3)), np.ones((5, 2)))))
+    with pytest.raises(InputError, match="3 points"):
+        stop_of(Params(sightings=written(tmp_path, np.eye(3), np.eye(3)[:, :2])))
+    (tmp_path / "points.csv").write_text("")
+    with pytest.raises(InputError, match="0 points"):
+        stop_of(Params(sightings=tmp_path / "points.csv"))
+
+
+def test_points_on_a_line_come_to_an_end(tmp_path):
+    line = np.linspace(0, 1, 8)[:, None] * [1.0, 2.0, 0.5]
+    path = written(tmp_path, line, 300 + 100 * line[:, :2])
+    for method in ("P3P", "SQPnP"):
+        for state in run(Params(sightings=path, method=method)):
+            lesson.draw(state)
+
+
+def test_how_a_file_is_read_is_kept_with_it():
+    mine = Params(sightings=Path("mine.csv"), principal=(5.0, 6.0), up="y", noise=3.0)
+    assert with_own_files(Params(), mine) == Params(sightings=Path("mine.csv"), principal=(5.0, 6.0), up="y")

@@ -1,0 +1,67 @@
+"""What is true of a run of the pose lesson, by scipy's rotations and plain sums, from its states alone."""
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from lessons.pose.state import Repeated
+from workbench.algorithms import ransac
+from workbench.algorithms.camera_search import Searched
+
+
+def centre(T: np.ndarray) -> np.ndarray:
+    """The point that a motion takes to the origin."""
+    return np.linalg.solve(T[:3, :3], -T[:3, 3])
+
+
+def off(T: np.ndarray, T_true: np.ndarray) -> tuple[float, float]:
+    """Degrees and metres from the truth."""
+    turn = Rotation.from_matrix(T[:3, :3]) * Rotation.from_matrix(T_true[:3, :3]).inv()
+    return float(np.degrees(turn.magnitude())), float(np.linalg.norm(centre(T) - centre(T_true)))
+
+
+def is_near(T: np.ndarray | None, subject: Any) -> bool:
+    """Within 10 degrees and a tenth of the distance."""
+    if T is None or not np.isfinite(T).all():
+        return False
+    degrees, metres = off(T, subject.T_true)
+    away = np.linalg.norm(centre(subject.T_true) - subject.given.p_world.mean(axis=0))
+    return bool(degrees < 10 and metres < 0.1 * away)
+
+
+def pixels_off(T: np.ndarray, subject: Any) -> np.ndarray:
+    """How far each point is seen from its pixel; infinite from behind."""
+    found = []
+    for p, uv in zip(subject.given.p_world, subject.given.uv, strict=True):
+        x, y, w = subject.K @ (T[:3, :3] @ p + T[:3, 3])
+        found.append(np.hypot(x / w - uv[0], y / w - uv[1]) if w > 0 else np.inf)
+    return np.array(found)
+
+
+def rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def share_near(now: Repeated, subject: Any) -> float:
+    """The share of other pictures in which a pose is near."""
+    return sum(is_near(T, subject) for T in now.Ts) / now.pictures
+
+
+def is_right(state: Any) -> bool | None:
+    """Whether the end of a run is right; None before it."""
+    now, subject = state.now, state.subject
+    if subject.T_true is None:
+        return None
+    if isinstance(now, Repeated):
+        share = share_near(now, subject)
+        return True if share == 1 else False if share < 0.9 else None
+    if isinstance(now, ransac.State):
+        if now.phase != "stop":
+            return None
+        return now.best is not None and is_near(now.best.estimate, subject)
+    if isinstance(now, Searched) and (
+        now.phase == "stop" or (now.phase in ("choose", "solved") and not state.params.refine)
+    ):
+        return is_near(now.T, subject)
+    return None

@@ -1,0 +1,126 @@
+"""Corners of a board that people found in their own pictures, read or refused in one clear line."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float
+
+from workbench.data.arrays import read_arrays
+from workbench.data.files import stamp, word_rows
+from workbench.errors import InputError
+
+MOST_VIEWS, MOST_POINTS = 40, 1000
+Which = Literal["first", "second"]
+_BOARD = ("object_points", "p_board", "board")
+_PIXELS = (("left", "right"), ("uv", "uv2"), ("corners", "corners2"), ("image_points", "image_points2"))
+_SIZES = (
+    (640, 480), (752, 480), (800, 600), (1024, 768), (1280, 720), (1280, 960), (1600, 1200), (1920, 1080), (2048, 1536),
+    (2592, 1944), (3264, 2448), (3840, 2160), (4032, 3024), (5184, 3456), (6000, 4000),
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Corners:
+    """Corners of a file.
+
+    Attributes:
+        p_board: Points of the board, in the file's unit, Z = 0.
+        uv: Their pixels in every view.
+        size: Width and height of the pictures, as the file says, or the least usual size that holds all corners.
+    """
+
+    p_board: Float[np.ndarray, "n 3"]
+    uv: Float[np.ndarray, "k n 2"]
+    size: tuple[int, int]
+
+
+def read_corners(path: Path, which: Which = "first") -> Corners:
+    """Return the corners of a file.
+
+    Formats: npz with object_points (n, 3) or (n, 2), and left, corners, uv or image_points (k, n, 2), a second camera's in
+    right, corners2, uv2 or image_points2, and optionally size (width, height); or lines of text `view X Y u v`.
+
+    Args:
+        path: The file.
+        which: Of which of two cameras.
+
+    Raises:
+        InputError: If it is no such file, holds NaN, or the board is not flat, not broad, or not the same in all views.
+    """
+    stamp(path)
+    found = _from_arrays(path, which) if path.suffix.lower() == ".npz" else _from_text(path)
+    p, uv = found.p_board, found.uv
+    if not (np.isfinite(p).all() and np.isfinite(uv).all()):
+        raise InputError(f"{path.name}: some values are NaN or infinite")
+    if len(uv) < 2 or len(uv) > MOST_VIEWS:
+        raise InputError(f"{path.name}: {len(uv)} views; from 2 to {MOST_VIEWS} are calibrated from")
+    if len(p) < 4 or len(p) > MOST_POINTS:
+        raise InputError(f"{path.name}: {len(p)} points on the board; from 4 to {MOST_POINTS} are calibrated from")
+    reach = np.linalg.svd(p[:, :2] - p[:, :2].mean(axis=0), compute_uv=False)
+    if not reach[1] > 1e-6 * reach[0] > 0 or np.ptp(p[:, 2]) > 1e-6 * reach[0]:
+        raise InputError(f"{path.name}: the board's points lie on one line, or not in a plane Z = 0")
+    if (np.ptp(uv, axis=1).min(axis=1) <= 0).any():
+        raise InputError(f"{path.name}: in a view all corners are on one row or column of pixels")
+    return found
+
+
+def _from_arrays(path: Path, which: Which) -> Corners:
+    arrays = read_arrays(path.read_bytes(), path.name)
+    board = next((arrays[name] for name in _BOARD if name in arrays), None)
+    pair = next((names for names in _PIXELS if names[0] in arrays), None)
+    if board is None or pair is None:
+        raise InputError(
+            f"{path.name}: no arrays object_points and corners (left and right), but {', '.join(arrays) or 'nothing'}"
+        )
+    if which == "second" and pair[1] not in arrays:
+        raise InputError(f"{path.name}: no second camera: it has no array {pair[1]}")
+    uv = arrays[pair[which == "second"]]
+    if uv.ndim == 4 and uv.shape[2] == 1:
+        uv = uv[:, :, 0]  # as OpenCV has them
+    if board.ndim == 3 and len(board):
+        board = board[0]
+    shapes = board.ndim == 2 and board.shape[1] in (2, 3) and uv.ndim == 3 and uv.shape[1:] == (len(board), 2)
+    if not shapes or board.dtype.kind not in "fiu" or uv.dtype.kind not in "fiu":
+        raise InputError(f"{path.name}: arrays {board.shape} and {uv.shape}, where (n, 3) and (k, n, 2) are wanted")
+    p = np.zeros((len(board), 3))
+    p[:, : board.shape[1]] = board
+    size = arrays.get("size", arrays.get("image_size"))
+    if size is not None and not (
+        size.shape == (2,) and size.dtype.kind in "iuf" and size.min() > 0 and size.max() < 1e5
+    ):
+        raise InputError(f"{path.name}: size is two numbers, width and height in pixels")
+    return Corners(p, uv.astype(float), _size_of(uv) if size is None else (int(size[0]), int(size[1])))
+
+
+def _from_text(path: Path) -> Corners:
+    views: dict[str, list[list[float]]] = {}
+    for i, (view, *words) in word_rows(path, "corners", (".csv", ".txt")):
+        try:
+            numbers = [float(word) for word in words]
+        except ValueError:
+            if views:
+                raise InputError(f"{path.name}, line {i}: not numbers X Y u v behind the view") from None
+            continue  # a line of names
+        if len(numbers) != 4:
+            raise InputError(f"{path.name}, line {i}: {len(numbers)} numbers behind the view; X Y u v are wanted")
+        views.setdefault(view, []).append(numbers)
+    if len({len(rows) for rows in views.values()}) > 1:
+        raise InputError(f"{path.name}: not all views have the same number of points")
+    if not views:
+        raise InputError(f"{path.name}: no lines view X Y u v")
+    table = np.array(list(views.values()))
+    if np.ptp(table[:, :, :2], axis=0).max() > 0:
+        raise InputError(f"{path.name}: the views do not list the same points of the board in the same order")
+    p = np.column_stack([table[0, :, :2], np.zeros(table.shape[1])])
+    uv = table[:, :, 2:]
+    return Corners(p, uv, _size_of(uv))
+
+
+def _size_of(uv: np.ndarray) -> tuple[int, int]:
+    """Return the least usual size of a picture that holds all pixels."""
+    if not np.isfinite(uv).all() or not uv.size:
+        return _SIZES[0]
+    u, v = uv.reshape(-1, 2).max(axis=0)
+    return next(((w, h) for w, h in _SIZES if u < w and v < h), (int(1.05 * u) + 1, int(1.05 * v) + 1))
