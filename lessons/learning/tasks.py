@@ -19,7 +19,7 @@ from workbench.data.framing import Upward, own_points
 from workbench.data.labelled_shapes import NAMES, labelled_clouds
 from workbench.data.own_meshes import read_welded
 from workbench.data.rabbit import rabbit
-from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, Decode, turns
+from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, Decode, random_rotations
 from workbench.geometry.sampling import points_on_faces
 from workbench.geometry.volume_rendering import RayWeights, samples_on
 
@@ -67,7 +67,7 @@ def _turns(params: Params, functions: Functions, rng: np.random.Generator) -> It
         representation = IN_SPACE[params.rotation]
         if params.rotation == "6D":
             representation = replace(representation, decode=functions.rotation_from_six)
-        R_test, w = turns(3 * TURNS, 3, largest, np.random.default_rng(1000 + params.seed))
+        R_test, w = random_rotations(3 * TURNS, 3, largest, np.random.default_rng(1000 + params.seed))
         about = Turns(w / np.pi, np.degrees(np.linalg.norm(w, axis=1)))
     for now in regress(
         representation,

@@ -43,7 +43,7 @@ def folded(state: Any) -> float:
 def to_given(state: Any) -> float:
     """Chamfer distance of points on the mesh to the given ones, m²: of other points on it than the lesson takes."""
     mesh = trimesh.Trimesh(state.now.p, state.about.faces, process=False)
-    q, _ = trimesh.sample.sample_surface(mesh, 3000, seed=5)
+    q = trimesh.sample.sample_surface(mesh, 3000, seed=5)[0]
     D = scipy.spatial.distance.cdist(q, state.about.given)
     return float((D.min(axis=1) ** 2).mean() + (D.min(axis=0) ** 2).mean())
 

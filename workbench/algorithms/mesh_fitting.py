@@ -23,7 +23,7 @@ from workbench.geometry.mesh_energies import (
     umbrella,
 )
 from workbench.geometry.meshes import edges as edges_of
-from workbench.geometry.meshes import face_areas
+from workbench.geometry.sampling import places_on_faces, points_on_faces
 from workbench.geometry.shape_distances import chamfer, chamfer_gradient
 from workbench.tracing import traced
 
@@ -79,9 +79,11 @@ def fit_mesh(
     """
     p, count = p.copy(), len(p)
     L, edges, pairs = umbrella(faces, count), edges_of(faces), face_pairs(faces)
+    u = np.random.default_rng(0).random((3, MEASURED)).T  # the same at every state, so that curves do not tremble
 
     def gradient() -> tuple[float, np.ndarray]:
-        corners, shares = _drawn(p, faces, SAMPLES, rng)
+        k, shares = places_on_faces(p, faces, rng.random((3, SAMPLES)).T)
+        corners = faces[k]
         q = np.einsum("nk,nkx->nx", shares, p[corners])
         by_q = np.asarray(chamfer_gradient(q, given), float)
         slope = scattered((shares[:, :, None] * by_q[:, None]).reshape(-1, 3), corners.ravel(), count)
@@ -94,8 +96,7 @@ def fit_mesh(
         return chamfer(q, given), slope
 
     for updates, loss in descend(p, gradient, counts, RATE):
-        corners, shares = _drawn(p, faces, MEASURED, np.random.default_rng(0))
-        q = np.einsum("nk,nkx->nx", shares, p[corners])
+        q = points_on_faces(p, faces, u)
         yield MeshFitted(
             updates=updates,
             loss=loss,
@@ -104,11 +105,3 @@ def fit_mesh(
             to_truth=chamfer(q, truth) if len(truth) else float("nan"),
             folded=float((fold_angles(p, faces, pairs) > np.pi / 2).mean()),
         )
-
-
-def _drawn(p: np.ndarray, faces: np.ndarray, count: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """Return the corners of faces drawn by their area, and the weights of points drawn in them."""
-    area = np.cumsum(face_areas(p, faces))
-    chosen = np.minimum(np.searchsorted(area, area[-1] * rng.random(count), side="right"), len(faces) - 1)
-    root, t = np.sqrt(rng.random(count)), rng.random(count)
-    return faces[chosen], np.stack([1 - root, root * (1 - t), root * t], axis=1)

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.algorithms.perceptron import backward, descend, forward, layers_of, new_values
-from workbench.geometry.rotation_outputs import Representation, Rotations, degrees_apart, turns
+from workbench.geometry.rotation_outputs import Representation, Rotations, degrees_apart, random_rotations
 from workbench.tracing import traced
 
 Compared = Literal["numbers", "matrix"]
@@ -68,7 +68,7 @@ def regress(
     layers[-1][1][:] = representation.start
 
     def gradient() -> tuple[float, np.ndarray]:
-        R_true, _ = turns(BATCH, d, largest, rng)
+        R_true, _ = random_rotations(BATCH, d, largest, rng)
         outputs = forward(layers, _inputs(R_true), "relu")
         y = outputs[-1]
         if compared == "numbers":

@@ -5,7 +5,8 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float, Int
 
-from workbench.geometry.rotation_outputs import IN_SPACE, turns
+from workbench.geometry.motions import turns
+from workbench.geometry.rotation_outputs import random_rotations
 
 NAMES = ("sphere", "box", "cylinder", "cone", "torus")
 Turned = Literal["about z", "freely"]
@@ -28,9 +29,9 @@ def labelled_clouds(
     """
     p = _points(of, count, rng) * rng.uniform(*STRETCH, (len(of), 1, 3))
     if turned == "freely":
-        R, _ = turns(len(of), 3, np.pi, rng)
+        R, _ = random_rotations(len(of), 3, np.pi, rng)
     else:
-        R = IN_SPACE["axis-angle"].decode(np.outer(rng.uniform(-np.pi, np.pi, len(of)), [0.0, 0.0, 1.0]))
+        R = turns(np.outer(rng.uniform(-np.pi, np.pi, len(of)), [0.0, 0.0, 1.0]))
     p = p @ R.swapaxes(1, 2) + NOISE * rng.normal(size=p.shape)
     return np.take_along_axis(p, p[:, :, 2].argsort(axis=1)[:, :, None], 1)
 

@@ -12,6 +12,7 @@ from workbench.geometry.meshes import adjacency
 
 Points = Float[np.ndarray, "v 3"]
 Energy = tuple[float, Points]
+_NO_AREA = 1e-12  # m², of twice a face
 
 
 def umbrella(faces: Int[np.ndarray, "f 3"], count: int) -> "scipy.sparse.csr_array":
@@ -39,16 +40,16 @@ def normal_energy(p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarra
 
     Args:
         p: Vertices, m.
-        faces: Corners a, b, c. A face without area has the normal 0.
+        faces: Corners a, b, c. A face without area has the normal 0, and moves nothing.
         pairs: Two faces each.
     """
     a, b, c = (p[faces[:, k]] for k in range(3))
     N = np.cross(b - a, c - a)
-    length = np.maximum(np.linalg.norm(N, axis=1, keepdims=True), 1e-12)
+    length = np.maximum(np.linalg.norm(N, axis=1, keepdims=True), _NO_AREA)
     n = N / length
     one, other = n[pairs[:, 0]], n[pairs[:, 1]]
     by_n = scattered(np.concatenate([other, one]) / -len(pairs), pairs.T.ravel(), len(faces))
-    by_N = (by_n - n * (n * by_n).sum(axis=1, keepdims=True)) / length
+    by_N = np.where(length > _NO_AREA, by_n - n * (n * by_n).sum(axis=1, keepdims=True), 0) / length
     by_b, by_c = np.cross(c - a, by_N), np.cross(by_N, b - a)
     slope = scattered(np.concatenate([-by_b - by_c, by_b, by_c]), faces.T.ravel(), len(p))
     return float((1 - (one * other).sum(axis=1)).mean()), slope

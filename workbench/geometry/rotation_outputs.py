@@ -14,11 +14,14 @@ import numpy as np
 import scipy
 from jaxtyping import Float
 
+from workbench.geometry.alignment import nearest_rotation
+from workbench.geometry.motions import skew, turns
+
 Rotations = Float[np.ndarray, "n d d"]
 Decode = Callable[[np.ndarray], np.ndarray]
 """decode(outputs) -> rotations."""
 
-_FLAT = 1e-6  # radians: below, a rotation vector's series is taken
+_FLAT = 1e-3  # radians: below, a series is taken for (a - sin a) / a³
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -48,14 +51,6 @@ def rotation_from_six(y: Float[np.ndarray, "n 6"]) -> Float[np.ndarray, "n 3 3"]
     """
     u, v, _, _, _ = _six(y)
     return np.stack([u, v, np.cross(u, v)], axis=2)
-
-
-def skews(w: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3 3"]:
-    """Return the matrices that take x to w x x, one for each row."""
-    matrices = np.zeros((len(w), 3, 3))
-    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        matrices[:, j, i], matrices[:, i, j] = w[:, k], -w[:, k]
-    return matrices
 
 
 def degrees_apart(R: Rotations, other: Rotations) -> Float[np.ndarray, " n"]:
@@ -102,11 +97,6 @@ def _nine(y: np.ndarray) -> tuple[np.ndarray, ...]:
     return U, s * signs, signs[:, :, None] * Vt
 
 
-def _nine_decode(y: np.ndarray) -> np.ndarray:
-    U, _, Vt = _nine(y)
-    return U @ Vt
-
-
 def _nine_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
     U, s, Vt = _nine(y)  # M = U diag(s) Vt with U Vt a rotation: the last s may be negative
     inner = U.swapaxes(1, 2) @ slope @ Vt.swapaxes(1, 2)
@@ -135,36 +125,18 @@ def _quaternion_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
     return _through_unit(np.concatenate([2 * (v * odd).sum(axis=1, keepdims=True), by_v], axis=1), q, length)
 
 
-def _vector_terms(y: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return the cross matrix, and sin a / a, (1 - cos a) / a², (a - sin a) / a³."""
-    a = np.linalg.norm(y, axis=1)[:, None, None]
-    safe = np.maximum(a, _FLAT)
-    third = np.where(a < 1e-3, 1 / 6 - a * a / 120, (safe - np.sin(safe)) / safe**3)
-    return skews(y), np.sinc(a / np.pi), 0.5 * np.sinc(a / (2 * np.pi)) ** 2, third
-
-
-def _vector_decode(y: np.ndarray) -> np.ndarray:
-    K, first, second, _ = _vector_terms(y)
-    return np.eye(3) + first * K + second * K @ K
-
-
 def _vector_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    K, first, second, third = _vector_terms(y)
-    R = np.eye(3) + first * K + second * K @ K
-    J = np.eye(3) + second * K + third * K @ K  # left Jacobian: dR = [J dy]x R
-    turn = slope @ R.swapaxes(1, 2)
+    a, K = np.linalg.norm(y, axis=1)[:, None, None], skew(y)
+    safe = np.maximum(a, _FLAT)
+    third = np.where(a < _FLAT, 1 / 6 - a * a / 120, (safe - np.sin(safe)) / safe**3)
+    J = np.eye(3) + 0.5 * np.sinc(a / (2 * np.pi)) ** 2 * K + third * K @ K  # left Jacobian: dR = [J dy]x R
+    turn = slope @ turns(y).swapaxes(1, 2)
     w = np.stack([turn[:, k, j] - turn[:, j, k] for j, k in ((1, 2), (2, 0), (0, 1))], axis=1)
     return np.einsum("nij,ni->nj", J, w)
 
 
 def _about(axis: int, a: np.ndarray) -> np.ndarray:
-    R = np.zeros((len(a), 3, 3))
-    j, k = (axis + 1) % 3, (axis + 2) % 3
-    R[:, axis, axis] = 1
-    R[:, j, j] = R[:, k, k] = np.cos(a)
-    R[:, k, j] = np.sin(a)
-    R[:, j, k] = -R[:, k, j]
-    return R
+    return turns(np.outer(a, np.eye(3)[axis]))
 
 
 def _euler_decode(y: np.ndarray) -> np.ndarray:
@@ -172,7 +144,7 @@ def _euler_decode(y: np.ndarray) -> np.ndarray:
 
 
 def _euler_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    first, R, (about_x, about_y, about_z) = _about(2, y[:, 2]) @ _about(1, y[:, 1]), _euler_decode(y), skews(np.eye(3))
+    first, R, (about_x, about_y, about_z) = _about(2, y[:, 2]) @ _about(1, y[:, 1]), _euler_decode(y), skew(np.eye(3))
     changes = (R @ about_x, first @ about_y @ _about(0, y[:, 0]), about_z @ R)
     return np.stack([(slope * change).sum(axis=(1, 2)) for change in changes], axis=1)
 
@@ -243,9 +215,7 @@ one rotation; or its own, a vector of which the direction counts."""
 
 IN_SPACE: Mapping[str, Representation] = {
     "Euler": Representation(start=np.zeros(3), decode=_euler_decode, pullback=_euler_back, numbers=_as("Euler")),
-    "axis-angle": Representation(
-        start=np.zeros(3), decode=_vector_decode, pullback=_vector_back, numbers=_as("vector")
-    ),
+    "axis-angle": Representation(start=np.zeros(3), decode=turns, pullback=_vector_back, numbers=_as("vector")),
     "quaternion": Representation(
         start=np.eye(4)[0], decode=_quaternion_decode, pullback=_quaternion_back, numbers=_as("quaternion")
     ),
@@ -256,13 +226,16 @@ IN_SPACE: Mapping[str, Representation] = {
         numbers=lambda R: np.concatenate([R[:, :, 0], R[:, :, 1]], axis=1),
     ),
     "9D": Representation(
-        start=np.eye(3).ravel(), decode=_nine_decode, pullback=_nine_back, numbers=lambda R: R.reshape(-1, 9)
+        start=np.eye(3).ravel(),
+        decode=lambda y: nearest_rotation(y.reshape(-1, 3, 3)),
+        pullback=_nine_back,
+        numbers=lambda R: R.reshape(-1, 9),
     ),
 }
 """Angles about the fixed x, y, z; a rotation vector; (w, x, y, z), w >= 0 where asked for; two columns; all nine entries."""
 
 
-def turns(
+def random_rotations(
     count: int, dimension: int, largest: float, rng: np.random.Generator
 ) -> tuple[Rotations, Float[np.ndarray, "n w"]]:
     """Return rotations by at most an angle, as evenly spread as all rotations are, and their angle or rotation vector.
@@ -281,4 +254,4 @@ def turns(
     table = np.linspace(0, largest, 257)
     a = np.interp(rng.uniform(0, largest - np.sin(largest), count), table - np.sin(table), table)
     w = _unit(rng.normal(size=(count, 3)))[0] * a[:, None]
-    return _vector_decode(w), w
+    return turns(w), w
