@@ -24,7 +24,7 @@ from workbench.geometry.sampling import points_on_faces
 from workbench.geometry.volume_rendering import RayWeights, samples_on
 
 UPDATES: Mapping[Task, int] = {"angle": 600, "rotation": 600, "sets": 150, "mesh": 80, "classify": 300, "field": 120}
-STEPS = 24
+STEPS = 16
 WIDTHS = {"angle": 32, "rotation": 64}
 TURNS, SET, CLOUD, TESTS, PIXELS = 181, 48, 32, 20, 40
 RADII = (0.5, 1.5)  # of the circles that a set of points is shown, m
