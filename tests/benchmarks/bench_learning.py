@@ -1,8 +1,9 @@
 """Learning by hand-written gradients beside autograd and JAX: `python -m tests.benchmarks.bench_learning [--rounds 5]`.
 
 One update of the network that puts out six numbers for a rotation (64 rotations, two hidden layers of 64, loss on the
-matrix) is the same sum for all: forward, backward and Adam. JAX compiles it; its first call is told apart. One thread, CPU time, the least of the rounds that take turns, with the largest difference of the gradients. Then
-every task of the lesson from its start to its end, every step held against the truth.
+matrix) is the same sum for all: forward, backward and Adam. JAX compiles it; its first call is told apart. One thread,
+CPU time, the least of the rounds that take turns, with the largest difference of the gradients. Then every task of the
+lesson from its start to its end, every step held against the truth.
 """
 # ruff: noqa: E402
 

@@ -58,6 +58,67 @@ def right_counts_and_sums(p, q):
     return 2 * (p - q[D.argmin(1)]) / len(p) + 2 * (B.sum(0)[:, None] * p - B.T @ q) / len(q)
 
 
+def right_kd_trees(p, q):
+    from scipy.spatial import cKDTree
+
+    i, j = cKDTree(q).query(p)[1], cKDTree(p).query(q)[1]
+    g = 2 * (p - q[i]) / p.shape[0]
+    np.subtract.at(g, j, 2 * (q - p[j]) / q.shape[0])
+    return g
+
+
+def right_cdist(p, q):
+    from scipy.spatial.distance import cdist
+
+    D = cdist(p, q, "sqeuclidean")
+    g = (p - q[np.argmin(D, axis=1)]) * (2 / len(p))
+    for k, i in enumerate(np.argmin(D, axis=0)):
+        g[i] += (p[i] - q[k]) * (2 / len(q))
+    return g
+
+
+def right_group_by_group(p, q):
+    D = _sq(p, q)
+    nearest_p = D.argmin(0)
+    rows = []
+    for i in range(len(p)):
+        mine = q[nearest_p == i]
+        rows.append(2 / len(p) * (p[i] - q[D[i].argmin()]) + 2 / len(q) * (len(mine) * p[i] - mine.sum(axis=0)))
+    return np.array(rows)
+
+
+def right_sparse(p, q):
+    from scipy.sparse import coo_array
+
+    D, n, m = _sq(p, q), len(p), len(q)
+    there = coo_array((np.ones(n), (np.arange(n), D.argmin(1))), shape=(n, m)).tocsr()
+    back = coo_array((np.ones(m), (D.argmin(0), np.arange(m))), shape=(n, m)).tocsr()
+    W = 2 * (there / n + back / m)
+    return W.sum(axis=1).reshape(-1, 1) * p - W @ q
+
+
+def right_two_functions(p, q):
+    def to_nearest(a, b):
+        return np.array([b[((b - x) ** 2).sum(1).argmin()] for x in a])
+
+    def index_of_nearest(a, b):
+        return [int(((b - x) ** 2).sum(1).argmin()) for x in a]
+
+    g = (p - to_nearest(p, q)) / len(p)
+    for x, i in zip(q, index_of_nearest(q, p)):
+        g[i] = g[i] + (p[i] - x) / len(q)
+    return 2 * g
+
+
+def right_swapped_axes(p, q):
+    v = q.T[:, None, :] - p.T[:, :, None]
+    D = np.einsum("xij,xij->ij", v, v)
+    mask = np.zeros(D.shape)
+    mask[np.arange(D.shape[0]), D.argmin(1)] += 1 / D.shape[0]
+    mask[D.argmin(0), np.arange(D.shape[1])] += 1 / D.shape[1]
+    return -2 * np.einsum("ij,xij->ix", mask, v)
+
+
 def wrong_only_forward(p, q):
     return 2 * _sides(p, q)[0] / len(p)
 

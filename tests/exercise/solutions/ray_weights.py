@@ -46,6 +46,51 @@ def right_diff(density, spacing):
     return -np.diff(T, axis=1)
 
 
+def right_what_is_left(density, spacing):
+    """Each sample takes its share of what the ones before did not take."""
+    a = 1 - np.exp(-density * spacing)
+    w = np.zeros(density.shape)
+    for i in range(density.shape[1]):
+        w[:, i] = a[:, i] * (1 - w[:, :i].sum(axis=1))
+    return w
+
+
+def right_triangle(density, spacing):
+    s = density.shape[1]
+    before = np.triu(np.ones((s, s)), 1)
+    return np.exp(-spacing * density @ before) * (1 - np.exp(-spacing * density))
+
+
+def right_roll_with_first_set(density, spacing):
+    total = np.roll(np.cumsum(density * spacing, axis=1), 1, axis=1)
+    total[:, 0] = 0
+    return np.exp(-total) * (1.0 - np.exp(-density * spacing))
+
+
+def right_accumulate(density, spacing):
+    from itertools import accumulate
+
+    rows = []
+    for ray in density:
+        passes = [np.exp(-d * spacing) for d in ray]
+        light = [1.0, *accumulate(passes, lambda a, b: a * b)]
+        rows.append([T * (1 - k) for T, k in zip(light, passes)])
+    return np.array(rows)
+
+
+def right_multiply_accumulate(density, spacing):
+    passes = np.exp(-np.asarray(density) * spacing)
+    T = np.ones_like(passes)
+    T[:, 1:] = np.multiply.accumulate(passes[:, :-1], axis=1)
+    return T - T * passes
+
+
+def right_transposed(density, spacing):
+    depth = (density * spacing).T
+    T = np.exp(-np.vstack([np.zeros(depth.shape[1]), np.cumsum(depth, axis=0)]))
+    return (T[:-1] - T[1:]).T
+
+
 def wrong_inclusive_product(density, spacing):
     alpha = 1 - np.exp(-density * spacing)
     return alpha * np.cumprod(1 - alpha, axis=1)

@@ -53,6 +53,63 @@ def right_third_first(y):
     return np.stack([u, np.cross(w, u), w], -1)
 
 
+def right_without_first_normalising(y):
+    a, b = y[:, :3], y[:, 3:]
+    v = _dot(a, a) * b - _dot(a, b) * a
+    return np.stack([_n(a), _n(v), np.cross(_n(a), _n(v))], axis=-1)
+
+
+def right_cross_by_hand(y):
+    u = y[:, 0:3] / np.sqrt((y[:, 0:3] ** 2).sum(axis=1))[:, None]
+    v = y[:, 3:6] - (y[:, 3:6] * u).sum(axis=1)[:, None] * u
+    v = v / np.sqrt((v**2).sum(axis=1))[:, None]
+    w = np.stack(
+        [
+            u[:, 1] * v[:, 2] - u[:, 2] * v[:, 1],
+            u[:, 2] * v[:, 0] - u[:, 0] * v[:, 2],
+            u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0],
+        ],
+        axis=1,
+    )
+    return np.concatenate([u[:, :, None], v[:, :, None], w[:, :, None]], axis=2)
+
+
+def right_rows_then_transposed(y):
+    rows = y.reshape(-1, 2, 3)
+    u = _n(rows[:, 0])
+    v = _n(rows[:, 1] - _dot(rows[:, 1], u) * u)
+    return np.stack([u, v, np.cross(u, v)], axis=1).transpose(0, 2, 1)
+
+
+def right_one_at_a_time(y):
+    def one(six):
+        a, b = np.split(six, 2)
+        u = a / np.linalg.norm(a)
+        b = b - np.dot(u, b) * u
+        v = b / np.linalg.norm(b)
+        return np.column_stack((u, v, np.cross(u, v)))
+
+    return np.stack([one(six) for six in y])
+
+
+def right_cholesky(y):
+    M = y.reshape(-1, 2, 3).swapaxes(1, 2)
+    L = np.linalg.cholesky(M.swapaxes(1, 2) @ M)
+    Q = np.linalg.solve(L, M.swapaxes(1, 2)).swapaxes(1, 2)
+    return np.dstack([Q, np.cross(Q[:, :, 0], Q[:, :, 1])])
+
+
+def right_twice_for_safety(y):
+    u, v = _n(y[:, :3]), y[:, 3:]
+    for _ in range(2):
+        v = _n(v - _dot(u, v) * u)
+    R = np.empty((y.shape[0], 3, 3))
+    R[..., 0] = u
+    R[..., 1] = v
+    R[..., 2] = np.cross(u, v, axis=-1)
+    return R
+
+
 def wrong_no_gram_schmidt(y):
     u, v = _n(y[:, :3]), _n(y[:, 3:])
     return np.stack([u, v, np.cross(u, v)], -1)
