@@ -60,7 +60,8 @@ def _angle(params: Params, about: Turns, now: Regressed) -> dict[str, Primitive]
     a = np.arctan2(now.R[:, 1, 0], now.R[:, 0, 0])
     put = 1.12 * np.column_stack([np.cos(a), np.sin(a), 0 * a])
     k = params.picked % len(put)
-    told = np.degrees(now.outputs[:, 0] if params.angle == "one number" else a)
+    nearest = about.degrees + (np.degrees(a) - about.degrees + 180) % 360 - 180  # of all angles that mean the same
+    told = np.degrees(now.outputs[:, 0]) if params.angle == "one number" else nearest
     return _errors(now) | {
         "circle": Segments(segments(UNIT), "neutral", 1.0),
         "inputs": Points(about.places, Field(now.errors, 0.0, 45.0, "error", "°"), 0.022, name="inputs"),
@@ -131,7 +132,7 @@ def _clouds(params: Params, now: Classified, about: Clouds) -> dict[str, Primiti
         decides = np.isin(np.arange(len(p)), critical[k])
         color = Classes.marking(decides, "highlight", "critical", others=("target", "points"))
         right = said(now, k) == name
-        scene[f"clouds/{name}"] = Points(p + np.array([x, 0.0, 0.0]), color, 0.05, name="points" if k == 0 else "")
+        scene[f"clouds/{name}"] = Points(p + np.array([x, 0.0, 0.0]), color, 0.065, name="points" if k == 0 else "")
         scene[f"said/{name}"] = Label(
             name if right else f"{name}: taken for {said(now, k)}", np.array([x, 0, 1.5]), "truth" if right else "wrong"
         )

@@ -29,7 +29,7 @@ WIDTHS = {"angle": 32, "rotation": 64}
 TURNS, SET, CLOUD, TESTS, PIXELS = 181, 48, 32, 20, 40
 RADII = (0.5, 1.5)  # of the circles that a set of points is shown, m
 VERTICES, GIVEN, TRUE, START = 642, 1200, 3000, 0.6  # of meshes: vertices, points given and of the truth, radius (m)
-MOST_OWN, OWN_SIZE = 200_000, 2.0
+MOST_OWN, OWN_SIZE = 200_000, 1.2
 NEW_VIEW, NEW_VIEWS, DENSE = 0.13, 12, 5.0  # radians off the cameras; how many; density that counts as matter, 1/m
 
 

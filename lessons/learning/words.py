@@ -80,7 +80,7 @@ def _told(state: State) -> tuple[str, float, float, float]:
 
 def _of_turns(params: Params, about: Turns, now: Regressed) -> str:
     k, worst = params.picked % len(now.errors), int(now.errors.argmax())
-    mean = f"loss {fixed(now.loss, 3)}; wrong by {angle(float(now.errors.mean()))} on average"
+    mean = f"loss {brief(now.loss, 2)}; wrong by {angle(float(now.errors.mean()))} on average"
     if now.updates == 0:
         return f"{mean}."
     of = "a turn of" if params.task == "angle" else "one of the turns by"

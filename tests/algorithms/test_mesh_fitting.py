@@ -5,13 +5,13 @@ import pytest
 
 from tests.algorithms.gradients import assert_gradient, descended
 from workbench.algorithms import mesh_fitting
-from workbench.algorithms.mesh_fitting import fit_mesh
+from workbench.algorithms.mesh_fitting import Term, fit_mesh
 from workbench.data.surfaces import sphere
 from workbench.geometry.mesh_energies import edge_energy, face_pairs, laplacian_energy, normal_energy, umbrella
 from workbench.geometry.meshes import edges as edges_of
 from workbench.geometry.sampling import places_on_faces, points_on_faces
 
-NOTHING = {"laplacian": 0.0, "normal": 0.0, "edge": 0.0}
+NOTHING: dict[Term, float] = {"laplacian": 0.0, "normal": 0.0, "edge": 0.0}
 BALL = sphere(42)
 GIVEN = sphere(162).p * [1.0, 0.7, 0.5]
 NONE = np.empty((0, 3))
@@ -47,14 +47,14 @@ def test_points_lie_where_the_shares_of_the_corners_say():
 
 
 def test_a_ball_becomes_an_ellipsoid_and_a_laplacian_shrinks_it():
-    def end(**weights: float):
+    def end(laplacian: float = 0.0):
         found = list(
             fit_mesh(
                 BALL.p,
                 BALL.faces,
                 GIVEN,
                 GIVEN,
-                weights=NOTHING | weights,
+                weights={**NOTHING, "laplacian": laplacian},
                 counts=(0, 30),
                 rng=np.random.default_rng(4),
             )

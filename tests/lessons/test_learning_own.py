@@ -41,7 +41,7 @@ def test_the_bunny_is_folded_without_a_laplacian_and_smooth_with_it(shared_data)
 def test_a_mesh_of_any_unit_is_brought_to_the_size_of_the_scene(box):
     first, *_, last = own(box, updates=20)
     given = first.about.given
-    assert np.ptp(given, axis=0).max() == pytest.approx(2.0, abs=0.3)
+    assert np.ptp(given, axis=0).max() == pytest.approx(1.2, abs=0.3)
     assert np.abs(given.mean(axis=0)).max() < 0.3
     assert last.now.to_given < 0.5 * first.now.to_given
     assert "statue.stl" in caption_of(lesson.draw(last)).text
