@@ -78,7 +78,7 @@ def started_beside(name: str) -> subprocess.Popen:
         cwd=ROOT,
         stdout=subprocess.PIPE,
         text=True,
-        preexec_fn=(lambda: yielding(15)) if yielding else None,
+        preexec_fn=(lambda: yielding(5)) if yielding else None,
     )
 
 

@@ -1,16 +1,19 @@
 """Enforces array shapes in every test, finds the real data where it is present, and one browser for all."""
 
+import functools
+import inspect
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 from workbench.threads import ONE_EACH
 
 os.environ |= ONE_EACH  # before numpy is imported; workers inherit it
 
+import jaxtyping
 import pytest
 from beartype import BeartypeConf
-from jaxtyping import install_import_hook
 
 from tests.browser.chrome import HOW_TO, find_chromium, started
 
@@ -24,7 +27,46 @@ def checked(function_or_class):
     return beartype(conf=BeartypeConf(is_pep484_tower=True))(function_or_class)
 
 
-install_import_hook(["workbench.geometry", "workbench.algorithms", "workbench.data"], "tests.conftest.checked")
+ENOUGH = 20
+"""Calls of a function in one test whose shapes are checked; a run calls some thousands of times, all alike."""
+tests_begun = 0
+
+
+def checked_at_first(decorate: Callable[..., Callable[[Any], Any]]) -> Callable[..., Callable[[Any], Any]]:
+    """Return jaxtyping's decorator, but so that only the first calls of a function in each test are checked."""
+
+    def decorator(**options: Any) -> Callable[[Any], Any]:
+        def decorated(bare: Any) -> Any:
+            strict = decorate(**options)(bare)
+            if not inspect.isfunction(bare) or not inspect.isfunction(strict):
+                return strict
+            of_test, left = -1, 0
+
+            @functools.wraps(bare)
+            def sometimes(*args: Any, **kwargs: Any) -> Any:
+                nonlocal of_test, left
+                if of_test != tests_begun:
+                    of_test, left = tests_begun, ENOUGH
+                left -= 1
+                return strict(*args, **kwargs) if left >= 0 else bare(*args, **kwargs)
+
+            return sometimes
+
+        return decorated
+
+    return decorator
+
+
+jaxtyping.jaxtyped = checked_at_first(jaxtyping.jaxtyped)
+jaxtyping.install_import_hook(
+    ["workbench.geometry", "workbench.algorithms", "workbench.data"], "tests.conftest.checked"
+)
+
+
+def pytest_runtest_setup() -> None:
+    """Let the next test check anew."""
+    global tests_begun
+    tests_begun += 1
 
 
 @pytest.fixture(scope="session")

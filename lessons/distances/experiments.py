@@ -33,6 +33,7 @@ STAIRCASE = Params(neighbours="4", grid=31)
 MARCHING = Params(neighbours="march")
 DISC = Params(neighbours="march", wall=0.0, disc=0.1)
 SPHERE = Params(stage="surface", points=1000)
+JITTER = replace(SPHERE, jitter=0.2)
 POINTS = Params(stage="surface", points=1000, extra=3)
 HEAT = Params(stage="surface", shape="rabbit", method="heat")
 EARLY = Params(stage="surface", shape="rabbit", method="heat", time=-2.0)
@@ -104,6 +105,11 @@ PRESETS: tuple[Preset[Params], ...] = (
         SPHERE, ERRORS, BALL, breaks=True,
     ),
     Preset(
+        "jitter", "A less regular mesh",
+        "Every vertex of the sphere is moved a little, edges point everywhere: ways along them are almost as much too long.",
+        JITTER, -1, BALL, breaks=True,
+    ),
+    Preset(
         "points", "Points on the edges",
         "With three points on every edge ways may cross the faces: the same Dijkstra, and errors of about one per cent.",
         POINTS, ERRORS, BALL,
@@ -112,6 +118,11 @@ PRESETS: tuple[Preset[Params], ...] = (
         "heat", "Distance by heat",
         "Heat flows for a moment. Its size falls by many powers of ten, but its direction is all that is kept.",
         HEAT, 1, RABBIT,
+    ),
+    Preset(
+        "no-metric", "There and back by heat",
+        "A distance by heat is no metric: there and back differ, and now and then a detour is shorter.",
+        HEAT, -1, RABBIT, breaks=True,
     ),
     Preset(
         "early", "Heat for too short a time",

@@ -64,6 +64,11 @@ class Params:
         ),
     ] = 0.0  # fmt: skip
     shape: Annotated[Shape, Knob("The surface", needs=ON_SURFACE)] = "sphere"
+    jitter: Annotated[
+        float,
+        Knob("Vertices of the sphere are moved by up to so much of an edge", 0, 0.4, step=0.1,
+             needs=ON_SURFACE | {"shape": ("sphere",)}),
+    ] = 0.0  # fmt: skip
     method: Annotated[Literal["edges", "heat"], Knob("Along edges, or by heat", needs=ON_SURFACE)] = "edges"
     extra: Annotated[
         int,

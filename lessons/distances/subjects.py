@@ -35,9 +35,7 @@ def subject_of(params: Params) -> Subject:
     if params.stage == "grid":
         made = _square(params.grid, params.wall)
     elif params.stage == "surface":
-        made = _surface(only(params, "shape", "points")) if params.mesh is None else _own_mesh(
-            params.mesh, stamp(params.mesh), params.up
-        )  # fmt: skip
+        made = _made_surface(params) if params.mesh is None else _own_mesh(params.mesh, stamp(params.mesh), params.up)
     elif params.cloud is not None:
         made = _own_cloud(params.cloud, stamp(params.cloud), params.up, params.k)
     else:
@@ -105,6 +103,10 @@ def ways_in_square(side: int, wall: float, neighbours: int) -> tuple[np.ndarray,
     return edges, geodesics.edge_lengths(flat, edges)
 
 
+def _made_surface(params: Params) -> Subject:
+    return _surface(only(params, "shape", "points", *(("jitter", "seed") if params.jitter else ())))
+
+
 @functools.lru_cache(maxsize=8)
 def _surface(params: Params) -> Subject:
     if params.shape == "rabbit":
@@ -113,7 +115,16 @@ def _surface(params: Params) -> Subject:
         ring = surfaces.torus(max(params.points, 50), 0.7, 0.3)
         return _mesh("the torus", ring.p, ring.faces)
     ball = surfaces.sphere(params.points)
-    return replace(_mesh("the sphere", ball.p, ball.faces), is_sphere=True)
+    p = jittered(ball.p, ball.faces, params.jitter, np.random.default_rng(params.seed))
+    return replace(_mesh("the sphere", p, ball.faces), is_sphere=True)
+
+
+def jittered(p: np.ndarray, faces: np.ndarray, jitter: float, rng: np.random.Generator) -> np.ndarray:
+    """Return the vertices of a unit sphere (n, 3) moved along it, by up to `jitter` mean edges along each axis."""
+    h = geodesics.edge_lengths(p, meshes.edges(faces)).mean()
+    step = rng.uniform(-jitter * h, jitter * h, p.shape)
+    moved = p + step - (step * p).sum(axis=1, keepdims=True) * p
+    return moved / np.linalg.norm(moved, axis=1, keepdims=True)
 
 
 def _mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:

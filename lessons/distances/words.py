@@ -125,7 +125,10 @@ def _of_found(state: State, now: Found) -> Caption:
     if reached < where:
         text += f" {where - reached:,} nodes cannot be reached."
     if len(now.asymmetry):
-        text += f" Of the triples {percent(now.broken)} break the triangle inequality."
+        text += (
+            f" There and back differ by up to {percent(now.asymmetry.max())}, and of the triples {percent(now.broken)}"
+        )
+        text += " break the triangle inequality."
     text += {"good": " Right to 2 %.", "wrong": " That is wrong, also on average.", "info": ""}[tone]
     return Caption(text + _of_study(state, now), tone)
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 WAIT = 180_000
 """Milliseconds after which a test gives up: it waits for states, also on a busy machine that draws slowly."""
 HOW_TO = (
-    "no Chromium or Chrome here: install one (Debian: apt-get install chromium), or set WORKBENCH_CHROMIUM to its path"
+    "no Chromium or Chrome here: install one (Debian: apt-get install chromium-headless-shell), or set WORKBENCH_CHROMIUM to its path"
 )
 FLAGS = [
     "--no-sandbox",
@@ -33,7 +33,14 @@ def find_chromium() -> str | None:
     named = os.environ.get("WORKBENCH_CHROMIUM")
     if named:
         return named
-    names = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+    names = (
+        "chromium-headless-shell",
+        "chromium",
+        "chromium-browser",
+        "google-chrome",
+        "google-chrome-stable",
+        "chrome",
+    )
     return next((path for name in names if (path := shutil.which(name))), None)
 
 

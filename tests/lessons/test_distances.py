@@ -177,6 +177,16 @@ def test_the_time_of_heat():
     assert flattered[1][8] < flattered[1][4]  # on a sphere a longer time looks better
 
 
+def test_a_less_regular_mesh_does_not_help_ways_along_edges():
+    regular, moved = (now(Found, preset(name)) for name in ("sphere", "jitter"))
+    assert 0.045 < moved.mean < regular.mean
+    np.testing.assert_allclose(np.linalg.norm(states(preset("jitter"))[0].subject.p, axis=1), 1)
+    for found in (regular, moved):
+        coarse, fine = 10 ** found.study["edges"][1][[0, -1]]
+        assert fine > 0.6 * coarse  # while its edges are an eighth as long
+        assert 10 ** found.study["heat"][1][-1] < 0.25 * 10 ** found.study["heat"][1][0]
+
+
 def test_heat_distance_is_nearly_a_metric():
     found = now(Found, preset("heat"))
     assert 0.005 < found.broken < 0.04

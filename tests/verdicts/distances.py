@@ -6,12 +6,13 @@ import re
 import numpy as np
 import scipy
 
-from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, Trials
+from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, State, Trials
 from lessons.distances.words import caption
 from tests.readings import LENGTH, NUMBER, near, near_length, number, says, says_percent
-from tests.truths.distances import errors, mahalanobis, true_distances
+from tests.truths.distances import by_heat, errors, mahalanobis, true_distances
 from tests.verdicts import Claim, Run
 from workbench.algorithms.heat_method import HeatState
+from workbench.data.surfaces import sphere
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 
@@ -170,6 +171,28 @@ def _weakest(run: Run, k: int, m: re.Match[str]) -> bool:
     return abs(number(m["far"]) - np.log10(np.sort(np.abs(now.u))[len(now.u) // 2] / now.u.max())) < 0.51
 
 
+@functools.lru_cache(maxsize=2)
+def _as_a_metric(state: State) -> tuple[float, float]:
+    """Of some vertices the largest difference of there and back, and the share of triples with a shorter detour."""
+    s = state.subject
+    assert s is not None
+    some = np.unique(np.linspace(0, len(s.p) - 1, 24).astype(int))
+    D = by_heat(s.p, s.faces, some, 10.0**state.params.time * s.h**2)[some]
+    np.fill_diagonal(D, 0.0)
+    back = (np.abs(D - D.T) / np.maximum(np.maximum(D, D.T), 1e-300)).max()
+    triples = [(a, b, c) for a in range(len(some)) for b in range(len(some)) for c in range(len(some))]
+    a, b, c = np.array([one for one in triples if len(set(one)) == 3]).T
+    return float(back), float((D[a, c] > D[a, b] + D[b, c] + 1e-9).mean())
+
+
+def _heat_as_a_metric(run: Run, k: int, m: re.Match[str]) -> bool:
+    back, shorter = _as_a_metric(run.states[k])
+    told = m["back"], m["shorter"]
+    return all(
+        abs(number(one.split()[0]) / 100 - true) < 0.15 * true for one, true in zip(told, (back, shorter), strict=True)
+    )
+
+
 CAPTIONS = [
     Claim(
         rf"(?P<mean>{PERCENT}) off on average, at worst (?P<worst>{PERCENT}) too (?P<sense>long|short)", _mean_and_worst
@@ -181,6 +204,10 @@ CAPTIONS = [
     Claim(r"10 to the power of (?P<far>[−\d]+) of the strongest", _weakest),
     Claim(r"Of \d+ other queries (?P<share>[\d.]+ %) have another nearest", _balls),
     Claim(rf"(?P<share>{PERCENT}) break the triangle inequality\. (?:Here|Also|No)", _share_broken),
+    Claim(
+        rf"There and back differ by up to (?P<back>{PERCENT}), and of the triples (?P<shorter>{PERCENT}) break",
+        _heat_as_a_metric,
+    ),
     Claim(rf"from a to c is (?P<ac>{NUMBER}), over b it is (?P<over>{NUMBER})", _detour),
     Claim(r"No metric\.", _wrong),
     Claim(r"none breaks the triangle inequality", lambda run, k, m: run.states[k].now.broken == 0),
@@ -239,6 +266,20 @@ def _refined(run: Run) -> np.ndarray:
     return 10 ** _ends(run).study["8 neighbours"][1]
 
 
+def _on_regular(run: Run) -> float:
+    """The mean error of Dijkstra by scipy on the sphere before its vertices were moved, beside great circles."""
+    ball = sphere(run.params.points)
+    edges = np.unique(np.sort(ball.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+    lengths = np.linalg.norm(ball.p[edges[:, 0]] - ball.p[edges[:, 1]], axis=1)
+    assert run.states[0].subject is not None
+    source = run.states[0].subject.source
+    graph = scipy.sparse.coo_array((lengths, edges.T), shape=(len(ball.p), len(ball.p)))
+    d = scipy.sparse.csgraph.dijkstra(graph.tocsr(), directed=False, indices=source)
+    true = np.arccos(np.clip(ball.p @ ball.p[source], -1, 1))
+    far = true > 0.14 * np.pi
+    return float((d[far] / true[far] - 1).mean())
+
+
 LINES = {
     "taxi": [Claim(r"another nearest point", lambda run, k, m: run.states[-1].now.changed.any())],
     "units": [
@@ -267,6 +308,18 @@ LINES = {
         )
     ],
     "sphere": [Claim(r"Most ways along edges are several per cent too long", _most_too_long)],
+    "jitter": [
+        Claim(
+            r"ways along them are almost as much too long",
+            lambda run, k, m: 0.8 * _on_regular(run) < _errors(run.states[-1]).mean() < _on_regular(run),
+        )
+    ],
+    "no-metric": [
+        Claim(
+            r"there and back differ, and now and then a detour is shorter",
+            lambda run, k, m: _as_a_metric(run.states[-1])[0] > 0.01 and 0 < _as_a_metric(run.states[-1])[1] < 0.1,
+        )
+    ],
     "points": [
         Claim(r"errors of about one per cent", lambda run, k, m: 0.005 < np.abs(_errors(run.states[-1])).max() < 0.015)
     ],
