@@ -114,8 +114,8 @@ def _mesh(now: MeshFitted, about: Target) -> dict[str, Primitive]:
         "given": Points(about.given, "target", 0.01, name="given points"),
         "mesh": Mesh(now.p, about.faces, "source", flat=True, name="fitted mesh"),
         "folded": Segments(now.p[shared[folded]], "wrong", 3.0, name="edges folded by over 90°"),
-        "to given": DISTANCE.scalar(1e6 * now.to_given, "to the given points"),
-        "to truth": DISTANCE.scalar(1e6 * now.to_truth, "to the true surface", "truth"),
+        "to given": DISTANCE.scalar(1e6 * now.to_given, "to the given points", log=True),
+        "to truth": DISTANCE.scalar(1e6 * now.to_truth, "to the true surface", "truth", log=True),
         "folds": FOLDS.scalar(100 * now.folded, "folded by over 90°", "wrong"),
     }
 

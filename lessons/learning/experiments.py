@@ -17,7 +17,7 @@ BALL = View(eye=(1.9, -2.4, 1.3), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 ABOVE = View(eye=(0.0, -0.6, 4.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 RABBIT = View(eye=(1.35, -1.95, 0.75), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 FLAT = View(eye=(0.0, -0.7, 5.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
-ROW = View(eye=(0.0, -10.0, 2.5), target=(0.4, 0.0, 0.75), grid=None, axes=False)
+ROW = View(eye=(0.0, -11.4, 2.7), target=(0.3, 0.0, 0.75), grid=None, axes=False)
 
 CUT = Params(angle="one number")
 SHORT = Params(angle="one number", largest=90.0)
