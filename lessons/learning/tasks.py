@@ -101,13 +101,10 @@ def _sets(params: Params, functions: Functions, rng: np.random.Generator) -> Ite
 
 def _mesh(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Target, Now]]:
     ball = surfaces.sphere(VERTICES)
-    if params.scan is None:
-        name, given, truth = "the rabbit", rabbit(GIVEN, rng), rabbit(TRUE, rng)
-    else:
-        p, faces = _own(params.scan, stamp(params.scan), params.up)
-        name = params.scan.name
-        given, truth = (points_on_faces(p, faces, rng.random((count, 3))) for count in (GIVEN, TRUE))
+    name = "the rabbit" if params.scan is None else params.scan.name
+    given, truth = _surface(params.scan, params.scan and stamp(params.scan), params.up, params.seed)
     given = given + params.noise * rng.normal(size=given.shape)
+    target = Target(ball.faces, given, name)
     weights: dict[Term, float] = {"laplacian": params.laplacian, "normal": params.normal, "edge": params.edge}
     for now in fit_mesh(
         START * ball.p,
@@ -119,13 +116,18 @@ def _mesh(params: Params, functions: Functions, rng: np.random.Generator) -> Ite
         rng=rng,
         chamfer_gradient=functions.chamfer_gradient,
     ):
-        yield Target(ball.faces, given, name), now
+        yield target, now
 
 
-@functools.lru_cache(maxsize=2)
-def _own(path: Path, _stamp: tuple[int, int], up: Upward) -> tuple[np.ndarray, np.ndarray]:
-    p, faces = read_welded(path, MOST_OWN, "fitted")
-    return own_points(p, path, up, OWN_SIZE), faces
+@functools.lru_cache(maxsize=4)
+def _surface(scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return points of the surface to be fitted, and more of them: cached, as most knobs leave them as they are."""
+    rng = np.random.default_rng(1000 + seed)
+    if scan is None:
+        return rabbit(GIVEN, rng), rabbit(TRUE, rng)
+    p, faces = read_welded(scan, MOST_OWN, "fitted")
+    p = own_points(p, scan, up, OWN_SIZE)
+    return points_on_faces(p, faces, rng.random((GIVEN, 3))), points_on_faces(p, faces, rng.random((TRUE, 3)))
 
 
 def _classify(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Clouds, Now]]:

@@ -24,9 +24,9 @@ def medium(p: Float[np.ndarray, "*n 2"]) -> tuple[Float[np.ndarray, "*n"], Float
     for (x, y, radius), own in zip(DISCS, COLORS, strict=True):
         away = p - [x, y]
         inside = (away**2).sum(axis=-1) < radius**2
-        slices = 0.75 + 0.25 * np.sign(np.sin(6 * np.arctan2(away[..., 1], away[..., 0])))
+        slices = 0.75 + 0.25 * np.sign(np.sin(6 * np.arctan2(away[inside, 1], away[inside, 0])))
         density[inside] = DENSITY
-        color[inside] = (own * slices[..., None])[inside]
+        color[inside] = own * slices[:, None]
     return density, color
 
 

@@ -144,8 +144,10 @@ def _euler_decode(y: np.ndarray) -> np.ndarray:
 
 
 def _euler_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    first, R, (about_x, about_y, about_z) = _about(2, y[:, 2]) @ _about(1, y[:, 1]), _euler_decode(y), skew(np.eye(3))
-    changes = (R @ about_x, first @ about_y @ _about(0, y[:, 0]), about_z @ R)
+    R_x, R_y, R_z = (_about(axis, y[:, axis]) for axis in range(3))
+    first, (about_x, about_y, about_z) = R_z @ R_y, skew(np.eye(3))
+    R = first @ R_x
+    changes = (R @ about_x, first @ about_y @ R_x, about_z @ R)
     return np.stack([(slope * change).sum(axis=(1, 2)) for change in changes], axis=1)
 
 
