@@ -55,7 +55,14 @@ class Params:
     views: Annotated[int, Knob("Photographs it is learned from", 2, 24, needs=on("field"))] = 12
     updates: Annotated[int, Knob("Steps of Adam; 0 takes what suits the task", 0, 2000, step=50)] = 0
     picked: Annotated[
-        int, Knob("The test input that is looked at", 0, 180, by=Pick("inputs"), needs=on("angle", "rotation", "field"))
+        int,
+        Knob(
+            "The test input that is looked at; beyond the last, the first again",
+            0,
+            542,
+            by=Pick("inputs"),
+            needs=on("angle", "rotation", "field"),
+        ),
     ] = 20
     scan: Annotated[Path | None, Knob("Own mesh to fit: off, obj, ply, stl, glb")] = None
     up: Annotated[Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)] = "auto"

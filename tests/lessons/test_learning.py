@@ -12,6 +12,7 @@ from tests.runs import finished
 from tests.truths.learning import folded, named, overlap, radii, wrong_by
 from workbench.geometry.rotation_outputs import rotation_from_six
 from workbench.geometry.shape_distances import chamfer_gradient
+from workbench.knobs import fields_of
 from workbench.scene import caption_of
 
 
@@ -189,6 +190,15 @@ def test_weights_that_hide_nothing_spoil_the_field():
     params = Params(task="field", updates=15)
     spoilt = last_of(params, ray_weights=lambda density, spacing: 1 - np.exp(-density * spacing))
     assert spoilt.about.unseen < last_of(params).about.unseen - 1
+
+
+def test_whatever_is_clicked_on_is_looked_at():
+    knob = next(field.knob for field in fields_of(Params) if field.name == "picked")
+    counts = [len(lesson.draw(next(run(Params(task=task))))["inputs"].p) for task in ("angle", "rotation", "field")]  # type: ignore[union-attr]
+    assert knob.high == max(counts) - 1
+    for task, count in zip(("angle", "rotation"), counts, strict=False):
+        scene = lesson.draw(next(run(Params(task=task, picked=count - 1))))
+        np.testing.assert_allclose(scene["picked"].p[0][:2], scene["inputs"].p[-1][:2])  # type: ignore[union-attr]
 
 
 def test_every_task_starts_at_once_and_ends_where_it_is_told():
