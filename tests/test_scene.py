@@ -1,4 +1,4 @@
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, cast
 
 import numpy as np
@@ -19,6 +19,7 @@ from workbench.scene import (
     Points,
     Segments,
     Table,
+    arrays,
     caption_of,
     color_map,
     ghost,
@@ -209,3 +210,16 @@ def test_a_picture_in_space_knows_where_its_pixels_and_boxes_are():
     np.testing.assert_allclose(border.min(axis=(0, 1)), [1, 5.5, 5])
     np.testing.assert_allclose(border.max(axis=(0, 1)), [9, 5.5, 9])
     np.testing.assert_allclose(border[1:, 0], border[:-1, 1])
+
+
+def test_all_arrays_are_walked_through_and_what_holds_itself_is_no_trap():
+    @dataclass(frozen=True)
+    class Holds:
+        points: Points
+        others: tuple[Any, ...]
+
+    p, q, r = (np.full((2, 3), float(k)) for k in range(3))
+    looped: list[Any] = [r]
+    looped.append(looped)
+    held = Holds(Points(p), ({"q": q}, "a word", 3.0, Holds, looped))
+    assert sorted(array[0, 0] for array in arrays([held, held])) == [0.0, 1.0, 2.0]

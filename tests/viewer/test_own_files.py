@@ -48,7 +48,7 @@ class Page:
 
     def until(self, what) -> dict:
         while True:
-            told = json.loads(self.socket.recv(timeout=60))
+            told = json.loads(self.socket.recv(timeout=300))
             if what(told):
                 return told
 

@@ -175,7 +175,7 @@ def test_behind_jupyter_a_page_runs_takes_a_file_and_gives_its_recording(jupyter
         assert page.step["step"]["caption"] == run[3].caption.text
         await page.seek(5)
         assert page.step["step"]["caption"] == run[5].caption.text
-        async with httpx.AsyncClient(base_url=folder, timeout=60) as browser:
+        async with httpx.AsyncClient(base_url=folder, timeout=300) as browser:
             answer = await browser.get(f"recording/{page.token}")
             assert (answer.status_code, answer.content[:4]) == (200, b"RRF2")
             assert "icp" in answer.headers["content-disposition"]

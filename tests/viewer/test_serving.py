@@ -48,7 +48,7 @@ def test_the_course_is_served_at_the_address_that_is_printed_until_interrupted()
             f"workbench: port {port} is in use: stop the other program, or choose another with --port (0 picks a free one)\n"
         )
         process.send_signal(signal.SIGINT)
-        out, said = process.communicate(timeout=60)
+        out, said = process.communicate(timeout=300)
         assert (process.returncode, out, said) == (0, "", "")
 
 

@@ -81,7 +81,7 @@ def test_pages_are_shared_out_and_each_meets_its_scene_its_recording_and_its_fil
                 before = page.scene_bytes
                 await goes_on(page)
                 assert page.scene_bytes > before
-            async with httpx.AsyncClient(base_url=served, timeout=60) as browser:
+            async with httpx.AsyncClient(base_url=served, timeout=300) as browser:
                 for page in (*pages, *pages):  # one after the other over one browser's connections
                     assert (await browser.get("page/page.css")).status_code == 200
                     answer = await browser.post(
@@ -129,7 +129,7 @@ def test_connections_that_say_nothing_or_half_a_line_delay_nobody(served):
 
     async def visit() -> None:
         async with visiting(served, 2) as pages:
-            quiet = [socket.create_connection((where.hostname, where.port), timeout=60) for _ in range(300)]
+            quiet = [socket.create_connection((where.hostname, where.port), timeout=300) for _ in range(300)]
             for one in quiet[100:]:
                 one.sendall(b"GET /?lesson=tr")
             for one in quiet[200:]:
@@ -156,11 +156,11 @@ def test_when_one_dies_its_pages_are_told_the_others_go_on_and_another_takes_its
                 dead.kill()
                 for page in pages:
                     if owners[page] == dead:
-                        await asyncio.wait_for(until(lambda page=page: page.gone), 60)
+                        await asyncio.wait_for(until(lambda page=page: page.gone), 300)
                     else:
                         await goes_on(page)
-            await asyncio.wait_for(until(lambda: len(process.children()) == 2), 60)
-            async with asyncio.timeout(60):
+            await asyncio.wait_for(until(lambda: len(process.children()) == 2), 300)
+            async with asyncio.timeout(300):
                 new = ""
                 while new != who(pages[0]):  # as soon as the new one is ready
                     async with visiting(address, 1) as (page,):
@@ -169,10 +169,10 @@ def test_when_one_dies_its_pages_are_told_the_others_go_on_and_another_takes_its
         run_apart(visit())
         process.send_signal(signal.SIGINT)
         workers = process.children()
-        out, said = process.communicate(timeout=60)
+        out, said = process.communicate(timeout=300)
         assert (process.returncode, out) == (0, "")
         assert said.count("another takes its place") == 1
-        assert not psutil.wait_procs(workers, timeout=60)[1]
+        assert not psutil.wait_procs(workers, timeout=300)[1]
 
 
 async def until(holds: Callable[[], Any]) -> None:
@@ -198,8 +198,8 @@ def test_however_it_is_ended_none_is_left(how):
         workers = process.children()
         assert len(workers) == 2
         process.send_signal(how)
-        assert not psutil.wait_procs(workers, timeout=60)[1]
-        assert process.wait(60) == (0 if how == signal.SIGTERM else -signal.SIGKILL)
+        assert not psutil.wait_procs(workers, timeout=300)[1]
+        assert process.wait(300) == (0 if how == signal.SIGTERM else -signal.SIGKILL)
 
 
 def test_what_several_cannot_serve_is_said(tmp_path, capsys):

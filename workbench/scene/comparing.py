@@ -1,7 +1,9 @@
 """What a step looks like as one value: compared with another, walked through, and as the ghost of another."""
 
-from collections.abc import Iterator, Mapping
-from dataclasses import fields, replace
+import functools
+import operator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -103,15 +105,25 @@ def same_but_for_pose(a: Primitive, b: Primitive | None) -> bool:
 
 
 def arrays(value: Any) -> Iterator[np.ndarray]:
-    """Walk through all arrays that a scene, primitive or state holds."""
-    if isinstance(value, np.ndarray):
-        yield value
-    elif isinstance(value, Mapping):
-        for item in value.values():
-            yield from arrays(item)
-    elif isinstance(value, (tuple, list)):
-        for item in value:
-            yield from arrays(item)
-    elif hasattr(value, "__dataclass_fields__") and not isinstance(value, type):
-        for item in fields(value):
-            yield from arrays(getattr(value, item.name))
+    """Walk through all arrays that a scene, primitive or state holds; what it holds twice is walked through once."""
+    waiting, seen = [value], set()
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, np.ndarray):
+            yield value
+        elif (held := _held_by(type(value))) is not None and id(value) not in seen:
+            seen.add(id(value))
+            waiting.extend(held(value))
+
+
+@functools.lru_cache(maxsize=4096)
+def _held_by(kind: type) -> Callable[[Any], Iterable[Any]] | None:
+    """Return what gives the values inside a value of some type; None where there are none."""
+    if issubclass(kind, Mapping):
+        return operator.methodcaller("values")
+    if issubclass(kind, tuple | list):
+        return iter
+    if is_dataclass(kind):
+        names = [field.name for field in fields(kind)]
+        return lambda value: [getattr(value, name) for name in names]
+    return None
