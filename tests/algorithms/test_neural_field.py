@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms import neural_field
+from workbench.algorithms import neural_field, perceptron
 from workbench.algorithms.neural_field import BATCH, CLAMP, Network, encoded, new_network, train_field
 from workbench.geometry.signed_distances import torus_sdf
 
@@ -16,8 +16,8 @@ def samples(n: int, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
 
 
 def loss_of(network: Network, values: np.ndarray, x: np.ndarray, y: np.ndarray, target) -> float:
-    layers = neural_field._layers(values, network.sizes)
-    return neural_field._loss(neural_field._forward(layers, x, network.activation)[-1][:, 0], y, target)[0]
+    layers = perceptron.layers_of(values, network.sizes)
+    return neural_field._loss(perceptron.forward(layers, x, network.activation)[-1][:, 0], y, target)[0]
 
 
 @pytest.mark.parametrize("target", TARGETS)
@@ -27,11 +27,11 @@ def test_gradients_are_those_of_finite_differences(target, activation):
     network = new_network(6, 1, activation, rng)
     values, (p, y) = network.values.astype(float) / 3, samples(40)
     x, y = encoded(p, 1).astype(float), y.astype(np.float32)
-    layers, gradient = neural_field._layers(values, network.sizes), np.zeros(len(values))
-    outputs = neural_field._forward(layers, x, activation)
+    layers, gradient = perceptron.layers_of(values, network.sizes), np.zeros(len(values))
+    outputs = perceptron.forward(layers, x, activation)
     _, slope = neural_field._loss(outputs[-1][:, 0], y, target)
-    into = neural_field._layers(gradient, network.sizes)
-    neural_field._backward(layers, outputs, slope[:, None], activation, into)
+    into = perceptron.layers_of(gradient, network.sizes)
+    perceptron.backward(layers, outputs, slope[:, None], activation, into)
     for k in rng.choice(len(values), 25, replace=False):
         step = np.zeros(len(values))
         step[k] = 1e-6
@@ -43,7 +43,7 @@ def test_a_layer_is_its_formula_and_the_input_has_its_waves():
     network, (p, _) = new_network(5, 2, "tanh", np.random.default_rng(2)), samples(7)
     x = np.concatenate([p] + [f(np.pi * 2**k * p) for k in (0, 1) for f in (np.sin, np.cos)], axis=1)
     np.testing.assert_allclose(encoded(p, 2), x, atol=1e-6)
-    (a, b), (c, d), (e, f) = neural_field._layers(network.values, network.sizes)
+    (a, b), (c, d), (e, f) = perceptron.layers_of(network.values, network.sizes)
     expected = np.tanh(np.tanh(x @ a + b) @ c + d) @ e + f
     np.testing.assert_allclose(network(p), expected[:, 0], atol=1e-5)
     assert network.bytes == 4 * (15 * 5 + 5 + 5 * 5 + 5 + 5 + 1)

@@ -12,14 +12,12 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
+from workbench.algorithms.perceptron import Activation, backward, descend, forward, layers_of
 from workbench.tracing import traced
 
-Activation = Literal["tanh", "relu"]
 Target = Literal["sdf", "clamped", "occupancy"]
-Layers = list[tuple[np.ndarray, np.ndarray]]
 
 BATCH, RATE, CLAMP = 512, 5e-3, 0.1
-_B1, _B2, _TINY = 0.9, 0.999, 1e-8
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -41,7 +39,7 @@ class Network:
     def __call__(self, p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
         """Return the field at points (m): negative inside."""
         x = encoded(p, self.frequencies)
-        return _forward(_layers(self.values, self.sizes), x, self.activation)[-1][:, 0].astype(float)
+        return forward(layers_of(self.values, self.sizes), x, self.activation)[-1][:, 0].astype(float)
 
     @property
     def bytes(self) -> int:
@@ -115,66 +113,25 @@ def train_field(
         rng: Draws the batches.
     """
     values = network.values.copy()
-    layers, gradients = _layers(values, network.sizes), np.zeros_like(values)
-    into = _layers(gradients, network.sizes)
-    moment, square = np.zeros_like(values), np.zeros_like(values)
+    layers, gradients = layers_of(values, network.sizes), np.zeros_like(values)
+    into = layers_of(gradients, network.sizes)
     x, y = encoded(p, network.frequencies), distances.astype(np.float32)
-    done, losses = 0, []
-    for count in counts:
-        while done < max(count, 1):
-            rows = rng.integers(0, len(x), BATCH)
-            outputs = _forward(layers, x[rows], network.activation)
-            loss, slope = _loss(outputs[-1][:, 0], y[rows], target)
-            losses.append(loss)
-            if count == 0:
-                break
-            _backward(layers, outputs, slope[:, None], network.activation, into)
-            done += 1
-            moment += np.float32(1 - _B1) * (gradients - moment)
-            square += np.float32(1 - _B2) * (gradients * gradients - square)
-            rate = RATE * (1 - done / (1.07 * counts[-1])) / (1 - _B1**done)
-            values -= (
-                np.float32(rate) * moment / (np.sqrt(square * np.float32(1 / (1 - _B2**done))) + np.float32(_TINY))
-            )
+
+    def gradient() -> tuple[float, np.ndarray]:
+        rows = rng.integers(0, len(x), BATCH)
+        outputs = forward(layers, x[rows], network.activation)
+        loss, slope = _loss(outputs[-1][:, 0], y[rows], target)
+        backward(layers, outputs, slope[:, None], network.activation, into)
+        return loss, gradients
+
+    for done, loss in descend(values, gradient, counts, RATE):
         now = Network(
             values=values.copy(),
             sizes=network.sizes,
             frequencies=network.frequencies,
             activation=network.activation,
         )
-        yield Trained(network=now, iterations=done, loss=float(np.mean(losses)))
-        losses = []
-
-
-def _layers(values: np.ndarray, sizes: tuple[int, ...]) -> Layers:
-    """Return weights and biases of each layer, as views of the row of all numbers."""
-    layers, at = [], 0
-    for into, out in pairwise(sizes):
-        weights = values[at : at + into * out].reshape(into, out)
-        at += into * out
-        layers.append((weights, values[at : at + out]))
-        at += out
-    return layers
-
-
-def _forward(layers: Layers, x: np.ndarray, activation: Activation) -> list[np.ndarray]:
-    """Return what goes into each layer, and what comes out of the last."""
-    outputs = [x]
-    for weights, bias in layers[:-1]:
-        z = outputs[-1] @ weights + bias
-        outputs.append(np.tanh(z) if activation == "tanh" else np.maximum(z, 0))
-    weights, bias = layers[-1]
-    return [*outputs, outputs[-1] @ weights + bias]
-
-
-def _backward(layers: Layers, outputs: list[np.ndarray], slope: np.ndarray, activation: Activation, into: Layers):
-    """Write the gradients of all weights and biases, given that of the loss by the output."""
-    for k in reversed(range(len(layers))):
-        h = outputs[k]
-        np.matmul(h.T, slope, out=into[k][0])
-        slope.sum(axis=0, out=into[k][1])
-        if k:
-            slope = (slope @ layers[k][0].T) * (1 - h * h if activation == "tanh" else h > 0)
+        yield Trained(network=now, iterations=done, loss=loss)
 
 
 def _loss(output: np.ndarray, y: np.ndarray, target: Target) -> tuple[float, np.ndarray]:

@@ -85,9 +85,11 @@ def rotation_angle(R: Float[np.ndarray, "3 3"]) -> float:
     return float(np.arctan2(np.linalg.norm(_twice_vee(R)), np.trace(R) - 1.0))
 
 
-def skew(w: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
-    """Return the matrix whose product with x is the cross product w x x."""
-    return np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+def skew(w: Float[np.ndarray, "*k 3"]) -> Float[np.ndarray, "*k 3 3"]:
+    """Return the matrix whose product with x is the cross product w x x, for one vector or several."""
+    W = np.zeros((*w.shape[:-1], 3, 3))
+    W[..., 2, 1], W[..., 0, 2], W[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
+    return W - np.swapaxes(W, -1, -2)
 
 
 def exp_so3(w: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
@@ -112,9 +114,7 @@ def turns(w: Float[np.ndarray, "*k 3"]) -> Float[np.ndarray, "*k 3 3"]:
         w: Rotation vectors, radians.
     """
     angle = np.sqrt(np.square(w).sum(axis=-1))[..., None, None]
-    W = np.zeros((*w.shape[:-1], 3, 3))
-    W[..., 2, 1], W[..., 0, 2], W[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
-    W -= np.swapaxes(W, -1, -2)
+    W = skew(w)
     return np.eye(3) + np.sinc(angle / np.pi) * W + 0.5 * np.sinc(0.5 * angle / np.pi) ** 2 * (W @ W)
 
 

@@ -22,6 +22,21 @@ _SOBOL = ((0, 0, (1,)), (1, 0, (1,)), (2, 1, (1, 3)))  # of each axis: degree, c
 def points_on_faces(p: Points, faces: Faces, u: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
     """Return points on a mesh, one for each row of three numbers from 0 to 1: spread evenly where those are.
 
+    Args:
+        p: Vertices, m.
+        faces: Triangles with corners a, b, c.
+        u: Numbers from 0 to 1.
+    """
+    k, shares = places_on_faces(p, faces, u)
+    a, b, c = p[faces[k]].transpose(1, 0, 2)
+    return shares[:, :1] * a + shares[:, 1:2] * b + shares[:, 2:] * c
+
+
+def places_on_faces(
+    p: Points, faces: Faces, u: Float[np.ndarray, "n 3"]
+) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
+    """Return on which faces such points lie, and the shares of the corners in each point.
+
     The first number picks the face, each face as likely as it is large. With s the square root of the second and t the
     third, the point is (1 - s) a + s (1 - t) b + s t c.
 
@@ -35,8 +50,8 @@ def points_on_faces(p: Points, faces: Faces, u: Float[np.ndarray, "n 3"]) -> Flo
     reached = np.cumsum(np.sqrt(np.einsum("fx,fx->f", n, n)))
     last = np.searchsorted(reached, reached[-1])  # face with an area
     k = np.minimum(np.searchsorted(reached, u[:, 0] * reached[-1], side="right"), last)
-    s, t = np.sqrt(u[:, 1:2]), u[:, 2:3]
-    return (1 - s) * a[k] + s * (1 - t) * b[k] + s * t * c[k]
+    s, t = np.sqrt(u[:, 1]), u[:, 2]
+    return k, np.stack([1 - s, s * (1 - t), s * t], axis=1)
 
 
 def unit_points(count: int, dimension: int, draw: Draw, rng: np.random.Generator) -> Float[np.ndarray, "n d"]:

@@ -1,0 +1,33 @@
+"""The exercises of this lesson: a rotation of six numbers, the gradient of Chamfer, and how much samples of a ray count."""
+
+import numpy as np
+
+from workbench.exercise import Verdict, fail, full, partial
+from workbench.numerals import brief
+
+STUDENTS, GRADERS = 61, 9203  # seeds of what a student sees run, and of what only a grader does
+
+
+def entries_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "") -> Verdict:
+    """Judge numbers by the farthest off, relative to the largest: all points up to 1e-6, half up to 1e-3.
+
+    Args:
+        got: The answer.
+        right: The right one, of the same shape.
+        hint: What to look at where it is wrong.
+        what: How the message begins: the case.
+    """
+    if not right.size:
+        return full(f"{what}nothing went in, and nothing came out.")
+    size = max(float(np.abs(right).max()), 1e-12)
+    off = np.where(np.isfinite(got), np.abs(got - right), np.inf) / size
+    if off.max() <= 1e-6:
+        return full(f"{what}all {got.size} numbers are right.")
+    i = np.unravel_index(int(np.argmax(off)), off.shape)
+    place, wrong = ", ".join(str(int(k)) for k in i), int((off > 1e-6).sum())
+    said = f"{what}{wrong} of {got.size} numbers are wrong: [{place}] is {_said(got[i])}, right is {_said(right[i])}."
+    return partial(0.5, f"{said} Close. {hint}") if off.max() <= 1e-3 else fail(f"{said} {hint}")
+
+
+def _said(value: float) -> str:
+    return brief(float(value), 4) if np.isfinite(value) else str(float(value))

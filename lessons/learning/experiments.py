@@ -1,0 +1,230 @@
+"""Experiments that show what a loss cannot see and a representation cannot say, and what to predict before looking."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lessons.learning.state import Clouds, Looks, Params, State, Turns
+from lessons.learning.words import shares_right
+from workbench.algorithms.point_net import Classified
+from workbench.algorithms.rotation_regression import Regressed
+from workbench.algorithms.set_regression import SetLearned
+from workbench.lesson import Preset, Question, View
+from workbench.numerals import angle, fixed, percent
+
+VIEW = View(eye=(0.0, -0.6, 3.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+BALL = View(eye=(1.9, -2.4, 1.3), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+ABOVE = View(eye=(0.0, -0.6, 4.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+RABBIT = View(eye=(1.35, -1.95, 0.75), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+FLAT = View(eye=(0.0, -0.7, 5.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+ROW = View(eye=(0.0, -11.4, 2.7), target=(0.3, 0.0, 0.75), grid=None, axes=False)
+
+CUT = Params(angle="one number")
+SHORT = Params(angle="one number", largest=90.0)
+HALF = Params(angle="half the angle")
+PERIODIC = Params(angle="one number", loss="matrix")
+ROTATION = Params(task="rotation", loss="matrix")
+QUATERNION = Params(task="rotation", rotation="quaternion", loss="matrix")
+EULER = Params(task="rotation", rotation="Euler", loss="matrix")
+NINE = Params(task="rotation", rotation="9D", loss="matrix")
+SMEARED = Params(task="sets")
+CIRCLE = Params(task="sets", set_loss="earth mover's")
+SPIKES = Params(task="mesh", laplacian=0.0)
+SMOOTH = Params(task="mesh")
+POOLED = Params(task="classify", shuffled=True)
+LISTED = Params(task="classify", pool="none", shuffled=True)
+STRAY = Params(task="classify", stray=(3.0, 3.0, 3.0))
+MEAN = Params(task="classify", pool="mean", stray=(3.0, 3.0, 3.0))
+TURNED = Params(task="classify", turned="freely")
+TWO = Params(task="field", views=2)
+MANY = Params(task="field", views=24)
+
+PRESETS: tuple[Preset[Params], ...] = (
+    Preset(
+        "cut", "An angle as one number",
+        "Two neighbours on the circle are asked for numbers far apart. Watch what a smooth function makes of that.",
+        CUT, 0, VIEW, breaks=True,
+    ),
+    Preset(
+        "short", "The same, up to quarter turns",
+        "The circle is not closed: nothing is cut, and one number per angle is enough.",
+        SHORT, -1, VIEW,
+    ),
+    Preset(
+        "half", "Half the angle",
+        "Cosine and sine of half the angle, as a quaternion has them: both signs mean one rotation, and one is asked for.",
+        HALF, 0, VIEW, breaks=True,
+    ),
+    Preset(
+        "periodic", "A loss that knows of full turns",
+        "The loss compares rotations, so it does not mind 360°. The output is still one number: look where its jump goes.",
+        PERIODIC, 0, VIEW, breaks=True,
+    ),
+    Preset(
+        "rotation", "Rotations by two columns",
+        "Six numbers, made orthonormal: every rotation is reached, and nowhere is a jump. Worst error below 15°.",
+        ROTATION, -1, BALL,
+    ),
+    Preset(
+        "quaternion", "Rotations by quaternions",
+        "Four numbers, normalised. The ball holds all rotation vectors; opposite points of its border are one rotation.",
+        QUATERNION, -1, BALL, breaks=True,
+    ),
+    Preset(
+        "euler", "Rotations by Euler angles",
+        "Three numbers: the mean error is several times that of six numbers, and some are wrong by more than 120°.",
+        EULER, -1, BALL, breaks=True,
+    ),
+    Preset(
+        "nine", "Rotations by all nine entries",
+        "The nearest rotation to any 3×3, by its SVD: as good as six numbers, or better.",
+        NINE, -1, BALL,
+    ),
+    Preset(
+        "smeared", "Chamfer and the unknown radius",
+        "Each target is a circle of another radius. Nobody knows the next: watch how the points hedge.",
+        SMEARED, 0, ABOVE, breaks=True,
+    ),
+    Preset(
+        "circle", "Earth mover's and the unknown radius",
+        "The same targets, matched one to one: every point gets the mean of its partners.",
+        CIRCLE, 0, ABOVE,
+    ),
+    Preset(
+        "spikes", "A mesh without a regulariser",
+        "Nothing but the distance to noisy points: it falls, while over a quarter of all edges fold over.",
+        SPIKES, -1, RABBIT, breaks=True,
+    ),
+    Preset(
+        "smooth", "A mesh with a Laplacian",
+        "Farther from the noisy points, nearer to the rabbit: the second curve knows the truth.",
+        SMOOTH, -1, RABBIT,
+    ),
+    Preset(
+        "pooled", "PointNet and the order of points",
+        "The largest of each feature over all points: it is the same, to the last bit, in whatever order they are listed.",
+        POOLED, -1, ROW,
+    ),
+    Preset(
+        "listed", "A network on the list of points",
+        "Coordinates in a row, from the lowest point to the highest. Shuffled, the same clouds mean nothing to it.",
+        LISTED, -1, ROW, breaks=True,
+    ),
+    Preset(
+        "stray", "One stray point",
+        "One point of each cloud is moved away. Drag it. Purple points are those that the maximum listens to.",
+        STRAY, 0, ROW, breaks=True,
+    ),
+    Preset(
+        "mean", "One stray point and the mean",
+        "The mean gives every point the same small vote: it knows less, and loses less to one point.",
+        MEAN, -1, ROW, breaks=True,
+    ),
+    Preset(
+        "turned", "Turned as never before",
+        "Trained on shapes turned about z, tested on shapes turned freely: nothing in the network knows of rotations.",
+        TURNED, -1, ROW, breaks=True,
+    ),
+    Preset(
+        "two", "Two photographs",
+        "A field that explains what it was shown. Look at the new view, and at the green discs.",
+        TWO, 0, FLAT, breaks=True,
+    ),
+    Preset(
+        "many", "Twenty-four photographs",
+        "From all around: what fits all of them has hardly a choice left. Click a pixel of the new view.",
+        MANY, 0, FLAT,
+    ),
+)  # fmt: skip
+
+
+def regressed(states: Sequence[State]) -> tuple[Turns, Regressed]:
+    """Return the last state of a run on turns."""
+    about, now = states[-1].about, states[-1].now
+    assert isinstance(about, Turns)
+    assert isinstance(now, Regressed)
+    return about, now
+
+
+def _worst_at(states: Sequence[State]) -> float:
+    about, now = regressed(states)
+    return abs(float(about.degrees[now.errors.argmax()]))
+
+
+def _cut_why(states: Sequence[State]) -> str:
+    _, now = regressed(states)
+    return (
+        f"At {fixed(_worst_at(states), 0)}°, by {angle(float(now.errors.max()))}: a step to either side of half a turn the"
+        f" numbers asked for are +180 and −180. A smooth function runs through all that lies between."
+    )
+
+
+def _radius(states: Sequence[State]) -> tuple[float, float]:
+    now = states[-1].now
+    assert isinstance(now, SetLearned)
+    radii = np.linalg.norm(now.p, axis=1)
+    return float(radii.mean()), float(radii.std())
+
+
+def _named(states: Sequence[State]) -> tuple[float, float]:
+    now, about = states[-1].now, states[-1].about
+    assert isinstance(now, Classified)
+    assert isinstance(about, Clouds)
+    return shares_right(now, about)
+
+
+def _signals(states: Sequence[State]) -> Looks:
+    about = states[-1].about
+    assert isinstance(about, Looks)
+    return about
+
+
+QUESTIONS: tuple[Question[Params, State], ...] = (
+    Question(
+        "predict-cut",
+        "A network learns to put out any turn in the plane as one number, signed, in degrees. At which size does it err"
+        " most?",
+        answer=_worst_at,
+        why=_cut_why,
+        params=CUT,
+        unit="°",
+        tolerance=20.0,
+    ),
+    Question(
+        "predict-radius",
+        "48 points learn from circles with radii from 0.5 m to 1.5 m, by the earth mover's loss of squares. What do they"
+        " become?",
+        answer=lambda states: 0.0 if _radius(states)[1] < 0.02 else 1.0 if _radius(states)[1] < 0.2 else 2.0,
+        why=lambda states: (
+            f"A circle of radius {fixed(_radius(states)[0], 2)} m, spread {fixed(_radius(states)[1], 3)} m. The mean of the"
+            " partners makes a sum of squares least, and all points see the same radii."
+        ),
+        params=CIRCLE,
+        choices=("one ring of no width", "a band some 0.3 m wide", "points all over, from 0.5 m to 1.5 m"),
+    ),
+    Question(
+        "predict-stray",
+        "PointNet with max pooling names over 90 % of new clouds of five shapes. One of 32 points is moved to (3, 3, 3)."
+        " What share is named rightly now?",
+        answer=lambda states: 100 * _named(states)[1],
+        why=lambda states: (
+            f"{percent(_named(states)[1], 0)} of them, where chance gives 20 %; untouched {percent(_named(states)[0], 0)}. A"
+            " maximum listens to whoever shouts: a far point has the largest of most features."
+        ),
+        params=STRAY,
+        unit="%",
+        tolerance=15.0,
+    ),
+    Question(
+        "predict-views",
+        "A field learns from 2 photographs, another from 24. The first matches the 2 it was shown with 36 dB or so. How does"
+        " the second match its 24?",
+        answer=lambda states: 0.0 if _signals(states).trained < 32 else 1.0 if _signals(states).trained < 40 else 2.0,
+        why=lambda states: (
+            f"With {fixed(_signals(states).trained, 1)} dB: more to explain, so each is explained less well. But views it"
+            f" was never shown have {fixed(_signals(states).unseen, 1)} dB, and that is what counts."
+        ),
+        params=MANY,
+        choices=("worse", "equally well", "better"),
+    ),
+)

@@ -1,0 +1,209 @@
+"""The tasks: their data, their training, and how each state is held against the truth."""
+
+import functools
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from lessons.learning.state import Clouds, Looks, Now, Params, State, Target, Task, Turns
+from workbench.algorithms.mesh_fitting import Term, fit_mesh
+from workbench.algorithms.point_net import train_classifier
+from workbench.algorithms.radiance_field import CELLS, SAMPLES, RadianceField, reconstruct
+from workbench.algorithms.rotation_regression import regress
+from workbench.algorithms.set_regression import ChamferGradient, learn_set
+from workbench.data import flatland, surfaces
+from workbench.data.files import stamp
+from workbench.data.framing import Upward, own_points
+from workbench.data.labelled_shapes import NAMES, labelled_clouds
+from workbench.data.own_meshes import read_welded
+from workbench.data.rabbit import rabbit
+from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, Decode, random_rotations
+from workbench.geometry.sampling import points_on_faces
+from workbench.geometry.volume_rendering import RayWeights, samples_on
+
+UPDATES: Mapping[Task, int] = {"angle": 600, "rotation": 600, "sets": 150, "mesh": 80, "classify": 300, "field": 120}
+STEPS = 16
+WIDTHS = {"angle": 32, "rotation": 64}
+TURNS, SET, CLOUD, TESTS, PIXELS = 181, 48, 32, 20, 40
+RADII = (0.5, 1.5)  # of the circles that a set of points is shown, m
+VERTICES, GIVEN, TRUE, START = 642, 1200, 3000, 0.6  # of meshes: vertices, points given and of the truth, radius (m)
+MOST_OWN, OWN_SIZE = 200_000, 1.2
+NEW_VIEW, NEW_VIEWS, DENSE = 0.13, 12, 5.0  # radians off the cameras; how many; density that counts as matter, 1/m
+
+
+@dataclass(frozen=True, eq=False)
+class Functions:
+    """What students can replace."""
+
+    rotation_from_six: Decode
+    chamfer_gradient: ChamferGradient
+    ray_weights: RayWeights
+
+
+def counts_of(params: Params) -> tuple[int, ...]:
+    """Return after how many updates there is a step: closer together at the start."""
+    updates = params.updates or UPDATES[params.task]
+    return tuple(np.unique(np.rint(updates * np.linspace(0, 1, STEPS + 1) ** 1.5).astype(int)).tolist())
+
+
+def steps(params: Params, functions: Functions) -> Iterator[State]:
+    """Yield the steps of the task."""
+    rng = np.random.default_rng(params.seed)
+    end = counts_of(params)[-1]
+    for about, now in TASKS[params.task](params, functions, rng):
+        yield State(params=params, about=about, now=now, last=now.updates == end)
+
+
+def _turns(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Turns, Now]]:
+    largest = np.radians(params.largest)
+    if params.task == "angle":
+        representation = IN_PLANE[params.angle]
+        a = np.linspace(-largest, largest, TURNS)
+        R_test = IN_PLANE["one number"].decode(a[:, None])
+        about = Turns(np.column_stack([np.cos(a), np.sin(a), 0 * a]), np.degrees(a))
+    else:
+        representation = IN_SPACE[params.rotation]
+        if params.rotation == "6D":
+            representation = replace(representation, decode=functions.rotation_from_six)
+        R_test, w = random_rotations(3 * TURNS, 3, largest, np.random.default_rng(1000 + params.seed))
+        about = Turns(w / np.pi, np.degrees(np.linalg.norm(w, axis=1)))
+    for now in regress(
+        representation,
+        R_test,
+        largest=largest,
+        compared=params.loss,
+        width=WIDTHS[params.task],
+        counts=counts_of(params),
+        rng=rng,
+    ):
+        yield about, now
+
+
+def circle_of(radius: float, turn: float) -> np.ndarray:
+    """Return evenly spaced points of a circle in the plane, the first of them turned so far."""
+    a = turn + np.linspace(0, 2 * np.pi, SET, endpoint=False)
+    return radius * np.column_stack([np.cos(a), np.sin(a), 0 * a])
+
+
+def _sets(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[None, Now]]:
+    start = circle_of(1.0, 0.0) * (1 + 0.1 * rng.normal(size=(SET, 1)))
+    for now in learn_set(
+        start,
+        lambda: circle_of(rng.uniform(*RADII), rng.uniform(0, 2 * np.pi)),
+        set_loss=params.set_loss,
+        counts=counts_of(params),
+        chamfer_gradient=functions.chamfer_gradient,
+    ):
+        yield None, now
+
+
+def _mesh(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Target, Now]]:
+    ball = surfaces.sphere(VERTICES)
+    name = "the rabbit" if params.scan is None else params.scan.name
+    given, truth = _surface(params.scan, params.scan and stamp(params.scan), params.up, params.seed)
+    given = given + params.noise * rng.normal(size=given.shape)
+    target = Target(ball.faces, given, name)
+    weights: dict[Term, float] = {"laplacian": params.laplacian, "normal": params.normal, "edge": params.edge}
+    for now in fit_mesh(
+        START * ball.p,
+        ball.faces,
+        given,
+        truth,
+        weights=weights,
+        counts=counts_of(params),
+        rng=rng,
+        chamfer_gradient=functions.chamfer_gradient,
+    ):
+        yield target, now
+
+
+@functools.lru_cache(maxsize=4)
+def _surface(scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return points of the surface to be fitted, and more of them: cached, as most knobs leave them as they are."""
+    rng = np.random.default_rng(1000 + seed)
+    if scan is None:
+        return rabbit(GIVEN, rng), rabbit(TRUE, rng)
+    p, faces = read_welded(scan, MOST_OWN, "fitted")
+    p = own_points(p, scan, up, OWN_SIZE)
+    return points_on_faces(p, faces, rng.random((GIVEN, 3))), points_on_faces(p, faces, rng.random((TRUE, 3)))
+
+
+def _classify(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Clouds, Now]]:
+    def draw(count: int) -> tuple[np.ndarray, np.ndarray]:
+        of = rng.integers(len(NAMES), size=count)
+        return labelled_clouds(of, CLOUD, params.trained, rng), of
+
+    chance = np.random.default_rng(1000 + params.seed)
+    of = np.tile(np.arange(len(NAMES)), TESTS)
+    plain = labelled_clouds(of, CLOUD, params.trained, chance)
+    changed = plain if params.turned == params.trained else labelled_clouds(of, CLOUD, params.turned, chance)
+    changed = changed.copy()
+    if any(params.stray):
+        changed[:, 0] = params.stray
+    if params.shuffled:
+        changed = np.stack([one[chance.permutation(CLOUD)] for one in changed])
+    tests = {"plain": plain, "changed": changed}
+    about = Clouds(plain, changed, of)
+    for now in train_classifier(params.pool, draw, tests, classes=len(NAMES), counts=counts_of(params), rng=rng):
+        yield about, now
+
+
+def _field(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Looks, Now]]:
+    angles = np.linspace(0, 2 * np.pi, params.views, endpoint=False)
+    p, d, colors = photographs(angles)
+    new = np.linspace(0, 2 * np.pi, NEW_VIEWS, endpoint=False) + NEW_VIEW
+    for now in reconstruct(
+        p, d, colors, reach=flatland.REACH, counts=counts_of(params), rng=rng, ray_weights=functions.ray_weights
+    ):
+        yield _looks(params, functions, now.field, (p, d, colors), angles, new), now
+
+
+def photographs(angles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return where the rays of cameras begin, their directions, and what they see."""
+    rays = [flatland.rays_of(float(angle), PIXELS) for angle in angles]
+    seen = [flatland.photograph(float(angle), PIXELS) for angle in angles]
+    return np.concatenate([p for p, _ in rays]), np.concatenate([d for _, d in rays]), np.concatenate(seen)
+
+
+def _looks(
+    params: Params, functions: Functions, field: RadianceField, trained: tuple, angles: np.ndarray, new: np.ndarray
+) -> Looks:
+    p, d, colors = photographs(new)
+    _, found = field.along(p, d, functions.ray_weights)
+    own = field.along(trained[0], trained[1], functions.ray_weights)[1]
+    k = params.picked % PIXELS
+    weights = field.along(p[[k]], d[[k]], functions.ray_weights)[0][0]
+    q, spacing = samples_on(p[[k]], d[[k]], flatland.REACH, SAMPLES)
+    true_weights = functions.ray_weights(flatland.medium(q)[0], spacing)[0]
+    nodes = np.linspace(-1, 1, CELLS)
+    full = flatland.medium(np.stack(np.meshgrid(nodes, nodes, indexing="ij"), axis=-1))[0] > 0
+    dense = field.density > DENSE
+    return Looks(
+        trained=signal(own, trained[2]),
+        unseen=signal(found, colors),
+        overlap=float((dense & full).sum() / (dense | full).sum()),
+        image=found[:PIXELS],
+        truth=colors[:PIXELS],
+        angles=np.append(angles, NEW_VIEW),
+        ray=np.stack([q[0, 0], q[0, -1]]),
+        along=np.linalg.norm(q[0] - p[k], axis=1),
+        weights=weights,
+        true_weights=true_weights,
+    )
+
+
+def signal(image: np.ndarray, truth: np.ndarray) -> float:
+    """Return the peak signal-to-noise ratio, dB, of colours from 0 to 1."""
+    return float(-10 * np.log10(max(((image - truth) ** 2).mean(), 1e-12)))
+
+
+TASKS: dict[Task, Callable[[Params, Functions, np.random.Generator], Iterator[tuple]]] = {
+    "angle": _turns,
+    "rotation": _turns,
+    "sets": _sets,
+    "mesh": _mesh,
+    "classify": _classify,
+    "field": _field,
+}

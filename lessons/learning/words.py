@@ -1,0 +1,113 @@
+"""The captions: what a step did, with its numbers, and whether its end is right."""
+
+import numpy as np
+
+from lessons.learning.state import Clouds, Looks, Params, State, Target, Turns
+from workbench.algorithms.mesh_fitting import MeshFitted
+from workbench.algorithms.point_net import Classified
+from workbench.algorithms.radiance_field import Reconstructed
+from workbench.algorithms.rotation_regression import Regressed
+from workbench.algorithms.set_regression import SetLearned
+from workbench.data.labelled_shapes import NAMES
+from workbench.numerals import angle, brief, counted, fixed, percent
+from workbench.scene import Caption
+
+NEAR, FAR = 15.0, 90.0  # degrees: the worst error of a turn that was learned; of one that was not
+ROUND, SMEARED = 0.02, 0.05  # m: spread of the radii of a circle, and of what is none
+SMOOTH, CRUMPLED = 0.02, 0.2  # shares of folded edges
+KNOWN, LOST = 0.9, 0.6  # shares of clouds named rightly
+CLEAR, BLIND = 18.0, 12.0  # dB of new views
+
+
+def caption(state: State) -> Caption:
+    """Return what happened until this step; at the end, whether what was learned is right."""
+    text, value, good, bad = _told(state)
+    if not state.last or good is bad is None:
+        return Caption(text)
+    if good <= value if good > bad else good >= value:
+        return Caption.verdict(text, right=True)
+    if bad >= value if good > bad else bad <= value:
+        return Caption.verdict(text, right=False)
+    return Caption(text)
+
+
+def _told(state: State) -> tuple[str, float, float, float]:
+    """Return the sentence, and a number with where it is right and where it is wrong."""
+    now, params, about = state.now, state.params, state.about
+    done = "Untrained" if now.updates == 0 else f"After {counted(now.updates, 'update')}"
+    match now:
+        case Regressed():
+            assert isinstance(about, Turns)
+            return f"{done}: {_of_turns(params, about, now)}", float(now.errors.max()), NEAR, FAR
+        case SetLearned():
+            radii = np.linalg.norm(now.p, axis=1)
+            text = (
+                f"{done}: {params.set_loss} loss {fixed(now.loss, 3)} m². The {len(now.p)} points have radii from"
+                f" {fixed(radii.min(), 2)} to {fixed(radii.max(), 2)} m, {fixed(radii.mean(), 2)} on average, with a"
+                f" spread of {fixed(radii.std(), 3)} m."
+            )
+            return text, float(radii.std()), ROUND, SMEARED
+        case MeshFitted():
+            assert isinstance(about, Target)
+            text = (
+                f"{done}: {brief(1e6 * now.to_given, 3)} mm² from the given points of {about.name},"
+                f" {brief(1e6 * now.to_truth, 3)} mm² from its true surface (Chamfer). Folded by over 90°:"
+                f" {percent(now.folded)} of the edges."
+            )
+            return text, now.folded, SMOOTH, CRUMPLED
+        case Classified():
+            assert isinstance(about, Clouds)
+            plain, changed = shares_right(now, about)
+            if now.updates == 0:
+                return (
+                    f"{done}: loss {fixed(now.loss, 2)}. Of {len(NAMES)} shapes it guesses one.",
+                    changed,
+                    KNOWN,
+                    LOST,
+                )
+            text = f"{done}: loss {fixed(now.loss, 2)}; {percent(plain, 0)} of {len(about.of)} new clouds are named rightly"
+            if changes := changes_of(params):
+                text += f". {changes}: {percent(changed, 0)}"
+            return f"{text}.", changed, KNOWN, LOST
+        case Reconstructed():
+            assert isinstance(about, Looks)
+            text = (
+                f"{done}: the {params.views} photographs are matched with {fixed(about.trained, 1)} dB, new views with"
+                f" {fixed(about.unseen, 1)} dB. Density and discs share {percent(about.overlap, 0)} of what they cover."
+            )
+            return text, about.unseen, CLEAR, BLIND
+
+
+def _of_turns(params: Params, about: Turns, now: Regressed) -> str:
+    k, worst = params.picked % len(now.errors), int(now.errors.argmax())
+    mean = f"loss {brief(now.loss, 2)}; wrong by {angle(float(now.errors.mean()))} on average"
+    if now.updates == 0:
+        return f"{mean}."
+    of = "a turn of" if params.task == "angle" else "one of the turns by"
+    return (
+        f"{mean}, at most by {angle(float(now.errors[worst]))}, at {of} {fixed(float(about.degrees[worst]), 0)}°."
+        f" At the picked {fixed(float(about.degrees[k]), 0)}°: {angle(float(now.errors[k]))}."
+    )
+
+
+def shares_right(now: Classified, about: Clouds) -> tuple[float, float]:
+    """Return which shares of the test clouds are named rightly: as in training, and changed."""
+    plain, changed = (float((now.scores[name].argmax(axis=1) == about.of).mean()) for name in ("plain", "changed"))
+    return plain, changed
+
+
+def changes_of(params: Params) -> str:
+    """Return how the tried clouds differ from those of training; nothing where they do not."""
+    done = []
+    if params.turned != params.trained:
+        done.append(f"turned {params.turned}")
+    if any(params.stray):
+        done.append("with one stray point")
+    if params.shuffled:
+        done.append("listed in another order")
+    return f"The same {', '.join(done)}" if done else ""
+
+
+def said(now: Classified, k: int) -> str:
+    """Return which shape the network takes a changed test cloud for."""
+    return NAMES[int(now.scores["changed"][k].argmax())]

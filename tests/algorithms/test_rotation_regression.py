@@ -1,0 +1,53 @@
+"""Networks that tell turns: the gradient of both losses through every representation, and what is learned."""
+
+import numpy as np
+import pytest
+
+from tests.algorithms.gradients import assert_gradient, descended
+from workbench.algorithms import rotation_regression
+from workbench.algorithms.rotation_regression import regress
+from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, random_rotations
+
+ALL = [(name, d) for d, table in ((2, IN_PLANE), (3, IN_SPACE)) for name in table]
+
+
+@pytest.mark.parametrize("compared", ["numbers", "matrix"])
+@pytest.mark.parametrize(("name", "d"), ALL)
+def test_gradients_are_those_of_differences(monkeypatch, name, d, compared):
+    rng = np.random.default_rng(1)
+    R_test, _ = random_rotations(3, d, np.pi, np.random.default_rng(2))
+    values, gradient = descended(
+        monkeypatch,
+        rotation_regression,
+        lambda: regress(
+            (IN_PLANE if d == 2 else IN_SPACE)[name],
+            R_test,
+            largest=2.0,
+            compared=compared,
+            width=5,
+            counts=(0, 1),
+            rng=rng,
+        ),
+    )
+    values += 0.05 * rng.normal(size=values.shape)  # away from corners, where a whole layer is 0
+    assert_gradient(values, gradient, rng)
+
+
+@pytest.mark.parametrize("compared", ["numbers", "matrix"])
+def test_small_turns_are_learned_and_states_stay_as_they_were(compared):
+    R_test, _ = random_rotations(100, 2, 1.0, np.random.default_rng(3))
+    found = list(
+        regress(
+            IN_PLANE["cosine and sine"],
+            R_test,
+            largest=1.0,
+            compared=compared,
+            width=16,
+            counts=(0, 50, 200),
+            rng=np.random.default_rng(4),
+        )
+    )
+    assert [one.updates for one in found] == [0, 50, 200]
+    assert found[0].errors.mean() > 10 > 4 > found[-1].errors.mean()
+    assert found[-1].loss < 0.1 * found[0].loss
+    np.testing.assert_allclose(IN_PLANE["cosine and sine"].decode(found[1].outputs), found[1].R)

@@ -1,0 +1,111 @@
+"""Decides what the learning lesson says: by scipy's rotations, trimesh, and networks asked one cloud at a time."""
+
+import re
+from typing import Any
+
+import numpy as np
+
+from lessons.learning.words import caption as caption
+from tests.readings import NUMBER, number, says
+from tests.truths.learning import folded, named, overlap, radii, to_given, wrong_by
+from tests.verdicts import Claim, Run
+
+VALUE, TURN = rf"({NUMBER})", rf"({NUMBER})°"
+
+
+def right(run: Run, k: int) -> bool | None:
+    """Only an end is judged: by the worst turn, the spread of a circle, folded edges, clouds named, views never seen."""
+    if not run.states[k].last:
+        return None
+    value, good, bad = judged(run, k)
+    if good < bad:
+        return True if value <= good else False if value >= bad else None
+    return True if value >= good else False if value <= bad else None
+
+
+def judged(run: Run, k: int) -> tuple[float, float, float]:
+    """The number by which an end is judged, and where it is right and where wrong."""
+    state = run.states[k]
+    match state.params.task:
+        case "angle" | "rotation":
+            return float(wrong_by(state).max()), 15, 90
+        case "sets":
+            return float(radii(state).std()), 0.02, 0.05
+        case "mesh":
+            return folded(state), 0.02, 0.2
+        case "classify":
+            return named(state, "changed"), 0.9, 0.6
+        case _:
+            return state.about.unseen, 18, 12
+
+
+def same_angle(text: str, degrees: Any) -> bool:
+    """Whether an angle is said to three digits."""
+    return abs(number(text) - degrees) <= 0.006 * max(degrees, 0.01) + 1e-3
+
+
+def end(run: Run):
+    return run.states[-1]
+
+
+def _worst(run: Run, k: int, m: re.Match[str]) -> bool:
+    errors = wrong_by(run.states[k])
+    at = np.abs(np.abs(run.states[k].about.degrees) - abs(number(m[2]))) < 0.51
+    return same_angle(m[1], errors.max()) and bool(errors[at].max() > errors.max() - 0.01)
+
+
+def _radii(run: Run, k: int, m: re.Match[str]) -> bool:
+    r = radii(run.states[k])
+    return all(says(text, value) for text, value in zip(m.groups(), (r.min(), r.max(), r.mean(), r.std()), strict=True))
+
+
+# fmt: off
+CAPTIONS = [
+    Claim(rf"wrong by {TURN} on average", lambda run, k, m: same_angle(m[1], wrong_by(run.states[k]).mean())),
+    Claim(rf"at most by {TURN}, at (?:a turn of|one of the turns by) {TURN}", _worst),
+    Claim(rf"At the picked {TURN}: {TURN}", lambda run, k, m: same_angle(
+        m[2], wrong_by(run.states[k])[run.params.picked % len(run.states[k].now.errors)])),
+    Claim(rf"radii from {VALUE} to {VALUE} m, {VALUE} on average, with a spread of {VALUE} m", _radii),
+    Claim(rf"{VALUE} mm² from the given points", lambda run, k, m:
+          abs(number(m[1]) / (1e6 * to_given(run.states[k])) - 1) < 0.15 if run.states[k].last else True),
+    Claim(r"mm² from its true surface", None),
+    Claim(rf"Folded by over 90°: {VALUE} % of the edges", lambda run, k, m: says(m[1], 100 * folded(run.states[k]), 2)),
+    Claim(rf"{VALUE} % of 100 new clouds are named rightly", lambda run, k, m:
+          not run.states[k].last or says(m[1], 100 * named(run.states[k], "plain"))),
+    Claim(rf"The same [\w ,]+: {VALUE} %", lambda run, k, m:
+          not run.states[k].last or says(m[1], 100 * named(run.states[k], "changed"))),
+    Claim(rf"Density and discs share {VALUE} % of what they cover", lambda run, k, m:
+          says(m[1], 100 * overlap(run.states[k]))),
+    Claim(r"It looks settled, and it is wrong", lambda run, k, m: right(run, k) is False),
+]
+
+LINES = {
+    "rotation": [Claim(r"Worst error below 15°", lambda run, k, m: wrong_by(end(run)).max() < 15)],
+    "euler": [
+        Claim(r"some are wrong by more than 120°", lambda run, k, m: wrong_by(end(run)).max() > 120),
+        Claim(r"the mean error is several times that of six numbers", lambda run, k, m: wrong_by(end(run)).mean() > 12),
+    ],
+    "nine": [Claim(r"as good as six numbers, or better", lambda run, k, m: wrong_by(end(run)).mean() < 3.6)],
+    "spikes": [Claim(r"over a quarter of all edges fold over", lambda run, k, m: folded(end(run)) > 0.25)],
+    "smooth": [Claim(r"Farther from the noisy points, nearer to the rabbit: the second curve knows the truth", None)],
+}
+
+WHYS = {
+    "predict-cut": [
+        Claim(rf"At {TURN}, by {TURN}", lambda run, k, m: same_angle(m[2], wrong_by(end(run)).max())),
+    ],
+    "predict-radius": [
+        Claim(rf"A circle of radius {VALUE} m, spread {VALUE} m", lambda run, k, m:
+              says(m[1], radii(end(run)).mean()) and says(m[2], radii(end(run)).std())),
+    ],
+    "predict-stray": [
+        Claim(rf"^{VALUE} % of them, where chance gives 20 %; untouched {VALUE} %", lambda run, k, m:
+              says(m[1], 100 * named(end(run), "changed")) and says(m[2], 100 * named(end(run), "plain"))),
+    ],
+    "predict-views": [
+        Claim(rf"With {VALUE} dB: more to explain, so each is explained less well", lambda run, k, m:
+              says(m[1], end(run).about.trained) and end(run).about.trained < 32),
+        Claim(rf"views it was never shown have {VALUE} dB", lambda run, k, m: says(m[1], end(run).about.unseen)),
+    ],
+}
+# fmt: on
