@@ -11,7 +11,10 @@ if TYPE_CHECKING:
 
 WAIT = 180_000
 """Milliseconds after which a test gives up: it waits for states, also on a busy machine that draws slowly."""
-HOW_TO = "no Chromium or Chrome here: install one (Debian: apt-get install chromium-headless-shell), or set WORKBENCH_CHROMIUM to its path"
+HOW_TO = (
+    "no Chromium or Chrome here: install one (Debian: apt-get install chromium-headless-shell), or set WORKBENCH_CHROMIUM"
+    " to its path"
+)
 FLAGS = [
     "--no-sandbox",
     "--use-gl=angle",
