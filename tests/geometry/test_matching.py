@@ -59,6 +59,8 @@ def test_the_response_turns_with_the_picture_and_edges_are_negative():
     np.testing.assert_allclose(keypoints.harris_response(0.5 * image + 20), found / 16, rtol=1e-9, atol=1e-6)
     edge = np.where(np.arange(30) < 15, 0.0, 200.0) * np.ones((30, 1))
     assert keypoints.harris_response(edge).max() < 1e-6
+    slanted = 200.0 * (np.add.outer(np.arange(40), np.arange(40)) < 40)
+    assert keypoints.harris_response(slanted)[8:-8, 8:-8].max() < 1e-6
     square = np.zeros((30, 30))
     square[10:20, 10:20] = 200
     corners = keypoints.strongest(keypoints.harris_response(square), 10)
