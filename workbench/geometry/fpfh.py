@@ -54,9 +54,7 @@ def pair_angles(
     phi = np.where(swap, -second, first)  # u d
     other = np.where(swap, -first, second)  # n d
     aligned = np.einsum("ij,ij->i", n_i, n_j)  # u n
-    triple = np.einsum(
-        "ij,ij->i", np.cross(d, n_i), n_j
-    )  # both swaps change its sign: that of d and that of the normals
+    triple = np.einsum("ij,ij->i", np.cross(d, n_i), n_j)  # swaps of d and of the normals change its sign, each once
     sine = np.sqrt(np.maximum(1.0 - phi * phi, 0.0))  # |d x u|
     framed = (sine > 1e-7) & (lengths > 0)
     sine = np.where(framed, sine, 1.0)
