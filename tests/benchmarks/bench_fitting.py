@@ -3,7 +3,8 @@
     python -m tests.benchmarks.bench_fitting
 
 The least time of some rounds, taking turns, of 20 fits each. Ours is the lesson's descent with every moment of it, as the
-lesson draws it. cv2.fitLine iterates with Huber's weights, which let outliers pull (compare the angles), in a compiled loop over points.
+lesson draws it. cv2.fitLine iterates with Huber's weights, which let outliers pull (compare the angles), in a compiled loop
+over points.
 """
 # ruff: noqa: E402
 
