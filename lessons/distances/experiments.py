@@ -262,7 +262,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " longer that of the shortest one. On a sphere both ways are alike, and nobody would notice."
         ),
         params=LATE,
-        choices=("falls", "hardly changes", "more than triples"),
+        choices=("falls", "hardly changes", "multiplies"),
     ),
     Question(
         "shortcut",

@@ -126,7 +126,10 @@ def shows_the_line_of_code(home: Home) -> None:
     k, moment = moments[-1]
     home.ask("k => page.seek(k)", k)
     home.says(run[k].caption.text, k)
-    home.find(".tile", has_text="Code").press("Enter")
+    home.find(".tile", has_text="Code").focus()
+    home.ask("page.draw()")  # such as when more of the run comes
+    assert home.ask("document.activeElement.dataset.key") == "code"
+    home.press("Enter")
     line = home.find("#large .here")
     line.first.wait_for()
     assert line.count() == 1

@@ -7,7 +7,9 @@ const beside = {
 
   show() {
     const tiles = this.of(page.run, page.step());
+    const focused = document.activeElement?.closest("#tiles .tile")?.dataset.key; // more of the run takes no focus away
     $("#tiles").replaceChildren(...tiles.map((tile) => this.tile(tile)));
+    [...$("#tiles").children].find((one) => one.dataset.key === focused)?.focus({ preventScroll: true });
     const enlarged = tiles.find((tile) => tile.key === this.large);
     const box = $("#large");
     box.hidden = !enlarged && !this.laid;
@@ -90,6 +92,7 @@ const beside = {
   tile({ key, title, small, value }) {
     const words = value ? `<span>${escape(value[0])}</span><b>${escape(value[1])}</b>` : `<span>${escape(title)}</span>`;
     const button = element("button", { type: "button", className: "tile", title, innerHTML: `${small}<span>${words}</span>` });
+    button.dataset.key = key;
     button.setAttribute("aria-pressed", String(key === this.large));
     button.onclick = () => this.enlarge(key === this.large ? null : key);
     return button;
