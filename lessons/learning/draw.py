@@ -133,9 +133,8 @@ def _clouds(params: Params, now: Classified, about: Clouds) -> dict[str, Primiti
         color = Classes.marking(decides, "highlight", "critical", others=("target", "points"))
         right = said(now, k) == name
         scene[f"clouds/{name}"] = Points(p + np.array([x, 0.0, 0.0]), color, 0.065, name="points" if k == 0 else "")
-        scene[f"said/{name}"] = Label(
-            name if right else f"{name}: taken for {said(now, k)}", np.array([x, 0, 1.5]), "truth" if right else "wrong"
-        )
+        at = np.array([x, 0.0, 1.5 + 0.65 * (k % 2)])  # in two rows: on a phone they would lie on each other
+        scene[f"said/{name}"] = Label(name if right else f"{name} → {said(now, k)}", at, "truth" if right else "wrong")
     rows = []
     for k, name in enumerate(NAMES):
         of = about.of == k
