@@ -1,3 +1,4 @@
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, cast
 
@@ -223,3 +224,20 @@ def test_all_arrays_are_walked_through_and_what_holds_itself_is_no_trap():
     looped.append(looped)
     held = Holds(Points(p), ({"q": q}, "a word", 3.0, Holds, looped))
     assert sorted(array[0, 0] for array in arrays([held, held])) == [0.0, 1.0, 2.0]
+
+
+def test_arrays_in_values_that_are_made_when_asked_for_are_all_found():
+    class Made(Mapping):
+        def __getitem__(self, k: int) -> tuple[np.ndarray, ...]:
+            return (np.full(2, float(k)),)
+
+        def __len__(self) -> int:
+            return 50
+
+        def __iter__(self) -> Iterator[int]:
+            return iter(range(50))
+
+        def values(self) -> Any:
+            return (self[k] for k in self)
+
+    assert sorted(array[0] for array in arrays([({"one": Made()},), Made()])) == sorted([*range(50)] * 2)

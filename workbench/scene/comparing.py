@@ -1,9 +1,7 @@
 """What a step looks like as one value: compared with another, walked through, and as the ghost of another."""
 
-import functools
-import operator
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import fields, is_dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -15,8 +13,7 @@ from workbench.scene.spatial import Axes, Camera, Label, Mesh, Picture, Points, 
 Primitive: TypeAlias = Spatial | Scalar | Curve | Table | Caption
 Scene: TypeAlias = Mapping[str, Primitive]
 PRIMITIVES: tuple[type, ...] = (Points, Segments, Mesh, Axes, Camera, Label, Picture, Scalar, Curve, Table, Caption)
-
-
+HOLD_NOTHING = frozenset((str, float, int, bool, type(None)))
 PALE = 0.25
 """How opaque a ghost is beside what it is of."""
 
@@ -106,24 +103,16 @@ def same_but_for_pose(a: Primitive, b: Primitive | None) -> bool:
 
 def arrays(value: Any) -> Iterator[np.ndarray]:
     """Walk through all arrays that a scene, primitive or state holds; what it holds twice is walked through once."""
-    waiting, seen = [value], set()
+    waiting, seen = [value], {}
     while waiting:
         value = waiting.pop()
         if isinstance(value, np.ndarray):
             yield value
-        elif (held := _held_by(type(value))) is not None and id(value) not in seen:
-            seen.add(id(value))
-            waiting.extend(held(value))
-
-
-@functools.lru_cache(maxsize=4096)
-def _held_by(kind: type) -> Callable[[Any], Iterable[Any]] | None:
-    """Return what gives the values inside a value of some type; None where there are none."""
-    if issubclass(kind, Mapping):
-        return operator.methodcaller("values")
-    if issubclass(kind, tuple | list):
-        return iter
-    if is_dataclass(kind):
-        names = [field.name for field in fields(kind)]
-        return lambda value: [getattr(value, name) for name in names]
-    return None
+        elif type(value) not in HOLD_NOTHING and id(value) not in seen:
+            seen[id(value)] = value  # kept, so that nothing else gets its id
+            if isinstance(value, (tuple, list)):
+                waiting.extend(value)
+            elif hasattr(type(value), "__dataclass_fields__"):
+                waiting.extend([getattr(value, field.name) for field in fields(value)])
+            elif isinstance(value, Mapping):
+                waiting.extend(value.values())
