@@ -9,7 +9,7 @@ import numpy as np
 from lessons.distances.plane import axioms, balls, stereo, whiten
 from lessons.distances.slots import Functions
 from lessons.distances.state import Found, Front, Now, Params, Subject
-from lessons.distances.subjects import jittered, reference, subject_of, ways_in_square
+from lessons.distances.subjects import reference, subject_of, ways_in_square
 from workbench.algorithms.fast_marching import Update, eikonal_update, march
 from workbench.algorithms.heat_method import HeatMethod, heat_method
 from workbench.data import surfaces
@@ -182,21 +182,20 @@ def finer_spheres(jitter: float = 0.0) -> dict[str, tuple[np.ndarray, np.ndarray
     """Return by method the worst error (%) of distances over the unit sphere, over the mean length of its edges (m).
 
     Args:
-        jitter: By how much of an edge vertices are moved.
+        jitter: By how much of a cell vertices are moved.
     """
     errors: dict[str, list[float]] = {}
     spacing = []
     for count in VERTICES:
-        ball = surfaces.sphere(count)
-        p = jittered(ball.p, ball.faces, jitter, np.random.default_rng(0))
-        truth = np.arccos(np.clip(p @ p[0], -1, 1))
+        ball = surfaces.sphere(count, jitter=jitter, rng=np.random.default_rng(0))
+        truth = np.arccos(np.clip(ball.p @ ball.p[0], -1, 1))
         for name, extra in (("edges", 0), (f"{EXTRA} points on each edge", EXTRA)):
-            nodes, edges, lengths = geodesics.with_points_on_edges(p, ball.faces, extra)
-            d = geodesics.shortest_distances(edges, lengths, len(nodes), 0)[: len(p)]
+            nodes, edges, lengths = geodesics.with_points_on_edges(ball.p, ball.faces, extra)
+            d = geodesics.shortest_distances(edges, lengths, len(nodes), 0)[: len(ball.p)]
             errors.setdefault(name, []).append(_worst(d, truth))
             if extra == 0:
                 spacing.append(float(lengths.mean()))
-        *_, last = heat_method(p, ball.faces, 0, spacing[-1] ** 2)
+        *_, last = heat_method(ball.p, ball.faces, 0, spacing[-1] ** 2)
         errors.setdefault("heat", []).append(_worst(last.d, truth))
     return _log(np.array(spacing), errors)
 

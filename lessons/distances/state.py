@@ -8,6 +8,7 @@ import numpy as np
 
 from workbench.algorithms.heat_method import HeatState
 from workbench.data.framing import Upward
+from workbench.data.surfaces import MOST_JITTER
 from workbench.geometry.metrics import Metric
 from workbench.knobs import Knob, Pick
 
@@ -66,7 +67,7 @@ class Params:
     shape: Annotated[Shape, Knob("The surface", needs=ON_SURFACE)] = "sphere"
     jitter: Annotated[
         float,
-        Knob("Vertices of the sphere are moved by up to so much of an edge", 0, 0.4, step=0.1,
+        Knob("How far vertices stray along the sphere", 0, MOST_JITTER, unit="cells", step=0.05,
              needs=ON_SURFACE | {"shape": ("sphere",)}),
     ] = 0.0  # fmt: skip
     method: Annotated[Literal["edges", "heat"], Knob("Along edges, or by heat", needs=ON_SURFACE)] = "edges"

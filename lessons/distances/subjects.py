@@ -114,17 +114,8 @@ def _surface(params: Params) -> Subject:
     if params.shape == "torus":
         ring = surfaces.torus(max(params.points, 50), 0.7, 0.3)
         return _mesh("the torus", ring.p, ring.faces)
-    ball = surfaces.sphere(params.points)
-    p = jittered(ball.p, ball.faces, params.jitter, np.random.default_rng(params.seed))
-    return replace(_mesh("the sphere", p, ball.faces), is_sphere=True)
-
-
-def jittered(p: np.ndarray, faces: np.ndarray, jitter: float, rng: np.random.Generator) -> np.ndarray:
-    """Return the vertices of a unit sphere (n, 3) moved along it, by up to `jitter` mean edges along each axis."""
-    h = geodesics.edge_lengths(p, meshes.edges(faces)).mean()
-    step = rng.uniform(-jitter * h, jitter * h, p.shape)
-    moved = p + step - (step * p).sum(axis=1, keepdims=True) * p
-    return moved / np.linalg.norm(moved, axis=1, keepdims=True)
+    ball = surfaces.sphere(params.points, jitter=params.jitter, rng=np.random.default_rng(params.seed))
+    return replace(_mesh("the sphere", ball.p, ball.faces), is_sphere=True)
 
 
 def _mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:

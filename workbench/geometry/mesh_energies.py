@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int
 
-from workbench.geometry.meshes import adjacency
+from workbench.geometry.meshes import adjacency, edge_keys, half_edges
 
 Points = Float[np.ndarray, "v 3"]
 Energy = tuple[float, Points]
@@ -57,11 +57,10 @@ def normal_energy(p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarra
 
 def face_pairs(faces: Int[np.ndarray, "f 3"]) -> Int[np.ndarray, "e 2"]:
     """Return for every edge with two faces which they are."""
-    half = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    keys = half[:, 0] * (faces.max() + 1) + half[:, 1]
+    keys = edge_keys(half_edges(faces))
     order = np.argsort(keys, kind="stable")
     same = np.flatnonzero(np.diff(keys[order]) == 0)
-    return np.stack([order[same], order[same + 1]], axis=1) // 3
+    return np.stack([order[same], order[same + 1]], axis=1) % len(faces)
 
 
 def fold_angles(p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarray, "e 2"]) -> Float[np.ndarray, " e"]:
