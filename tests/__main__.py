@@ -7,6 +7,7 @@ that is named there often has a defect of its own.
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -29,6 +30,7 @@ BESIDE = ("types",)  # runs in what time the others leave; its output comes at t
 def main() -> int:
     """Run all checks, each to its end, and say which failed."""
     began = time.monotonic()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell starts what runs in its background deaf to it
     failed: list[str] = []
     unsteady: list[str] = []
 

@@ -44,6 +44,13 @@ def test_an_honest_function_gives_plain_values(student):
     assert not function.changed_inputs
 
 
+def test_numbers_are_rounded_as_by_the_grader(student, monkeypatch):
+    monkeypatch.setenv("OPENBLAS_CORETYPE", "Nehalem")
+    monkeypatch.setenv("OPENBLAS_SECRET", "not for students")
+    function = student("import os; return ' '.join(sorted(k for k in os.environ if k.startswith('OPENBLAS')))")
+    assert function(POINTS) == "OPENBLAS_CORETYPE OPENBLAS_NUM_THREADS"
+
+
 ATTACKS = {
     "endless loop": ("while True: pass", "timeout", "took more than 1 s"),
     "sleeping": ("import time; time.sleep(60)", "timeout", "took more than"),

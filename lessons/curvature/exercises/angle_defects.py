@@ -131,6 +131,13 @@ def defects_go_with_the_mesh(candidate: Function) -> Verdict:
     return worst(defects_verdict(candidate, case, DEFECT_HINT) for case in cases)
 
 
+ALONG_THE_DIAGONAL = (
+    np.array([[0.0, 0, 0], [4, 4, 4], [4, 0, 0], [0, 4, 0]]),
+    np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]),
+)
+"""A tetrahedron with an edge along (1, 1, 1): on every machine that vector's length, squared, is a little less than 3."""
+
+
 @check(1, public=False)
 def flat_faces_and_lone_vertices(candidate: Function) -> Verdict:
     """A face without area has angles 0, 0 and pi, and a vertex without faces a defect of 2 pi."""
@@ -140,6 +147,7 @@ def flat_faces_and_lone_vertices(candidate: Function) -> Verdict:
         p, faces = with_a_flat_face(ball.p @ some_rotation(GRADERS + k).T, ball.faces)
         verdicts.append(defects_verdict(candidate, (np.concatenate([p, [[3.0, 0.0, 0.0]]]), faces), FLAT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*box(GRADERS)), FLAT_HINT))
+    verdicts.append(defects_verdict(candidate, with_a_flat_face(*ALONG_THE_DIAGONAL), FLAT_HINT))
     return worst(verdicts)
 
 

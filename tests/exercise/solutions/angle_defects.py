@@ -144,7 +144,7 @@ def wrong_arccos_not_clipped(p, faces):
     with np.errstate(invalid="ignore"):
         for k in range(3):
             u, v = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
-            c = (u * v).sum(1) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)
+            c = (u * v).sum(1) / (np.sqrt((u**2).sum(1)) * np.sqrt((v**2).sum(1)))
             np.subtract.at(out, faces[:, k], np.arccos(c))
     return out
 

@@ -16,7 +16,7 @@ from typing import IO
 
 from workbench.errors import InputError
 from workbench.exercise.sandbox import bubblewrap, python
-from workbench.threads import ONE_EACH
+from workbench.threads import as_here
 
 START_SECONDS = 30.0
 """How long Python and numpy may take to start."""
@@ -70,7 +70,7 @@ class Wall:
         child = f"{bubblewrap.CHILD}/child.py" if boxed else str(python.INSIDE / "child.py")
         quiet = ["-W", "ignore::RuntimeWarning"]  # numpy's are not what the student printed
         environment = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": bubblewrap.FOLDER if boxed else folder}
-        environment |= ONE_EACH
+        environment |= as_here()  # so that a mistake which hangs on the last bit is known for what it is
         command = [files.executable, "-I", "-S", "-B", "-u", *quiet, child, json.dumps(settings)]
         if boxed:
             known = [word for pair in environment.items() for word in ("--setenv", *pair)]
