@@ -134,13 +134,13 @@ def _of_found(state: State, now: Found) -> Caption:
 
 
 def _of_study(state: State, now: Found) -> str:
-    text = ""
+    charts = []
     if now.study:
         on = "from a corner of empty squares, ever finer" if state.params.stage == "grid" else "on ever finer spheres"
-        text += f" The same {on}: see in the chart whose error falls."
+        charts.append(f"the same {on}")
     if now.times is not None:
-        text += " And the mean error if heat flowed for another time: see the chart."
-    return text
+        charts.append("the mean error by how long heat flows")
+    return f" In the charts: {'; '.join(charts)}." if charts else ""
 
 
 def _too(error: float) -> str:

@@ -40,15 +40,13 @@ def blame(state: State) -> str:
         why = "The calculation differs from the true camera."
     parts = []
     if state.error > VISIBLE:
-        parts.append(f"the median distance from the true pixels is {pixels(state.error)}")
+        parts.append(f"the pixels are off by {pixels(state.error)} (median)")
     if state.missed:
         parts.append(f"{state.missed} of {len(now.p_world)} points lose their pixel")
     if state.false:
-        parts.append(
-            f"{_many(state.false)} a pixel that the true camera does not give {'it' if state.false == 1 else 'them'}"
-        )
+        parts.append(f"{_many(state.false)} a pixel that the true camera does not give")
     if not parts and back > MISPLACED:
-        parts.append(f"the median distance of points that come back from where they are is {length(back)}")
+        parts.append(f"the points that come back are off by {length(back)} (median)")
     size = "; ".join(parts)
     return f" {why}" + (f" {size[0].upper()}{size[1:]}." if size else "")
 
@@ -64,8 +62,7 @@ def back_error(state: State) -> float:
 MISTAKES = {
     "pose inverted": "The pose is inverted: camera-to-world stands where world-to-camera belongs.",
     "divides behind too": "What lies behind the camera was divided by its negative depth too.",
-    "OpenGL axes": "The pose is OpenGL's (y up, looking along −z): what is in front gets a negative depth, and dividing"
-    " anyway mirrors the picture.",
+    "OpenGL axes": "The pose is OpenGL's (y up, looking along −z): depths ahead are negative, dividing mirrors.",
     "row before column": "(row, column) stands where (u, v) = (column, row) belongs.",
     "lens on pixels": "The lens was given pixels, not normalised coordinates: r² is f² times too large.",
     "t for the centre": "t is not where the camera is; C = −Rᵀt is.",
@@ -103,7 +100,7 @@ def _distort(state: State) -> str:
     moved = f * np.linalg.norm(state.now.xy_bent - state.now.xy, axis=1)
     if not any(state.shot.lens) and not (moved > VISIBLE).any():
         return "A lens without distortion: k₁ = k₂ = p₁ = p₂ = 0, and (x′, y′) = (x, y)."
-    most = f"the farthest-moved point goes {pixels(np.nanmax(moved))}" if np.isfinite(moved).any() else "nothing is"
+    most = f"the farthest goes {pixels(np.nanmax(moved))}" if np.isfinite(moved).any() else "nothing is"
     if not np.isfinite(moved[k]):
         return f"The followed point has no place on the lens; {most}."
     nearer = _norm(state.now.xy_bent[k]) < _norm(state.now.xy[k])

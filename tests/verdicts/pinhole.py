@@ -172,8 +172,8 @@ CAPTIONS = (
         np.nan_to_num(run.states[k].now.xy_bent - run.states[k].now.xy).any()
         or run.params.k1 or run.params.k2 or run.params.p1 or run.params.p2)),
     Claim(rf"The lens moves the point ({POWER}) px, (nearer to|further from) the principal point: \(x′, y′\) = \(({POWER}),"
-          rf" ({POWER})\); the farthest-moved point goes ({POWER}) px", _bent),
-    Claim(rf"The followed point has no place on the lens; the farthest-moved point goes ({POWER}) px", _most),
+          rf" ({POWER})\); the farthest goes ({POWER}) px", _bent),
+    Claim(rf"The followed point has no place on the lens; the farthest goes ({POWER}) px", _most),
     Claim(rf"Beyond radius ({NUMBER}) this model folds back; what lies there has no pixel", lambda run, k, m: (
         abs(number(m[1]) - fold(run.params)) < 1e-3 and np.isnan(run.states[k].now.xy_bent)[
             np.linalg.norm(run.states[k].now.xy, axis=1) > fold(run.params)].all())),
@@ -191,7 +191,7 @@ CAPTIONS = (
         np.isnan(run.states[k].now.uv[run.params.point]).all())),
     Claim("The pose is inverted: camera-to-world stands where world-to-camera belongs", _wrong("pose inverted")),
     Claim("What lies behind the camera was divided by its negative depth too", _wrong("divides behind too")),
-    Claim(r"The pose is OpenGL's .*: what is in front gets a negative depth, and dividing anyway mirrors the picture", lambda
+    Claim(r"The pose is OpenGL's .*: depths ahead are negative, dividing mirrors", lambda
           run, k, m: bool((run.states[k].now.p_camera[np.isfinite(ideal(run.params, street().points)[:, 0]), 2] < 0).all())),
     Claim(r"\(row, column\) stands where \(u, v\) = \(column, row\) belongs", _wrong("row before column")),
     Claim("The lens was given pixels, not normalised coordinates: r² is f² times too large", _wrong("lens on pixels")),
@@ -199,13 +199,13 @@ CAPTIONS = (
         np.linalg.norm(camera(run.params)[1] - centre(run.params)) > 0.1)),
     Claim("The length of the ray was taken for the depth Z", _wrong("ray length for depth")),
     Claim("K is still that of the full picture", lambda run, k, m: run.params.edit != "none" and not run.params.k_follows),
-    Claim(rf"[Tt]he median distance from the true pixels is ({POWER}) px", lambda run, k, m: (
+    Claim(rf"[Tt]he pixels are off by ({POWER}) px \(median\)", lambda run, k, m: (
         says(m[1], median_off(run, k)))),
     Claim(rf"({NUMBER}) of ({NUMBER}) points lose their pixel", lambda run, k, m: (
         number(m[1]) == lost(run, k)[0] and number(m[2]) == len(street().points))),
     Claim(rf"({NUMBER}) points? ha(?:s|ve) a pixel that the true camera does not give", lambda run, k, m: (
         number(m[1]) == lost(run, k)[1])),
-    Claim(rf"[Tt]he median distance of points that come back from where they are is ({LENGTH})", lambda run, k, m: (
+    Claim(rf"[Tt]he points that come back are off by ({LENGTH}) \(median\)", lambda run, k, m: (
         says_length(m[1], median_back(run)))),
     Claim(rf"^(?!.*(?:{BLAME}))", lambda run, k, m: right(run, k) is not False),  # who blames nobody says that all is right
 )  # fmt: skip

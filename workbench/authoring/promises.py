@@ -27,7 +27,8 @@ Found: TypeAlias = Iterator[str | None]
 PARTS = ("Conventions", "Watch", "Predict", "Break it", "Your turn", "Pitfalls", "References")
 """What a page has, among other parts."""
 WORDS = (350, 1100)
-CAPTION = (10, 400)
+CAPTION = (10, 340)
+"""What a phone shows of a caption without a need to scroll."""
 LINE = (20, 220)
 LEAST_PRESETS = 3
 MOST_STEPS = 12
@@ -108,12 +109,17 @@ def the_default_run_ends_well(subject: Subject) -> Found:
 @promise
 def every_step_says_what_happened(subject: Subject) -> Found:
     """Every step has a caption of a few words, and they are not all the same."""
-    captions = [step.caption.text for step in subject.default().known()]
     where = f"{subject.who}: {at(subject.lesson.draw)}"
-    for k, text in enumerate(captions):
+    yield from _captions(where, subject.default())
+    captions = {step.caption.text for step in subject.default().known()}
+    if len(subject.default()) > 1:
+        yield f"{where}every step has the caption {min(captions)[:60]!r}" if len(captions) == 1 else None
+
+
+def _captions(where: str, run: Timeline) -> Found:
+    for k, step in enumerate(run.known()):
+        text = step.caption.text
         yield _length(f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters")
-    if len(captions) > 1:
-        yield f"{where}every step has the caption {captions[0][:60]!r}" if len(set(captions)) == 1 else None
 
 
 @promise
@@ -258,6 +264,7 @@ def _preset(subject: Subject, preset: Preset) -> Found:
     yield _length(f"{who}: its line", len(preset.line), LINE, "characters")
     run = subject.whole(preset.params, f"preset {preset.name!r}")
     yield None if run.stopped in (None, subject.default().stopped) else f"{who}: {run.stopped}"
+    yield from _captions(f"{who}, ", run)
     if run.stopped is None and preset.step is not None:
         yield _opens(run, who, preset.step)
 

@@ -70,6 +70,7 @@ const page = {
     const caption = $("#caption");
     if (caption.textContent !== text) caption.textContent = text;
     caption.className = tone;
+    caption.classList.toggle("long", caption.scrollHeight > caption.clientHeight); // smaller, where its room is too small
   },
 
   // the address is the place: a reload or a shared link comes back to it
