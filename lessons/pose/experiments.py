@@ -25,9 +25,9 @@ THIN = Params(method="DLT", thickness=0.1)
 SHEET = Params(method="DLT", thickness=0.01)
 SAFE = Params(method="SQPnP", thickness=0.01)
 PLANE = Params(method="DLT", thickness=0.0)
-MAP = Params(method="DLT", origin=10.0, centred=False, seed=1)
-CENTRED = Params(method="DLT", origin=10.0, seed=1)
-SEVENTY = Params(method="RANSAC", points=100, outliers=0.7)
+MAP = Params(target="street", method="DLT", origin=10.0, centred=False)
+CENTRED = Params(target="street", method="DLT", origin=10.0)
+SEVENTY = Params(target="street", method="RANSAC", points=100, outliers=0.7)
 HALF = Params(method="RANSAC", points=100, outliers=0.5)
 BELIEVED = Params(method="SQPnP", outliers=0.1)
 
@@ -92,9 +92,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "map", "Coordinates of a map",
-        "The origin is 10 km off, and the linear transform takes the points as they are: metres of error out of"
-        " nothing but"
-        " large numbers.",
+        "A street whose points are known from a map, its origin 10 km off, and the linear transform takes them as they"
+        " are: many metres of error out of nothing but large numbers.",
         MAP, 1, breaks=True,
     ),
     Preset(
@@ -111,8 +110,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "seventy", "70 % outliers",
-        "Only one sample of three points in 37 is clean, and yet RANSAC needs few hundred of them: that is what P3P"
-        " is for.",
+        "Of 100 points of the street's map 70 are seen somewhere else. Only one sample of three in 37 is clean, and yet"
+        " RANSAC needs few hundred of them: that is what P3P is for.",
         SEVENTY, -1,
     ),
 )  # fmt: skip

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lessons.pose.draw import draw
+from lessons.pose.draw import LOOKS, draw
 from lessons.pose.exercises.choose_pose import choose_pose
 from lessons.pose.exercises.pose_from_distances import pose_from_distances
 from lessons.pose.exercises.pose_step import pose_step
@@ -107,6 +107,7 @@ lesson = Lesson(
     order=1700,
     needs=("pinhole", "ransac"),
     view=VIEW,
+    view_for=lambda params: LOOKS["box" if params.sightings else params.target].view,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=4,
