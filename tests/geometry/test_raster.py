@@ -313,7 +313,7 @@ def test_points_in_sight_are_those_that_nothing_stands_before():
     met = np.array(free) & (u >= 0) & (u <= 319) & (v >= 0) & (v <= 239)
     assert 50 < met.sum() < len(met) - 50
     assert (shown[:-2] & ~met).mean() < 0.01  # at an edge
-    near = np.linalg.norm(p[:-2] - eye, axis=1) < 16.0
+    near = np.linalg.norm(p[:-2] - eye, axis=1) < 13.0
     assert shown[:-2][met & near].mean() > 0.9  # what leans, far away, has too many depths in a pixel
     assert not shown[-2:].any()  # behind the camera, and in it
 
