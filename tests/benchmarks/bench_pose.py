@@ -2,9 +2,9 @@
 
 The same points for all contenders of a task, one thread, CPU time, the least of the rounds that take turns. P3P and SQPnP
 are called as the lesson calls them in its 60 other pictures, for many problems side by side; one by one numpy's calls cost
-many times what they compute; that is shown too. RANSAC is the lesson's, step by step, to its end: it solves and judges one
-sample at a time, each by calls of numpy, where OpenCV has compiled loops. The planar pose is one call for one marker, of
-some dozen small products of matrices.
+many times what they compute; that is shown too. RANSAC is the lesson's, step by step, to its end: it solves samples some
+dozens at once and judges them one by one. The planar pose is one call for one marker, of some dozen small products of
+matrices.
 """
 # ruff: noqa: E402
 
