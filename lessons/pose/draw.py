@@ -58,6 +58,7 @@ QUARTIC = Chart("Quartic", "v = s₃ / s₁", "scaled")
 PICTURE_ERROR, TURN_ERROR = Chart("RMS error in the picture", unit="px"), Chart("Rotation error", unit="°")
 CENTRE_ERROR = Chart("Error of the centre", unit="m")
 TURNS = Chart("Rotation errors in other pictures", "degrees", "pictures")
+ANEW = Chart("Random cameras, as many points", "degrees", "% within")
 SOLUTIONS = Chart("Solutions of random triples", "how many", "triples")
 
 
@@ -244,6 +245,10 @@ def _repeated(subject: Subject, now: Repeated) -> dict[str, Primitive]:
             kept = Classes(color.ids[near], color.roles, color.names)
             scene["centres"] = Points(centres[near], kept, 1.5 * LOOKS[subject.kind].radius, name="cameras found")
     scene["turns"] = TURNS.histogram(now.degrees, 30, "pictures", "source")
+    if now.anew is not None:
+        x = np.linspace(0.0, 30.0, 121)
+        for name, color, degrees in zip(("EPnP", "SQPnP"), ("source", "target"), now.anew, strict=True):
+            scene[f"anew/{name}"] = ANEW.curve(x, 100.0 * (degrees <= x[:, None]).mean(axis=1), name, color)
     if now.counts is not None:
         scene["solutions"] = SOLUTIONS.histogram(
             np.repeat(np.arange(5), now.counts), np.arange(6) - 0.5, "triples", "target"

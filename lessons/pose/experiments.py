@@ -24,6 +24,7 @@ FRONTAL = Params(target="marker", method="IPPE", noise=0.5, distance=0.5, tilt=1
 THIN = Params(method="DLT", thickness=0.1)
 SHEET = Params(method="DLT", thickness=0.01)
 SAFE = Params(method="SQPnP", thickness=0.01)
+FEW = Params(method="EPnP", points=4, refine=False, seed=8)
 PLANE = Params(method="DLT", thickness=0.0)
 MAP = Params(target="street", method="DLT", origin=10.0, centred=False)
 CENTRED = Params(target="street", method="DLT", origin=10.0)
@@ -89,6 +90,12 @@ PRESETS: tuple[Preset[Params], ...] = (
         "SQPnP looks for a rotation from the start, so it needs no depth: the same points, the same noise, and it"
         " ends right.",
         SAFE, -1,
+    ),
+    Preset(
+        "few", "EPnP on four points",
+        "Four points leave EPnP four vectors to mix and six distances to say how, and it may end in another mix. The last"
+        " step compares it with SQPnP, on other points.",
+        FEW, 1, breaks=True,
     ),
     Preset(
         "map", "Coordinates of a map",
@@ -169,6 +176,15 @@ def _samples_why(states: Sequence[State]) -> str:
     )
 
 
+def _few_why(states: Sequence[State]) -> str:
+    far = [percent(share, 0) for share in others(states).far]
+    return (
+        f"In {far[0]}, and SQPnP in {far[1]} of the same pictures. Four points leave four null vectors, and Gauss-Newton"
+        " on their weights begins at a linear guess, so it may end in another mix. From six points on there is one"
+        " vector, and nothing to mix."
+    )
+
+
 def _plane_answer(states: Sequence[State]) -> float:
     return float(np.digitize(np.median(others(states).degrees), [2.0, 20.0]))
 
@@ -210,6 +226,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         why=_samples_why,
         params=HALF,
         tolerance=60.0,
+    ),
+    Question(
+        name="predict-few",
+        text="EPnP takes any number of points from four on. Cameras turned anyhow see four random points each, with a noise"
+        " of one pixel. In how many per cent of the pictures is EPnP's rotation over 5° off?",
+        answer=lambda states: 100.0 * others(states).far[0],
+        why=_few_why,
+        params=FEW,
+        unit="%",
+        tolerance=8.0,
     ),
     Question(
         name="predict-plane",

@@ -33,6 +33,7 @@ from workbench.algorithms.ransac import State as Sampled
 from workbench.algorithms.samplers import uniform_samples
 from workbench.errors import InputError
 from workbench.geometry.camera_motions import dlt_motion, rms_reprojection, sqpnp
+from workbench.geometry.control_points import epnp
 from workbench.geometry.planar_motions import is_flat
 from workbench.lesson import Lesson, Sweep
 
@@ -81,7 +82,12 @@ def first_pose(
         return by_plane(p, xy, choose_pose)
     if params.method == "DLT" and len(p) < 6:
         raise InputError(f"the direct linear transform needs 6 points, and there are only {len(p)}")
-    T = dlt_motion(p, xy, centred=params.centred) if params.method == "DLT" else sqpnp(p, xy)
+    if params.method == "EPnP" and np.linalg.matrix_rank(p - p.mean(axis=0), 1e-6) < 2:
+        raise InputError("EPnP is for points that do not all lie on one line")
+    if params.method == "DLT":
+        T = dlt_motion(p, xy, centred=params.centred)
+    else:
+        T = sqpnp(p, xy) if params.method == "SQPnP" else epnp(p, xy)
     return iter([Searched(phase="solved", T=T, error=float(rms_reprojection(T, p, xy)))])
 
 

@@ -18,9 +18,10 @@ from workbench.geometry.cameras import camera_center, normalize
 from workbench.knobs import Gizmo, Knob
 
 Target = Literal["box", "marker", "street", "triangle"]
-Method = Literal["P3P", "DLT", "SQPnP", "IPPE", "RANSAC"]
+Method = Literal["P3P", "DLT", "SQPnP", "EPnP", "IPPE", "RANSAC"]
 BOX, MARKER = {"target": ("box",)}, {"target": ("marker",)}
 SPREAD = {"target": ("box", "street")}
+FAR_DEGREES = 5.0
 NEAR_DEGREES, NEAR_SHARE = 10.0, 0.1
 """A pose counts as right within so many degrees, and with its centre within this share of its distance."""
 
@@ -56,7 +57,8 @@ class Params:
         bool, Knob("Take points relative to their mean first, as one should", needs={"method": ("DLT",)})
     ] = True
     refine: Annotated[
-        bool, Knob("Gauss-Newton steps on all points afterwards", needs={"method": ("P3P", "DLT", "SQPnP", "IPPE")})
+        bool,
+        Knob("Gauss-Newton steps on all points afterwards", needs={"method": ("P3P", "DLT", "SQPnP", "EPnP", "IPPE")}),
     ] = True
     inlier_pixels: Annotated[
         float, Knob("Points seen this near to where they should be are inliers", 0.5, 20, unit="px", step=0.5,
@@ -140,6 +142,7 @@ class Repeated:
         pictures: How many pictures there were; some give no motion.
         swapped: In how many pictures the wrong one of a plane's two refined motions was chosen; None for other methods.
         counts: How many of the random triples of points have no, one, ..., four solutions; None where not asked.
+        anew: Rotation errors of EPnP and of SQPnP, (2, j), in pictures of as many random points; None where not asked.
     """
 
     Ts: np.ndarray
@@ -148,6 +151,14 @@ class Repeated:
     pictures: int
     swapped: int | None = None
     counts: np.ndarray | None = None
+    anew: np.ndarray | None = None
+
+    @property
+    def far(self) -> tuple[float, float]:
+        """In which shares of those EPnP and SQPnP are turned too far."""
+        assert self.anew is not None
+        epnp, sqpnp = (self.anew > FAR_DEGREES).mean(axis=1)
+        return float(epnp), float(sqpnp)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -17,7 +17,7 @@ from workbench.algorithms import ransac
 from workbench.algorithms.camera_search import Searched
 from workbench.errors import InputError
 from workbench.geometry.alignment import degrees_between
-from workbench.scene import Camera, Classes, Picture, Points, Segments, caption_of
+from workbench.scene import Camera, Classes, Curve, Picture, Points, Segments, caption_of
 
 
 def states(params: Params) -> tuple[Any, ...]:
@@ -177,6 +177,23 @@ def test_knobs_of_the_method_find_the_street_photographed():
     assert subject_of(street(method="SQPnP", refine=False)).photograph is subject_of(street()).photograph
 
 
+def test_epnp_on_four_points_may_end_in_a_wrong_mix():
+    found = of("few")
+    wrong = phase(found, "solved")
+    assert not is_near(wrong.T, wrong.subject)
+    assert rms(pixels_off(wrong.T, wrong.subject)) > 5 * wrong.params.noise  # it does not even fit
+    assert is_near(phase(states(replace(wrong.params, method="SQPnP")), "solved").T, wrong.subject)
+    epnp, sqpnp = others(found).far
+    assert 0.1 < epnp < 0.2
+    assert sqpnp < 0.02
+    assert others(states(replace(wrong.params, points=6))).far == (0.0, 0.0)
+    scene = lesson.draw(found[-1])
+    for name, share in (("EPnP", epnp), ("SQPnP", sqpnp)):
+        curve = scene[f"anew/{name}"]
+        assert isinstance(curve, Curve)
+        assert curve.y[curve.x == 5.0] == pytest.approx(100 * (1 - share))
+
+
 def test_least_squares_believes_two_wrong_points():
     last = phase(of("believed"), "stop")
     assert last.subject.given.is_outlier.sum() == 2
@@ -207,6 +224,7 @@ def test_what_the_questions_answer():
     assert answer("predict-solutions") == 1  # two
     assert answer("predict-wrong") == pytest.approx(40, abs=12)
     assert answer("predict-samples") == 293
+    assert answer("predict-few") == pytest.approx(13, abs=4)
     assert answer("predict-plane") == 2
     assert needed(states(HALF), 3) == 35  # as the question says
     assert (TILTED.distance, TILTED.tilt, TILTED.noise) == (4.0, 60.0, 0.5)
@@ -288,6 +306,6 @@ def test_what_cannot_be_done_is_said():
 
 
 def test_four_points_of_the_box_will_do():
-    for method in ("P3P", "SQPnP", "RANSAC"):
+    for method in ("P3P", "SQPnP", "EPnP", "RANSAC"):
         for state in run(Params(points=4, method=method)):
             lesson.draw(state)
