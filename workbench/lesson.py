@@ -142,6 +142,7 @@ class Lesson(Generic[P, S]):
         draw: What one state looks like.
         order: The place in the course.
         view: How the scene is first seen.
+        view_for: The same for params that show something of another size or place, where there are such.
         presets: Named runs worth seeing.
         questions: What a student predicts before looking.
         first_step: Where the default run opens (negative counts from the end).
@@ -159,6 +160,7 @@ class Lesson(Generic[P, S]):
     draw: Callable[[S], Scene]
     order: int
     view: View = field(default_factory=View)
+    view_for: Callable[[P], View] | None = None
     presets: tuple[Preset[P], ...] = ()
     questions: tuple[Question[P, S], ...] = ()
     first_step: int = 0
@@ -208,7 +210,11 @@ class Lesson(Generic[P, S]):
     def view_of(self, params: P) -> View:
         """Return how the run of these params is first seen: by its preset's camera where it has one."""
         preset = self.preset_of(params)
-        return self.view if preset is None or preset.view is None else preset.view
+        return self.usual_view(params) if preset is None or preset.view is None else preset.view
+
+    def usual_view(self, params: P) -> View:
+        """Return how runs of such params are first seen that are no preset with a camera of its own."""
+        return self.view if self.view_for is None else self.view_for(params)
 
     def text(self) -> str:
         """Return the page, Markdown; title and summary where the lesson has none.

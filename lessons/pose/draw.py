@@ -1,10 +1,11 @@
 """What one step looks like: the target, the cameras that could have seen it, the picture, and the errors."""
 
 import functools
+from dataclasses import dataclass
 
 import numpy as np
 
-from lessons.pose.state import Repeated, State, Subject
+from lessons.pose.state import Repeated, State, Subject, Target
 from lessons.pose.words import caption
 from workbench.algorithms import ransac
 from workbench.algorithms.camera_search import Searched
@@ -32,23 +33,39 @@ from workbench.scene import (
 VIEW = View(eye=(7.2, -0.9, 3.15), target=(0.6, 0.0, 0.25), grid=None, axes=False, fov_degrees=40.0)
 CLOSE = View(eye=(0.1, -0.4, 0.3), target=(0.06, 0.0, 0.0), grid=None, axes=False, fov_degrees=40.0)
 ABOVE = View(eye=(9.5, -6.0, 5.5), target=(0.8, 0.6, 1.7), grid=None, axes=False, fov_degrees=40.0)
-SCREENS = {
-    "box": (VIEW.facing(1.75, -0.7), 2.3),
-    "marker": (CLOSE.facing(0.13, 0.0), 0.16),
-    "triangle": (ABOVE.facing(2.6, 0.3), 2.8),
+ALONG = View(eye=(7.5, -14.0, 8.5), target=(5.2, 5.0, 1.8), grid=None, axes=False, fov_degrees=40.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """How a kind of target is drawn: seen from where, the photograph where and how wide, points and cameras how large."""
+
+    view: View
+    screen: np.ndarray
+    width: float
+    radius: float
+    depth: float
+
+
+LOOKS: dict[Target, Look] = {
+    "box": Look(VIEW, VIEW.facing(1.75, -0.7), 2.3, 0.02, 0.45),
+    "marker": Look(CLOSE, CLOSE.facing(0.13, 0.0), 0.16, 0.0035, 0.02),
+    "street": Look(ALONG, ALONG.facing(5.8, -1.5), 8.2, 0.08, 1.2),
+    "triangle": Look(ABOVE, ABOVE.facing(2.6, 0.3), 2.8, 0.02, 0.45),
 }
 ENLARGED, SMALL = 10, 4.0  # residuals are drawn so many times as long while their RMS is below so many pixels
 QUARTIC = Chart("Quartic", "v = s₃ / s₁", "scaled")
 PICTURE_ERROR, TURN_ERROR = Chart("RMS error in the picture", unit="px"), Chart("Rotation error", unit="°")
 CENTRE_ERROR = Chart("Error of the centre", unit="m")
 TURNS = Chart("Rotation errors in other pictures", "degrees", "pictures")
+ANEW = Chart("Random cameras, as many points", "degrees", "% within")
 SOLUTIONS = Chart("Solutions of random triples", "how many", "triples")
 
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
     subject, now = state.subject, state.now
-    scene: dict[str, Primitive] = {"caption": caption(state), **_still(subject, state.params.target)}
+    scene: dict[str, Primitive] = {"caption": caption(state), **_still(subject)}
     photograph = scene["picture"]
     assert isinstance(photograph, Picture)
     scene |= _pixels(state, photograph)
@@ -57,7 +74,9 @@ def draw(state: State) -> Scene:
     if isinstance(now, Searched):
         scene |= _three(state, now) | _candidates(state, now)
     elif isinstance(now, ransac.State) and len(now.sample) and now.phase not in ("refit", "stop"):
-        scene["sample"] = Points(subject.p_shown[now.sample], "highlight", 2.0 * _radius(subject), name="sample")
+        scene["sample"] = Points(
+            subject.p_shown[now.sample], "highlight", 2.0 * LOOKS[subject.kind].radius, name="sample"
+        )
     if isinstance(now, Repeated):
         return scene | _repeated(subject, now)
     if state.T is not None and is_rigid(state.T):
@@ -73,19 +92,15 @@ def draw(state: State) -> Scene:
     return scene | _numbers(state)
 
 
-def _radius(subject: Subject) -> float:
-    return 0.0035 if subject.body is not None and len(subject.body.p) == 4 else 0.02
-
-
 @functools.lru_cache(maxsize=64)
-def _still(subject: Subject, target: str) -> dict[str, Primitive]:
+def _still(subject: Subject) -> dict[str, Primitive]:
     """Return what is the same in all steps: the target, its points, the photograph and where points were seen in it."""
-    pose, width = SCREENS[target if subject.body is not None else "box"]
-    photograph = Picture(subject.photograph, "What the camera saw", width, pose)
+    look = LOOKS[subject.kind]
+    photograph = Picture(subject.photograph, "What the camera saw", look.width, look.screen)
     scene: dict[str, Primitive] = {
-        "points": Points(subject.p_shown, "target", _radius(subject), name="known points"),
+        "points": Points(subject.p_shown, "target", look.radius, name="known points"),
         "picture": photograph,
-        "picture/border": Segments(photograph.border(0.001 * width), "neutral", 1.0),
+        "picture/border": Segments(photograph.border(0.001 * look.width), "neutral", 1.0),
     }
     if (body := subject.body) is not None:
         scene["target"] = Mesh(body.p, body.faces, "neutral", opacity=0.25, flat=True)
@@ -130,7 +145,7 @@ def _votes(now: object) -> Color:
 
 
 def _camera(subject: Subject, T: np.ndarray, color: Role, name: str = "", opacity: float = 1.0) -> Camera:
-    depth = 0.02 if subject.body is not None and len(subject.body.p) == 4 else 0.45
+    depth = LOOKS[subject.kind].depth
     return Camera(subject.K, 640, 480, subject.frame.shown_camera(T), depth, None, color, opacity, name)
 
 
@@ -140,10 +155,12 @@ def _three(state: State, now: Searched) -> dict[str, Primitive]:
     if state.params.method != "P3P" or now.phase in ("step", "stop"):
         return {}
     scene: dict[str, Primitive] = {
-        "three": Points(subject.p_shown[:3], "highlight", 1.6 * _radius(subject), name="three points"),
+        "three": Points(subject.p_shown[:3], "highlight", 1.6 * LOOKS[subject.kind].radius, name="three points"),
     }
     if now.phase == "choose":
-        scene["fourth"] = Points(subject.p_shown[3:4], "other", 1.6 * _radius(subject), name="the fourth point")
+        scene["fourth"] = Points(
+            subject.p_shown[3:4], "other", 1.6 * LOOKS[subject.kind].radius, name="the fourth point"
+        )
     if subject.T_true is not None and now.phase in ("rays", "quartic"):
         eye = subject.frame.shown(camera_center(subject.T_true))
         scene["rays"] = Segments(
@@ -218,7 +235,7 @@ def _repeated(subject: Subject, now: Repeated) -> dict[str, Primitive]:
     right = subject.near(now.degrees, now.metres)
     color = Classes.marking(~right, "wrong", "wrong", others=("source", "right"))
     centres = np.stack([subject.frame.shown(camera_center(T)) for T in now.Ts])
-    if subject.body is not None and len(subject.body.p) == 4:
+    if subject.kind == "marker":
         assert subject.T_true is not None
         tips = np.stack([(inverse(subject.T_true) @ T)[:3, :3] @ [0.0, 0.0, 0.12] for T in now.Ts])
         scene["normals"] = Segments(between(np.zeros_like(tips), tips), color, 1.5, name="normals of the marker")
@@ -226,8 +243,12 @@ def _repeated(subject: Subject, now: Repeated) -> dict[str, Primitive]:
         near = np.linalg.norm(centres, axis=1) < 20.0
         if near.any():
             kept = Classes(color.ids[near], color.roles, color.names)
-            scene["centres"] = Points(centres[near], kept, 0.03, name="cameras found")
+            scene["centres"] = Points(centres[near], kept, 1.5 * LOOKS[subject.kind].radius, name="cameras found")
     scene["turns"] = TURNS.histogram(now.degrees, 30, "pictures", "source")
+    if now.anew is not None:
+        x = np.linspace(0.0, 30.0, 121)
+        for name, color, degrees in zip(("EPnP", "SQPnP"), ("source", "target"), now.anew, strict=True):
+            scene[f"anew/{name}"] = ANEW.curve(x, 100.0 * (degrees <= x[:, None]).mean(axis=1), name, color)
     if now.counts is not None:
         scene["solutions"] = SOLUTIONS.histogram(
             np.repeat(np.arange(5), now.counts), np.arange(6) - 0.5, "triples", "target"

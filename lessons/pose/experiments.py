@@ -24,10 +24,11 @@ FRONTAL = Params(target="marker", method="IPPE", noise=0.5, distance=0.5, tilt=1
 THIN = Params(method="DLT", thickness=0.1)
 SHEET = Params(method="DLT", thickness=0.01)
 SAFE = Params(method="SQPnP", thickness=0.01)
+FEW = Params(method="EPnP", points=4, refine=False, seed=8)
 PLANE = Params(method="DLT", thickness=0.0)
-MAP = Params(method="DLT", origin=10.0, centred=False, seed=1)
-CENTRED = Params(method="DLT", origin=10.0, seed=1)
-SEVENTY = Params(method="RANSAC", points=100, outliers=0.7)
+MAP = Params(target="street", method="DLT", origin=10.0, centred=False)
+CENTRED = Params(target="street", method="DLT", origin=10.0)
+SEVENTY = Params(target="street", method="RANSAC", points=100, outliers=0.7)
 HALF = Params(method="RANSAC", points=100, outliers=0.5)
 BELIEVED = Params(method="SQPnP", outliers=0.1)
 
@@ -91,10 +92,15 @@ PRESETS: tuple[Preset[Params], ...] = (
         SAFE, -1,
     ),
     Preset(
+        "few", "EPnP on four points",
+        "Four points leave EPnP four vectors to mix and six distances to say how, and it may end in another mix. The last"
+        " step compares it with SQPnP, on other points.",
+        FEW, 1, breaks=True,
+    ),
+    Preset(
         "map", "Coordinates of a map",
-        "The origin is 10 km off, and the linear transform takes the points as they are: metres of error out of"
-        " nothing but"
-        " large numbers.",
+        "A street whose points are known from a map, its origin 10 km off, and the linear transform takes them as they"
+        " are: many metres of error out of nothing but large numbers.",
         MAP, 1, breaks=True,
     ),
     Preset(
@@ -111,8 +117,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "seventy", "70 % outliers",
-        "Only one sample of three points in 37 is clean, and yet RANSAC needs few hundred of them: that is what P3P"
-        " is for.",
+        "Of 100 points of the street's map 70 are seen somewhere else. Only one sample of three in 37 is clean, and yet"
+        " RANSAC needs few hundred of them: that is what P3P is for.",
         SEVENTY, -1,
     ),
 )  # fmt: skip
@@ -170,6 +176,15 @@ def _samples_why(states: Sequence[State]) -> str:
     )
 
 
+def _few_why(states: Sequence[State]) -> str:
+    far = [percent(share, 0) for share in others(states).far]
+    return (
+        f"In {far[0]}, and SQPnP in {far[1]} of the same pictures. Four points leave four null vectors, and Gauss-Newton"
+        " on their weights begins at a linear guess, so it may end in another mix. From six points on there is one"
+        " vector, and nothing to mix."
+    )
+
+
 def _plane_answer(states: Sequence[State]) -> float:
     return float(np.digitize(np.median(others(states).degrees), [2.0, 20.0]))
 
@@ -211,6 +226,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         why=_samples_why,
         params=HALF,
         tolerance=60.0,
+    ),
+    Question(
+        name="predict-few",
+        text="EPnP takes any number of points from four on. Cameras turned anyhow see four random points each, with a noise"
+        " of one pixel. In how many per cent of the pictures is EPnP's rotation over 5° off?",
+        answer=lambda states: 100.0 * others(states).far[0],
+        why=_few_why,
+        params=FEW,
+        unit="%",
+        tolerance=8.0,
     ),
     Question(
         name="predict-plane",

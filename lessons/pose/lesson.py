@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lessons.pose.draw import draw
+from lessons.pose.draw import LOOKS, draw
 from lessons.pose.exercises.choose_pose import choose_pose
 from lessons.pose.exercises.pose_from_distances import pose_from_distances
 from lessons.pose.exercises.pose_step import pose_step
@@ -33,6 +33,7 @@ from workbench.algorithms.ransac import State as Sampled
 from workbench.algorithms.samplers import uniform_samples
 from workbench.errors import InputError
 from workbench.geometry.camera_motions import dlt_motion, rms_reprojection, sqpnp
+from workbench.geometry.control_points import epnp
 from workbench.geometry.planar_motions import is_flat
 from workbench.lesson import Lesson, Sweep
 
@@ -81,7 +82,12 @@ def first_pose(
         return by_plane(p, xy, choose_pose)
     if params.method == "DLT" and len(p) < 6:
         raise InputError(f"the direct linear transform needs 6 points, and there are only {len(p)}")
-    T = dlt_motion(p, xy, centred=params.centred) if params.method == "DLT" else sqpnp(p, xy)
+    if params.method == "EPnP" and np.linalg.matrix_rank(p - p.mean(axis=0), 1e-6) < 2:
+        raise InputError("EPnP is for points that do not all lie on one line")
+    if params.method == "DLT":
+        T = dlt_motion(p, xy, centred=params.centred)
+    else:
+        T = sqpnp(p, xy) if params.method == "SQPnP" else epnp(p, xy)
     return iter([Searched(phase="solved", T=T, error=float(rms_reprojection(T, p, xy)))])
 
 
@@ -107,6 +113,7 @@ lesson = Lesson(
     order=1700,
     needs=("pinhole", "ransac"),
     view=VIEW,
+    view_for=lambda params: LOOKS["box" if params.sightings else params.target].view,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=4,

@@ -17,9 +17,11 @@ from workbench.geometry.camera_motions import reprojection_errors
 from workbench.geometry.cameras import camera_center, normalize
 from workbench.knobs import Gizmo, Knob
 
-Target = Literal["box", "marker", "triangle"]
-Method = Literal["P3P", "DLT", "SQPnP", "IPPE", "RANSAC"]
+Target = Literal["box", "marker", "street", "triangle"]
+Method = Literal["P3P", "DLT", "SQPnP", "EPnP", "IPPE", "RANSAC"]
 BOX, MARKER = {"target": ("box",)}, {"target": ("marker",)}
+SPREAD = {"target": ("box", "street")}
+FAR_DEGREES = 5.0
 NEAR_DEGREES, NEAR_SHARE = 10.0, 0.1
 """A pose counts as right within so many degrees, and with its centre within this share of its distance."""
 
@@ -30,14 +32,16 @@ class Params:
 
     target: Annotated[Target, Knob("What the camera looks at")] = "box"
     method: Annotated[Method, Knob("How its pose is computed")] = "P3P"
-    points: Annotated[int, Knob("How many points of the box are known", 4, 200, needs=BOX)] = 20
+    points: Annotated[
+        int, Knob("How many points are known; of the street at most those in sight", 4, 200, needs=SPREAD)
+    ] = 20
     thickness: Annotated[
         float, Knob("How thick the box is, as a share of its height; 0 is a plane", 0, 1, step=0.01, needs=BOX)
     ] = 1.0
     camera: Annotated[
         tuple[float, float, float],
-        Knob("Where the camera is; drag its handle", -6, 6, unit="m", by=Gizmo(0.4),
-             needs={"target": ("box", "triangle")}),
+        Knob("Where the camera is; drag its handle", -6, 6, unit="m", by=Gizmo(0.7),
+             needs={"target": ("box", "street", "triangle")}),
     ] = (1.6, -2.6, 1.8)  # fmt: skip
     distance: Annotated[float, Knob("How far the marker is, 0.1 m wide", 0.3, 10, unit="m", needs=MARKER)] = 1.0
     tilt: Annotated[float, Knob("How far it is turned away", 0, 80, unit="deg", needs=MARKER)] = 40.0
@@ -45,13 +49,16 @@ class Params:
         800.0
     )
     noise: Annotated[float, Knob("Noise of each pixel coordinate (sigma)", 0, 3, unit="px", step=0.1)] = 1.0
-    outliers: Annotated[float, Knob("Share of points seen somewhere else", 0, 0.8, step=0.05, needs=BOX)] = 0.0
-    origin: Annotated[float, Knob("How far off the origin of the coordinates is", 0, 1000, unit="km", needs=BOX)] = 0.0
+    outliers: Annotated[float, Knob("Share of points seen somewhere else", 0, 0.8, step=0.05, needs=SPREAD)] = 0.0
+    origin: Annotated[float, Knob("How far off the origin of the coordinates is", 0, 1000, unit="km", needs=SPREAD)] = (
+        0.0
+    )
     centred: Annotated[
         bool, Knob("Take points relative to their mean first, as one should", needs={"method": ("DLT",)})
     ] = True
     refine: Annotated[
-        bool, Knob("Gauss-Newton steps on all points afterwards", needs={"method": ("P3P", "DLT", "SQPnP", "IPPE")})
+        bool,
+        Knob("Gauss-Newton steps on all points afterwards", needs={"method": ("P3P", "DLT", "SQPnP", "EPnP", "IPPE")}),
     ] = True
     inlier_pixels: Annotated[
         float, Knob("Points seen this near to where they should be are inliers", 0.5, 20, unit="px", step=0.5,
@@ -79,6 +86,7 @@ class Subject:
         frame: How the points stand in the picture.
         body: What is drawn of the target, in the world without its far origin; None for own points.
         photograph: Part of what the camera saw, (h, w, 3) uint8; white for own points.
+        kind: What was looked at, as far as it decides how large things are drawn; own points are drawn as a box's.
         window: The pixels (left, top, right, bottom) that it covers.
     """
 
@@ -88,6 +96,7 @@ class Subject:
     frame: Frame
     body: Solid | None
     photograph: np.ndarray
+    kind: Target
     window: np.ndarray
 
     @cached_property
@@ -133,6 +142,7 @@ class Repeated:
         pictures: How many pictures there were; some give no motion.
         swapped: In how many pictures the wrong one of a plane's two refined motions was chosen; None for other methods.
         counts: How many of the random triples of points have no, one, ..., four solutions; None where not asked.
+        anew: Rotation errors of EPnP and of SQPnP, (2, j), in pictures of as many random points; None where not asked.
     """
 
     Ts: np.ndarray
@@ -141,6 +151,14 @@ class Repeated:
     pictures: int
     swapped: int | None = None
     counts: np.ndarray | None = None
+    anew: np.ndarray | None = None
+
+    @property
+    def far(self) -> tuple[float, float]:
+        """In which shares of those EPnP and SQPnP are turned too far."""
+        assert self.anew is not None
+        epnp, sqpnp = (self.anew > FAR_DEGREES).mean(axis=1)
+        return float(epnp), float(sqpnp)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

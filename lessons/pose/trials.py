@@ -6,13 +6,16 @@ import numpy as np
 
 from lessons.pose.state import Params, Repeated, Subject
 from workbench.algorithms.camera_search import by_fourth_points, downhill, planar_pairs
-from workbench.data.sightings import random_triples, seen
+from workbench.data.sightings import random_views, seen
+from workbench.geometry.alignment import degrees_between
 from workbench.geometry.camera_motions import dlt_motion, gauss_newton_step, refined, sqpnp
 from workbench.geometry.cameras import normalize
+from workbench.geometry.control_points import epnp
 from workbench.geometry.three_points import solution_counts
 
 PICTURES, MARKERS = 40, 60  # of a marker more, as they are of two kinds
 TRIPLES = 2000
+ANEW = 300
 
 
 def repeated(params: Params, subject: Subject) -> Repeated:
@@ -27,6 +30,8 @@ def repeated(params: Params, subject: Subject) -> Repeated:
         Ts, of_picture = by_fourth_points(p, xy)
     elif params.method == "DLT":
         Ts = np.stack([dlt_motion(p, one, centred=params.centred) for one in xy])
+    elif params.method == "EPnP":
+        Ts = epnp(np.broadcast_to(p, (n, *p.shape)), xy)
     elif params.method == "SQPnP":
         Ts = sqpnp(np.broadcast_to(p, (n, *p.shape)), xy)
     else:
@@ -41,10 +46,21 @@ def repeated(params: Params, subject: Subject) -> Repeated:
         Ts = refined(Ts, p, xy[of_picture])
     degrees, metres = np.array([subject.off(T) for T in Ts]).reshape(-1, 2).T
     counts = counted_solutions(params.seed) if params.target == "triangle" else None
-    return Repeated(Ts, degrees, metres, n, swapped, counts)
+    anew = drawn_anew(len(p), params.noise / params.f, params.seed) if params.method == "EPnP" else None
+    return Repeated(Ts, degrees, metres, n, swapped, counts, anew)
+
+
+@lru_cache(maxsize=8)
+def drawn_anew(n: int, sigma: float, seed: int) -> np.ndarray:
+    """Return the rotation errors of EPnP and of SQPnP, degrees (2, k), in pictures of n random points each."""
+    rng = np.random.default_rng([seed, 4])
+    R_true, p, xy = random_views(ANEW, n, rng)
+    xy = xy + sigma * rng.standard_normal(xy.shape)
+    found = epnp(p, xy), sqpnp(p, xy)
+    return np.array([[degrees_between(T[:3, :3], R) for T, R in zip(Ts, R_true, strict=True)] for Ts in found])
 
 
 @lru_cache(maxsize=8)
 def counted_solutions(seed: int) -> np.ndarray:
     """Return how many of the random triples have none, one, ..., four solutions."""
-    return solution_counts(*random_triples(TRIPLES, np.random.default_rng([seed, 2])))
+    return solution_counts(*random_views(TRIPLES, 3, np.random.default_rng([seed, 2]))[1:])

@@ -4,13 +4,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lessons.pose.state import Repeated, State
-from lessons.pose.trials import TRIPLES
+from lessons.pose.state import FAR_DEGREES, Repeated, State
+from lessons.pose.trials import ANEW, TRIPLES
 from workbench.algorithms import ransac
 from workbench.algorithms.camera_search import Searched
 from workbench.geometry.alignment import degrees_between
 from workbench.geometry.cameras import camera_center
 from workbench.geometry.motions import angle_between
+from workbench.geometry.planar_motions import is_flat
 from workbench.geometry.three_points import unit_rays
 from workbench.numerals import angle, coordinates, counted, fixed, length, percent, pixels
 from workbench.scene import Caption
@@ -115,12 +116,13 @@ def _choose(state: State, now: Searched) -> str:
 
 
 def _solved(state: State, now: Searched) -> str:
-    text = f"SQPnP: of all rotations the one that brings all {len(state.subject.p_shown)} points nearest to their rays"
-    if state.params.method == "DLT":
-        text = (
-            f"The linear transform: a 3×4 matrix from all {len(state.subject.p_shown)} points at once, and the rotation"
-        )
-        text += " nearest to its left"
+    n, controls = len(state.subject.p_shown), "three" if is_flat(state.subject.given.p_world) else "four"
+    text = {
+        "DLT": f"The linear transform: a 3×4 matrix from all {n} points at once, and the rotation nearest to its left",
+        "EPnP": f"EPnP: all {n} points are weighted sums of {controls} control points, which are put before the camera so"
+        " that the points come near their rays and these are as far apart as they are",
+        "SQPnP": f"SQPnP: of all rotations the one that brings all {n} points nearest to their rays",
+    }[state.params.method]
     return f"{text}. RMS error in the picture {_px(state.rms)}."
 
 
@@ -169,6 +171,12 @@ def _repeated(state: State, now: Repeated) -> Caption:
     if now.counts is not None:
         shares = ", ".join(f"{percent(k / TRIPLES, 1)} {word}" for k, word in zip(now.counts, COUNTS, strict=True) if k)
         text += f" Of {TRIPLES:,} random triples have so many solutions: {shares}."
+    if now.anew is not None:
+        far = [percent(share, 0) for share in now.far]
+        text += (
+            f" Of {ANEW} random cameras with as many random points EPnP turns {far[0]} over {angle(FAR_DEGREES)} away,"
+        )
+        text += f" and SQPnP {far[1]}."
     text += f" {right} of {n} are right." if right < n else f" All {n} are right."
     return Caption(text, "good" if right == n else "wrong" if right < 0.9 * n else "info")
 

@@ -1,9 +1,13 @@
+from dataclasses import fields, replace
+from itertools import islice, zip_longest
+from typing import Any
+
 import numpy as np
 import pytest
 
 from tests.geometry.views import view
 from workbench.algorithms.camera_model import camera_model
-from workbench.algorithms.ransac import Judge, Stop, iterations_needed, ransac
+from workbench.algorithms.ransac import TOGETHER, Judge, State, Stop, iterations_needed, ransac
 from workbench.algorithms.samplers import uniform_samples
 from workbench.geometry.alignment import degrees_between
 from workbench.geometry.cameras import intrinsics
@@ -49,6 +53,47 @@ def test_a_refit_goes_down_from_its_start_and_without_one_from_sqpnp():
     np.testing.assert_allclose(model.refit(table), model.refit(table, start=start), atol=1e-5)
     weights = np.r_[np.zeros(10), np.ones(10)]
     np.testing.assert_allclose(model.refit(table, weights, start), model.refit(table[10:], start=start), atol=1e-4)
+
+
+def values(state: State) -> list[Any]:
+    """What a state and its fits hold."""
+    held = (state, *(fit for fit in (state.trial, state.best) if fit))
+    names = [(one, field.name) for one in held for field in fields(one)]
+    return [getattr(one, name) for one, name in names if name not in ("trial", "best")]
+
+
+def alike(state: State, other: State) -> bool:
+    """Whether two states hold the same, to the last bit."""
+    return all(np.array_equal(a, b) for a, b in zip_longest(values(state), values(other)))
+
+
+@pytest.mark.parametrize(
+    ("seed", "outliers", "most"), [(0, 0.5, 500), (1, 0.7, 500), (2, 0.7, TOGETHER + 5), (3, 0.8, 20)]
+)
+def test_many_samples_solved_together_give_the_states_of_one_by_one(seed, outliers, most):
+    _, table = rows(seed, outliers)
+    table[:6, :3] = np.arange(6)[:, None] * [0.1, 0.2, 0.3]  # samples of three of these are degenerate
+    model, found = camera_model(K), []
+    for one in (model, replace(model, solve_each=None)):
+        chosen = [np.array([0, 1, 2]), np.array([50, 60, 70]), np.array([50, 60, 70])]
+        drawn = uniform_samples(len(table), 3, np.random.default_rng(seed))
+        samples = iter([*chosen, *islice(drawn, 600)])
+        found.append(list(ransac(table, one, samples, Judge(table, one, 3.0), max_iterations=most)))
+    together, apart = found
+    assert len(together) == len(apart) > 40
+    assert together[1].phase == "degenerate"
+    assert all(alike(a, b) for a, b in zip(together, apart, strict=True))
+    assert not alike(together[0], together[1])
+
+
+def test_samples_that_are_used_up_are_all_tried():
+    _, table = rows(0, 0.9)
+    for count in (1, TOGETHER, TOGETHER + 1):
+        samples = islice(uniform_samples(len(table), 3, np.random.default_rng(0)), count)
+        *_, last = ransac(table, camera_model(K), samples, Judge(table, camera_model(K), 1e-9))
+        assert last.iteration == count
+    *_, last = ransac(table, camera_model(K), iter([]), Judge(table, camera_model(K), 1.0))
+    assert (last.stop, last.iteration) == (Stop.NO_MODEL, 0)
 
 
 def test_three_points_need_fewer_samples_than_six():

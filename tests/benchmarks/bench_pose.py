@@ -1,10 +1,10 @@
 """Pose from points as the lesson finds it, beside its peers: `python -m tests.benchmarks.bench_pose [--rounds 5]`.
 
-The same points for all contenders of a task, one thread, CPU time, the least of the rounds that take turns. P3P and SQPnP
-are called as the lesson calls them in its 60 other pictures, for many problems side by side; one by one numpy's calls cost
-many times what they compute; that is shown too. RANSAC is the lesson's, step by step, to its end: it solves and judges one
-sample at a time, each by calls of numpy, where OpenCV has compiled loops. The planar pose is one call for one marker, of
-some dozen small products of matrices.
+The same points for all contenders of a task, one thread, CPU time, the least of the rounds that take turns. P3P, SQPnP and
+EPnP are called as the lesson calls them in its 60 other pictures, for many problems side by side; one by one numpy's calls
+cost many times what they compute; that is shown too. RANSAC is the lesson's, step by step, to its end: it solves samples
+some dozens at once and judges them one by one. The planar pose is one call for one marker, of some dozen small products of
+matrices.
 """
 # ruff: noqa: E402
 
@@ -27,6 +27,7 @@ from workbench.algorithms.samplers import uniform_samples
 from workbench.geometry.alignment import degrees_between
 from workbench.geometry.camera_motions import refined, sqpnp
 from workbench.geometry.cameras import intrinsics
+from workbench.geometry.control_points import epnp
 from workbench.geometry.motions import exp_so3, motion
 from workbench.geometry.planar_motions import planar_motions
 from workbench.geometry.three_points import p3p, unit_rays
@@ -47,6 +48,8 @@ def main() -> None:
     three(rounds, cv2, poselib)
     for n in (20, 200):
         many(rounds, n, cv2)
+    for n in (4, 20, 200):
+        by_control_points(rounds, n, cv2)
     planes(rounds, cv2)
     for outliers in (0.5, 0.7):
         among_outliers(rounds, outliers, cv2, poselib)
@@ -87,6 +90,19 @@ def many(rounds: int, n: int, cv2) -> None:
                 [by_cv2(cv2, a, b, flag) for a, b in zip(p, xy, strict=True)]
             )
     compare(f"SQPnP, 60 pictures of {n} points; degrees", rounds, ways, lambda Ts: middle(Ts, views), per=60)
+
+
+def by_control_points(rounds: int, n: int, cv2) -> None:
+    """Compare EPnP on 60 pictures of n points."""
+    views = [view(seed, n, sigma=PIXEL) for seed in range(60)]
+    p, xy = np.stack([one[1] for one in views]), np.stack([one[2] for one in views])
+    ways: dict[str, Contender] = {
+        "ours, side by side": lambda: epnp(p, xy),
+        "ours, one by one": lambda: np.stack([epnp(a, b) for a, b in zip(p, xy, strict=True)]),
+    }
+    if cv2:
+        ways["cv2 EPNP"] = lambda: np.stack([by_cv2(cv2, a, b, cv2.SOLVEPNP_EPNP) for a, b in zip(p, xy, strict=True)])
+    compare(f"EPnP, 60 pictures of {n} points; degrees", rounds, ways, lambda Ts: middle(Ts, views), per=60)
 
 
 def planes(rounds: int, cv2) -> None:

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from workbench.data.sightings import points_on_box, random_triples, read_sightings, seen, some_of
+from workbench.data.sightings import points_on_box, random_views, read_sightings, seen, some_of
 from workbench.errors import InputError
 from workbench.geometry.cameras import intrinsics, look_at, project
 
@@ -28,12 +28,13 @@ def test_points_lie_on_the_faces_of_the_box():
     assert (on.sum(axis=0) > 70).all()
 
 
-def test_random_triples_are_seen_by_rotated_cameras():
-    p, xy = random_triples(50, np.random.default_rng(0))
+def test_random_points_are_seen_by_rotated_cameras():
+    R, p, xy = random_views(50, 3, np.random.default_rng(0))
     depth = np.linalg.norm(p, axis=2) / np.sqrt(1 + np.square(xy).sum(axis=2))
     assert ((depth >= 4) & (depth <= 8)).all()
     p_camera = np.concatenate([xy, np.ones((50, 3, 1))], axis=2) * depth[..., None]
     np.testing.assert_allclose(np.linalg.det(p_camera), np.linalg.det(p))  # turned, not mirrored
+    np.testing.assert_allclose(np.einsum("kxy,kny->knx", R, p), p_camera)
 
 
 @pytest.mark.parametrize(

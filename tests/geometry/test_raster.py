@@ -6,11 +6,11 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.street import BALL_CENTER, BALL_RADIUS, street
-from workbench.geometry.cameras import depths, intrinsics, look_at, pixel_rays, project
+from workbench.data.street import BALL_CENTER, BALL_RADIUS, street, street_items, street_map
+from workbench.geometry.cameras import camera_center, depths, intrinsics, look_at, pixel_rays, project
 from workbench.geometry.clipping import clip_segments, clip_to_rectangle, clip_triangles
 from workbench.geometry.distortion import NONE, Distortion
-from workbench.geometry.raster import Image, MeshItem, PointItem, SegmentItem, render
+from workbench.geometry.raster import Image, MeshItem, PointItem, SegmentItem, in_sight, render
 
 WIDTH, HEIGHT = 64, 48
 K = intrinsics(50.0, 31.5, 23.5)
@@ -291,6 +291,31 @@ def test_the_street_is_drawn_whole_and_its_camera_sees_its_parts():
         )
     assert np.isnan(project(scene.points[5:6], T_camera_world, K_street)).all()
     assert scene.names[5] == "the lamp"
+
+
+def test_points_in_sight_are_those_that_nothing_stands_before():
+    T_camera_world = look_at(np.array([0.5, -3.0, 1.7]), np.array([0.3, 8.0, 1.0]))
+    K_street, eye = intrinsics(260.0, 159.5, 119.5), camera_center(T_camera_world)
+    p, n = (one[:600] for one in street_map())
+    p = np.concatenate([p[((eye - p) * n).sum(axis=1) > 0], eye + np.array([[0.0, -4.0, 0.0], [0.0, 0.0, 0.0]])])
+    shown = in_sight(p, T_camera_world, K_street, render(street_items(), T_camera_world, K_street, 320, 240).depth)
+    a, b, c = np.concatenate([one.p_world[one.faces] for one in street().solids.values()]).transpose(1, 0, 2)
+    free = []
+    for v in p[:-2] - eye:  # eye + s v = a + g (b - a) + h (c - a), by Cramer's rule
+        across, from_a = np.cross(v, c - a), eye - a
+        with np.errstate(divide="ignore", invalid="ignore"):
+            scale = 1.0 / np.einsum("fx,fx->f", across, b - a)
+            g = scale * np.einsum("fx,fx->f", across, from_a)
+            around = np.cross(from_a, b - a)
+            h, s = scale * (around @ v), scale * np.einsum("fx,fx->f", around, c - a)
+        free.append(not ((g >= 0) & (h >= 0) & (g + h <= 1) & (s > 0) & (s < 0.97)).any())
+    u, v = project(p[:-2], T_camera_world, K_street).T
+    met = np.array(free) & (u >= 0) & (u <= 319) & (v >= 0) & (v <= 239)
+    assert 50 < met.sum() < len(met) - 50
+    assert (shown[:-2] & ~met).mean() < 0.01  # at an edge
+    near = np.linalg.norm(p[:-2] - eye, axis=1) < 13.0
+    assert shown[:-2][met & near].mean() > 0.9  # what leans, far away, has too many depths in a pixel
+    assert not shown[-2:].any()  # behind the camera, and in it
 
 
 def test_the_solids_of_the_street_are_closed_and_face_outwards():

@@ -8,6 +8,7 @@ import pytest
 
 from lessons.pose.experiments import HALF, PLANE, TILTED, needed
 from lessons.pose.lesson import lesson, run
+from lessons.pose.scenes import subject_of
 from lessons.pose.state import Params, Repeated
 from lessons.pose.trials import TRIPLES
 from tests.runs import finished
@@ -16,7 +17,7 @@ from workbench.algorithms import ransac
 from workbench.algorithms.camera_search import Searched
 from workbench.errors import InputError
 from workbench.geometry.alignment import degrees_between
-from workbench.scene import Camera, Classes, Picture, Points, Segments, caption_of
+from workbench.scene import Camera, Classes, Curve, Picture, Points, Segments, caption_of
 
 
 def states(params: Params) -> tuple[Any, ...]:
@@ -130,6 +131,69 @@ def test_coordinates_of_a_map():
     np.testing.assert_allclose(others(of("centred")).metres, others(near).metres, atol=1e-3)
 
 
+def street(**knobs: Any) -> Params:
+    return Params(target="street", **knobs)
+
+
+def test_the_street_is_known_by_its_map_and_seen_by_a_camera_in_it():
+    found = states(street())
+    subject, last = found[0].subject, phase(found, "stop")
+    assert len(subject.p_shown) == 20
+    assert np.linalg.norm(np.array(Params().camera) - centre(subject.T_true)) < 1e-9
+    u, v = subject.given.uv.T
+    assert ((u > -5) & (u < 645) & (v > -5) & (v < 485)).all()  # in its picture, noise aside
+    assert np.ptp(subject.p_shown @ subject.T_true[2, :3]) > 5  # metres of depth
+    assert off(last.T, subject.T_true)[0] < 0.2
+    assert share_near(others(found), subject) == 1
+    photograph = lesson.draw(found[0])["picture"]
+    assert isinstance(photograph, Picture)
+    assert len(np.unique(np.asarray(photograph.image).reshape(-1, 3), axis=0)) > 50  # the street, not a blank
+    assert lesson.view_of(street()) != lesson.view
+
+
+def test_points_of_the_map_stay_while_the_camera_moves():
+    here, there = (
+        set(map(tuple, subject_of(street(camera=at)).p_shown)) for at in ((0.0, -4.0, 2.0), (0.3, -4.0, 2.2))
+    )
+    assert len(here & there) > 15
+    near, far = (subject_of(street(points=60, origin=at)).p_shown for at in (0.0, 100.0))
+    np.testing.assert_allclose(near, far, atol=1e-9)
+
+
+def test_the_street_has_its_points_wherever_the_camera_is():
+    for at in ((-6.0, -6.0, 0.5), (6.0, 6.0, 6.0), (0.0, 6.0, 1.7), (6.0, -6.0, 2.0)):
+        for f in (200.0, 3000.0):
+            subject = subject_of(street(camera=at, f=f, points=200))
+            assert subject.T_true is not None
+            assert len(subject.given.p_world) == 200 or f > 200
+            assert pixels_off(subject.T_true, subject).max() < 8
+    with pytest.raises(InputError, match="under the street"):
+        subject_of(street(camera=(0.0, -3.0, 0.0)))
+    with pytest.raises(InputError, match="0 points of the map"):
+        subject_of(street(camera=(-1.9, 6.0, 0.5)))  # in the crate
+
+
+def test_knobs_of_the_method_find_the_street_photographed():
+    assert subject_of(street(method="SQPnP", refine=False)).photograph is subject_of(street()).photograph
+
+
+def test_epnp_on_four_points_may_end_in_a_wrong_mix():
+    found = of("few")
+    wrong = phase(found, "solved")
+    assert not is_near(wrong.T, wrong.subject)
+    assert rms(pixels_off(wrong.T, wrong.subject)) > 5 * wrong.params.noise  # it does not even fit
+    assert is_near(phase(states(replace(wrong.params, method="SQPnP")), "solved").T, wrong.subject)
+    epnp, sqpnp = others(found).far
+    assert 0.1 < epnp < 0.2
+    assert sqpnp < 0.02
+    assert others(states(replace(wrong.params, points=6))).far == (0.0, 0.0)
+    scene = lesson.draw(found[-1])
+    for name, share in (("EPnP", epnp), ("SQPnP", sqpnp)):
+        curve = scene[f"anew/{name}"]
+        assert isinstance(curve, Curve)
+        assert curve.y[curve.x == 5.0] == pytest.approx(100 * (1 - share))
+
+
 def test_least_squares_believes_two_wrong_points():
     last = phase(of("believed"), "stop")
     assert last.subject.given.is_outlier.sum() == 2
@@ -160,6 +224,7 @@ def test_what_the_questions_answer():
     assert answer("predict-solutions") == 1  # two
     assert answer("predict-wrong") == pytest.approx(40, abs=12)
     assert answer("predict-samples") == 293
+    assert answer("predict-few") == pytest.approx(13, abs=4)
     assert answer("predict-plane") == 2
     assert needed(states(HALF), 3) == 35  # as the question says
     assert (TILTED.distance, TILTED.tilt, TILTED.noise) == (4.0, 60.0, 0.5)
@@ -241,6 +306,6 @@ def test_what_cannot_be_done_is_said():
 
 
 def test_four_points_of_the_box_will_do():
-    for method in ("P3P", "SQPnP", "RANSAC"):
+    for method in ("P3P", "SQPnP", "EPnP", "RANSAC"):
         for state in run(Params(points=4, method=method)):
             lesson.draw(state)

@@ -24,7 +24,7 @@ def stop_of(params: Params) -> Any:
     return last
 
 
-@pytest.mark.parametrize("method", ["P3P", "DLT", "SQPnP", "RANSAC"])
+@pytest.mark.parametrize("method", ["P3P", "DLT", "SQPnP", "EPnP", "RANSAC"])
 def test_own_points_give_their_camera(tmp_path, method):
     T, p_world, xy = view(3, 20, sigma=0.5 / 800)
     path = written(tmp_path, p_world + 3000.0, 800 * xy + [400, 300])
@@ -67,6 +67,8 @@ def test_points_on_a_line_come_to_an_end(tmp_path):
     for method in ("P3P", "SQPnP"):
         for state in run(Params(sightings=path, method=method)):
             lesson.draw(state)
+    with pytest.raises(InputError, match="one line"):
+        stop_of(Params(sightings=path, method="EPnP"))
 
 
 def test_how_a_file_is_read_is_kept_with_it():

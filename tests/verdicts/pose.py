@@ -5,13 +5,18 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from lessons.pose.lesson import lesson
 from lessons.pose.state import Params, Repeated, State
+from lessons.pose.trials import ANEW
 from lessons.pose.words import caption
 from tests.readings import LENGTH, NUMBER, near, near_length, number
 from tests.truths.pose import is_near, is_right, off, pixels_off, rms, share_near
 from tests.verdicts import Claim, Run
+from workbench.data.sightings import random_views
+from workbench.geometry.camera_motions import sqpnp
+from workbench.geometry.control_points import epnp
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right", "until_the_end"]
 OF_MANY = {replace(one.params, seed=0) for one in (*lesson.questions, lesson.preset("tiny"), lesson.preset("safe"))}
@@ -74,7 +79,22 @@ def all_right(run: Run, k: int, m: re.Match[str]) -> bool:
     return share_near(run.states[k].now, run.states[k].subject) == 1
 
 
+def turned_far(run: Run, k: int, m: re.Match[str]) -> bool:
+    """The shares of EPnP and SQPnP, solved again one by one and turned by scipy."""
+    params, n = run.states[k].params, len(run.states[k].subject.p_shown)
+    rng = np.random.default_rng([params.seed, 4])
+    R_true, p, xy = random_views(ANEW, n, rng)
+    xy = xy + params.noise / params.f * rng.standard_normal(xy.shape)
+    for solver, said in ((epnp, m[1]), (sqpnp, m[2])):
+        found = np.stack([solver(a, b)[:3, :3] for a, b in zip(p, xy, strict=True)])
+        far = (Rotation.from_matrix(found) * Rotation.from_matrix(R_true).inv()).magnitude() > np.radians(5)
+        if abs(number(said) - 100 * far.mean()) > 0.51:
+            return False
+    return True
+
+
 CAPTIONS = (
+    Claim(rf"EPnP turns ({NUMBER}) % over 5° away, and SQPnP ({NUMBER}) %\.", turned_far),
     Claim(r"sees the three points exactly where they were seen", exactly),
     Claim(rf"The pose is ({NUMBER})° and ({LENGTH}) from the truth\.", told),
     Claim(r"The better one is taken", better),
@@ -119,6 +139,12 @@ LINES = {
 }
 
 WHYS = {
+    "predict-few": (
+        Claim(
+            rf"^In ({NUMBER}) %, and SQPnP in ({NUMBER}) %",
+            lambda run, k, m: turned_far(run, len(run.states) - 1, m),
+        ),
+    ),
     "predict-plane": (
         Claim(
             rf"^By ({NUMBER})° in the middle of 40 pictures",

@@ -1,4 +1,5 @@
 import contextlib
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -39,6 +40,19 @@ def test_the_camera_is_fitted_to_another_width_unless_somebody_has_moved_it(monk
     camera.image_width = 860
     aim.fit(client)
     assert camera.position is moved
+
+
+def test_a_knob_that_leads_to_something_of_another_size_turns_the_camera_and_no_other_does(monkeypatch):
+    camera = SimpleNamespace(image_width=860, image_height=530, up_direction=None, position=None, look_at=None, fov=0.0)
+    client: Any = SimpleNamespace(camera=camera, atomic=contextlib.nullcontext, scene=None)
+    monkeypatch.setattr("workbench.viewer.stage.add_floor", lambda scene, view: None)
+    lesson, aim = catalog()["icp"], Aim()
+    large = View(eye=(0.0, -30.0, 20.0), grid=lesson.view.grid, grid_height=lesson.view.grid_height)
+    lesson = replace(lesson, view_for=lambda params: large if params.seed > 5 else lesson.view)
+    aim.open(lesson, lesson.presets[0].params)
+    for seed, view in ((1, lesson.presets[0].view or lesson.view), (6, large), (7, large), (2, lesson.view)):
+        aim.show(client, lesson, replace(lesson.presets[0].params, seed=seed))
+        np.testing.assert_allclose(camera.position, eye_of(view, 860 / 530))
 
 
 DOWN = View(eye=(0.0, 0.0, 4.0))

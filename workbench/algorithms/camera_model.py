@@ -37,4 +37,5 @@ def camera_model(K: Float[np.ndarray, "3 3"]) -> Model:
         solve=lambda samples: finite(p3p(*parts(samples))[0]),
         distances=lambda Ts, rows: f * reprojection_errors(Ts, *parts(rows)),
         refit=refit,
+        solve_each=lambda samples: p3p(*parts(samples)),
     )

@@ -45,6 +45,8 @@ class Model:
         solve: From samples (k, sample_size, columns) the estimates through them, in one list: none for a degenerate
             sample, up to three for one sample of a fundamental matrix.
         distances: From estimates (..., *shape) and rows (n, columns) the distances (..., n), never negative. Keeps float32.
+        solve_each: As `solve`, and of which sample each estimate is, in the order of the samples: so that RANSAC solves many
+            at once, bit by bit as one by one. None where a call for one sample costs little.
         refit: `refit(p, weights=None, start=None)`: the estimate with the least squared distances over weighted rows, near
             `start` where that is given.
     """
@@ -58,6 +60,7 @@ class Model:
     solve: Callable[[np.ndarray], np.ndarray]
     distances: Callable[[np.ndarray, np.ndarray], np.ndarray]
     refit: Callable[..., np.ndarray]
+    solve_each: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]] | None = None
 
 
 def finite(estimates: Float[np.ndarray, "k ..."]) -> Float[np.ndarray, "j ..."]:

@@ -5,8 +5,9 @@ Automated Cartography, 1981, section II.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
+from itertools import islice
 from typing import Literal
 
 import numpy as np
@@ -20,6 +21,7 @@ Phase = Literal["sample", "degenerate", "model", "inliers", "best", "refit", "st
 
 NO_ROWS = np.zeros(0, dtype=int)
 NO_ROWS.setflags(write=False)
+TOGETHER = 64  # samples that are solved at once, where the model can
 
 
 class Stop(Enum):
@@ -158,7 +160,8 @@ def ransac(
     Args:
         p: The rows: points, or matches.
         model: What to fit.
-        samples: Rows to try, from `uniform_samples`, `prosac_samples`, or chosen.
+        samples: Rows to try, from `uniform_samples`, `prosac_samples`, or chosen. Of a model with `solve_each` some more are
+            drawn than tried.
         judge: Says how all rows take an estimate: `Judge(p, model, inlier_distance, score)`.
         needed_for: The number of samples for an inlier ratio, a sample size and a confidence.
         confidence: With which probability one sample at least shall be free of outliers.
@@ -170,6 +173,7 @@ def ransac(
     Reference: Fischler and Bolles 1981, section II; Chum, Matas and Kittler, Locally Optimized RANSAC, 2003 (`local_refit`).
     """
     check_rows(p, model)
+    model, samples = solved_ahead(p, model, samples)
     best, needed, stop = None, max_iterations, Stop.SAMPLES_USED_UP
     iteration, sample = 0, NO_ROWS
     for iteration, sample in enumerate(samples, start=1):
@@ -193,6 +197,36 @@ def ransac(
         best = refit
         yield State("refit", iteration, needed, sample, best.estimate, best, best)
     yield State("stop", iteration, needed, sample, None, None, best, stop if best else Stop.NO_MODEL)
+
+
+def solved_ahead(
+    p: Float[np.ndarray, "n d"], model: Model, samples: Iterator[np.ndarray]
+) -> tuple[Model, Iterator[np.ndarray]]:
+    """Return the model, knowing what the samples to come give, and these samples; both as they are without `solve_each`.
+
+    Args:
+        p: The rows: points, or matches.
+        model: What is fitted.
+        samples: Rows to try.
+    """
+    if (solve_each := model.solve_each) is None:
+        return model, samples
+    to_come, known = iter(samples), dict[bytes, np.ndarray]()
+
+    def drawn() -> Iterator[np.ndarray]:
+        while batch := list(islice(to_come, TOGETHER)):
+            rows = p[np.stack(batch)]
+            estimates, of_sample = solve_each(rows)
+            ends = np.searchsorted(of_sample, np.arange(1, len(batch)))
+            known.clear()
+            known.update(zip((one.tobytes() for one in rows), np.split(estimates, ends), strict=True))
+            yield from batch
+
+    def solve(asked: np.ndarray) -> np.ndarray:
+        found = known.get(asked.tobytes())
+        return model.solve(asked) if found is None else found
+
+    return replace(model, solve=solve), drawn()
 
 
 def refit_rounds(

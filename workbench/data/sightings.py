@@ -60,15 +60,15 @@ def points_on_box(size: Float[np.ndarray, "3"], n: int, rng: np.random.Generator
     return p * size
 
 
-def random_triples(
-    count: int, rng: np.random.Generator
-) -> tuple[Float[np.ndarray, "count 3 3"], Float[np.ndarray, "count 3 2"]]:
-    """Return triples of points, 4 to 8 m before cameras turned anyhow, and where these see them, normalised."""
-    z = rng.uniform(4.0, 8.0, (count, 3, 1))
-    p_camera = np.concatenate([rng.uniform(-2.0, 2.0, (count, 3, 2)), z], axis=2)
+def random_views(
+    count: int, n: int, rng: np.random.Generator
+) -> tuple[Float[np.ndarray, "count 3 3"], Float[np.ndarray, "count n 3"], Float[np.ndarray, "count n 2"]]:
+    """Return R_camera_world of cameras turned anyhow, n points 4 to 8 m before each, and where it sees them, normalised."""
+    z = rng.uniform(4.0, 8.0, (count, n, 1))
+    p_camera = np.concatenate([rng.uniform(-2.0, 2.0, (count, n, 2)), z], axis=2)
     R_camera_world, _ = np.linalg.qr(rng.standard_normal((count, 3, 3)))
     R_camera_world *= np.linalg.det(R_camera_world)[:, None, None]  # no reflections
-    return p_camera @ R_camera_world, p_camera[..., :2] / z
+    return R_camera_world, p_camera @ R_camera_world, p_camera[..., :2] / z
 
 
 def read_sightings(path: Path) -> Sightings:

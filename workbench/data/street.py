@@ -6,7 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int, UInt8
 
+from workbench.geometry.meshes import face_normals
 from workbench.geometry.raster import MeshItem, SegmentItem
+from workbench.geometry.sampling import places_on_faces
 
 RAIL_HALF_GAUGE = 0.75
 RAIL_END = 60.0
@@ -14,6 +16,7 @@ RAIL_COLOR = (110, 118, 129)
 SUN = np.array([0.35, -0.55, 0.76])  # unit direction towards the light
 BALL_CENTER = np.array([2.2, 5.0, 0.6])
 BALL_RADIUS = 0.6
+MAPPED = 4000
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +78,20 @@ def street() -> Street:
     balls = [solids[name].p_world[::40] for name in ("ball", "far ball")]
     points = np.concatenate([list(named.values()), crate[0], tower[0], house[0], roof[0], along, *balls])
     return Street(solids, rails, edges, points, tuple(named))
+
+
+@functools.cache
+def standing() -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
+    """Return vertices and faces of all that stands in the street or lies on its ground."""
+    return _merge([(solid.p_world, solid.faces) for name, solid in street().solids.items() if name != "ground"])
+
+
+@functools.cache
+def street_map() -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
+    """Return the points of a map of the street and their normals: on what stands there, evenly by area, always the same."""
+    p, faces = standing()
+    k, shares = places_on_faces(p, faces, np.random.default_rng(0).random((MAPPED, 3)))
+    return np.einsum("ni,nix->nx", shares, p[faces[k]]), face_normals(p, faces)[k]
 
 
 @functools.cache

@@ -14,11 +14,11 @@ from workbench.data.matches import read_matches
 from workbench.data.street import street_items
 from workbench.data.thinning import evenly
 from workbench.errors import InputError
-from workbench.geometry.cameras import depths, intrinsics, look_at, normalize, pixel_rays, project
+from workbench.geometry.cameras import intrinsics, look_at, normalize, pixel_rays, project
 from workbench.geometry.epipolar import fit_fundamental
 from workbench.geometry.essential import essential_from_fundamental, essential_to_poses
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
-from workbench.geometry.raster import Image, render
+from workbench.geometry.raster import Image, in_sight, render
 from workbench.geometry.triangulation import midpoints
 
 SIZE = (480, 320)
@@ -115,9 +115,7 @@ def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.nd
     _, n_first = pixel_rays(uv, np.eye(4), K)
     p_first = n_first / n_first[:, 2:] * z[:, None]
     uv_second = project(p_first, T_second_first, K)
-    inside = np.asarray(((uv_second >= 1.0) & (uv_second <= np.array(SIZE) - 2.0)).all(axis=1))
-    column, row = np.where(inside[:, None], uv_second, 0.0).round().astype(int).T
-    seen = inside & (np.abs(second.depth[row, column] / depths(p_first, T_second_first) - 1.0) < 0.02)
+    seen = in_sight(p_first, T_second_first, K, second.depth)
     if what == "plane":
         seen &= apply(inverse(T_first_world), p_first)[:, 2] < GROUND
     views = TwoViews(

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int, UInt8
+from jaxtyping import Bool, Float, Int, UInt8
 
 from workbench.geometry.cameras import depths, normalize, project
 from workbench.geometry.clipping import clip_segments, clip_to_rectangle, clip_triangles, cut_finely, over_corners
@@ -134,6 +134,27 @@ def render(
     eye = _Eye(see, T_camera_world, width, height, near, any(distortion), window)
     draw = {MeshItem: _draw_mesh, SegmentItem: _draw_segments, PointItem: _draw_points}
     return _resolve([draw[type(item)](item, eye) for item in items], width, height, background)
+
+
+def in_sight(
+    p_world: Float[np.ndarray, "n 3"],
+    T_camera_world: Float[np.ndarray, "4 4"],
+    K: Float[np.ndarray, "3 3"],
+    depth: Float[np.ndarray, "h w"],
+) -> Bool[np.ndarray, " n"]:
+    """Return which points of a scene's surfaces its picture shows: those inside of it with nothing nearer in their pixel.
+
+    Args:
+        p_world: The points, metres.
+        T_camera_world: The motion of the camera that took the picture, without a lens.
+        K: Its intrinsics, pixels.
+        depth: Of each pixel, as `render` gives it; it may differ from a point's by 2 %, as surfaces lean.
+    """
+    uv, z = project(p_world, T_camera_world, K), depths(p_world, T_camera_world)
+    h, w = depth.shape
+    inside = np.asarray(((uv >= 1.0) & (uv <= np.array([w, h]) - 2.0)).all(axis=1))
+    column, row = np.where(inside[:, None], uv, 0.0).round().astype(int).T
+    return inside & (np.abs(depth[row, column] - z) < 0.02 * z)
 
 
 def _resolve(parts: list[_Fragments], width: int, height: int, background: tuple[int, int, int]) -> Image:

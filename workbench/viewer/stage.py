@@ -19,6 +19,7 @@ class Aim:
 
     def __init__(self) -> None:
         self._wanted: View | None = None
+        self._usual: View | None = None
         self._set: tuple[str, View] | None = None
         self._put: tuple[View, float, np.ndarray] | None = None  # for a picture of this aspect, the eye was put there
 
@@ -28,17 +29,19 @@ class Aim:
 
     def open(self, lesson: Lesson, params: Any) -> None:
         """Want the view of a run that was opened."""
-        self._wanted = lesson.view_of(params)
+        self._wanted, self._usual = lesson.view_of(params), lesson.usual_view(params)
 
     def show(self, client: viser.ClientHandle, lesson: Lesson, params: Any) -> None:
-        """Make the stage as wanted; a run of another grid than that, which a knob led to, brings its own view."""
-        own = lesson.view_of(params)
-        if self._wanted is None or (self._wanted.grid, self._wanted.grid_height) != (own.grid, own.grid_height):
-            self._wanted = own
-        if self._set != (lesson.name, self._wanted):
-            set_stage(client, self._wanted)
-            self._set = (lesson.name, self._wanted)
-            self._put = self._wanted, aspect_of(client), eye_of(self._wanted, aspect_of(client))
+        """Make the stage as wanted; a run of another grid or size, which a knob led to, brings its own view."""
+        own, usual = lesson.view_of(params), lesson.usual_view(params)
+        wanted = self._wanted if usual == self._usual else None
+        if wanted is None or (wanted.grid, wanted.grid_height) != (own.grid, own.grid_height):
+            wanted = self._wanted = own
+            self._usual = usual
+        if self._set != (lesson.name, wanted):
+            set_stage(client, wanted)
+            self._set = (lesson.name, wanted)
+            self._put = wanted, aspect_of(client), eye_of(wanted, aspect_of(client))
 
     def fit(self, client: viser.ClientHandle) -> None:
         """Fit the camera to a picture that has become wider or narrower, unless a person has moved it since."""
