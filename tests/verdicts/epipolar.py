@@ -76,7 +76,7 @@ CAPTIONS = (
     Claim(rf"atches are {PX} from their lines", to_lines),
     Claim(rf"it puts ({NUMBER}) of {NUMBER} points in front", before_both),
     Claim(rf"matched rows are {PX} apart", lambda run, k, m: near_px(m[1], rows_apart(run.states[k]))),
-    Claim(rf"Parallax is {PX} in the median, noise ({NUMBER}) px", parallax),
+    Claim(rf"In the median parallax is {PX}, depths .* Noise is ({NUMBER}) px", parallax),
     Claim(rf"the rotation is ({NUMBER})° off, the direction ({NUMBER})°", off),
 )
 
