@@ -4,12 +4,13 @@ from functools import cache
 
 import numpy as np
 
+from lessons.fitting.contours import REACH, on_contours
 from lessons.fitting.state import State, Subject, Trusted, Walked
 from lessons.fitting.words import caption, fate_of, off_best, predicted_span, straight_cost
 from workbench.algorithms.fit_studies import Basin, Lines, Rivals, Spread
 from workbench.algorithms.least_squares import Descent
 from workbench.algorithms.robust import LOSSES
-from workbench.algorithms.round_shapes import CYLINDER
+from workbench.algorithms.round_shapes import CIRCLE, CYLINDER
 from workbench.data.thinning import every
 from workbench.geometry.algebraic_fits import ALGEBRAIC
 from workbench.geometry.clipping import plane_in_box
@@ -30,7 +31,6 @@ MEDIANS = Chart("Median radius by arc", "arc (°)", "of the true radius")
 ANGLES = Chart("Angles, measured anew", "angle (°)", "how many")
 PULL = Chart("How hard a point pulls", "distance (mm)", "weight × distance (mm)")
 PLANE_ERROR = Chart("Error to the truth", unit="mm")
-REACH = 4.5  # metres that circles are drawn
 COLORS: dict[str, Role] = {
     "Kåsa": "wrong", "Pratt": "neutral", "Taubin": "source", "Hyper": "other", "geometric": "highlight",
     "upright": "wrong", "level": "other", "perpendicular": "source",
@@ -107,13 +107,17 @@ def _walked(state: State, walked: Walked) -> dict[str, Primitive]:
         ends = _near(between(solid(at - along, 0.01), solid(at + along, 0.01)))
         scene["tangents"] = Segments(ends, "highlight", 3.0, name="tangents")
     if now.trial is not None and now.phase in ("tried", "rejected"):
-        dashed = outline(subject, now.trial)[::2]
-        scene["trial"] = Segments(dashed, "highlight", 3.0, name="trial" if now.phase == "tried" else "taken back")
+        dashed, tried = outline(subject, now.trial)[::2], now.phase == "tried"
+        scene["trial"] = Segments(
+            dashed, "highlight" if tried else "wrong", 3.0, name="trial" if tried else "taken back"
+        )
     if now.stop and subject.straight is not None and abs(now.unknown[-1]) > 50.0:
         a, b, c = subject.straight
         middle, way = -c * np.array([a, b]), np.array([-b, a])
         ends = solid(np.stack([middle - REACH * way, middle + REACH * way]))[None]
         scene["straight"] = Segments(ends, "neutral", 2.0, name="best straight line")
+    if subject.kind is CIRCLE:
+        scene |= on_contours(subject.p, walked)
     return scene | _walked_beside(state, walked, now)
 
 

@@ -60,6 +60,7 @@ def walk(
     """Yield the moments of a descent, and what its end is worth: made points get other errors, own points are drawn anew."""
     kind, p, now = subject.kind, subject.p, None
     assert kind is not None
+    kept, taken_back = start_of(params)[None], np.empty((0, len(start_of(params))))
     for now in descend(
         lambda unknown: linearise(unknown, p),
         kind.retract,
@@ -69,11 +70,16 @@ def walk(
         iterations=ITERATIONS,
         tolerance=RESTS[params.rest],
     ):
+        if now.phase == "accepted":
+            kept = np.vstack([kept, now.unknown])
+        elif now.phase == "rejected" and now.trial is not None:
+            taken_back = np.vstack([taken_back, now.trial])
         if now.iteration > SHOWN_IN_PARTS and now.phase in ("linearised", "tried"):
             continue
         tried = now.phase == "tried"
         shares = np.linspace(0.0, 1.5, 31)
-        yield Walked(now, along_step(now, lambda c: kind.linearise(c, p), kind.retract, shares) if tried else None)
+        along = along_step(now, lambda c: kind.linearise(c, p), kind.retract, shares) if tried else None
+        yield Walked(now, kept, taken_back, along)
     assert now is not None
     if now.stop is not Stop.CONVERGED or abs(now.unknown[-1]) > LARGEST:
         return

@@ -104,9 +104,18 @@ class Subject:
 
 @dataclass(frozen=True, eq=False)
 class Walked:
-    """A moment of a descent, and while a step is tried, the sums of squares along it."""
+    """A moment of a descent, where it has been so far, and while a step is tried the sums of squares along it.
+
+    Attributes:
+        now: The moment.
+        kept: The unknowns from the start to the present one.
+        taken_back: Those that were tried and not kept.
+        along: While a step is tried.
+    """
 
     now: Descent
+    kept: np.ndarray
+    taken_back: np.ndarray
     along: Along | None = None
 
 
