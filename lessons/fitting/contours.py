@@ -4,11 +4,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from lessons.fitting.state import Walked
+from workbench.algorithms.least_squares import Walked
 from workbench.geometry.circles_spheres import costs_of_centers
-from workbench.geometry.clipping import clip_to_rectangle
+from workbench.geometry.clipping import cut_to_rectangle
 from workbench.geometry.level_sets import level_lines
-from workbench.geometry.polylines import between, segments
+from workbench.geometry.polylines import at_height, between, segments
 from workbench.scene import Points, Primitive, Segments
 
 REACH = 4.5  # metres from the origin that circles and centres are drawn
@@ -45,22 +45,15 @@ def _contours(p: bytes) -> Segments:
     costs = costs_of_centers(points, np.stack(np.meshgrid(x, x), axis=-1).reshape(-1, 2)).reshape(side, side)
     levels = costs.max() / FACTOR ** np.arange(0.5, LINES)
     ends = level_lines(np.sqrt(costs), np.sqrt(levels), np.full(2, -REACH), x[1] - x[0])  # it is straighter
-    return Segments(_raised(ends, -HEIGHT), "neutral", 1.0, opacity=0.7, name="equally good centres")
-
-
-def _raised(p: np.ndarray, z: float) -> np.ndarray:
-    return np.concatenate([p, np.full((*p.shape[:-1], 1), z)], axis=-1)
+    return Segments(at_height(ends, -HEIGHT), "neutral", 1.0, opacity=0.7, name="equally good centres")
 
 
 def _near(p: np.ndarray) -> np.ndarray:
     """Return the centres in the picture."""
     with np.errstate(invalid="ignore"):
-        return _raised(p[(np.abs(p) <= REACH).all(axis=1)], HEIGHT)
+        return at_height(p[(np.abs(p) <= REACH).all(axis=1)], HEIGHT)
 
 
 def _cut(ends: np.ndarray) -> np.ndarray:
     """Return the parts of segments in the picture."""
-    ends = ends[np.isfinite(ends).all(axis=(1, 2))]
-    shares = np.stack(clip_to_rectangle(ends, np.full(2, -REACH), np.full(2, REACH)), axis=1)
-    cut = ends[:, :1] + shares[..., None] * (ends[:, 1:] - ends[:, :1])
-    return _raised(cut[shares[:, 0] < shares[:, 1]], HEIGHT)
+    return at_height(cut_to_rectangle(ends, np.full(2, -REACH), np.full(2, REACH)), HEIGHT)

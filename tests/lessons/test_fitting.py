@@ -8,9 +8,10 @@ import pytest
 
 from lessons.fitting.experiments import ALIKE, EDGE, LARGE, SMALL, iterations_to
 from lessons.fitting.lesson import lesson, run
-from lessons.fitting.state import Params, Walked
+from lessons.fitting.state import Params
 from tests.runs import finished
 from tests.truths.fitting import cost, least, plane_error, straight, wider
+from workbench.algorithms.least_squares import Walked
 from workbench.errors import InputError
 from workbench.geometry.circles_spheres import linearise_sphere
 from workbench.scene import Curve, Points, Segments, Table, caption_of
@@ -167,7 +168,7 @@ def test_losses_on_one_plane():
         "tukey": pytest.approx(157, abs=1),
         "cascade": pytest.approx(2.4, abs=0.1),
     }
-    assert 1e3 * last("drift").squares_error == pytest.approx(132, abs=1)
+    assert 1e3 * of("drift")[-1].plane_errors[1] == pytest.approx(132, abs=1)
     assert [tone(name) for name in ("drift", "tukey", "cascade", "edge-on")] == ["wrong", "wrong", "good", "wrong"]
 
 
@@ -254,9 +255,9 @@ def test_a_wrong_step_is_taken_back_or_goes_astray():
 
 
 def test_wrong_weights_show_in_the_plane():
-    right = last("drift").error
+    right = of("drift")[-1].plane_errors[0]
     *_, end = run(lesson.preset("drift").params, huber_weights=lambda r, c: c / np.maximum(r, c))
-    assert abs(end.now.error - right) > 0.01  # type: ignore[union-attr]
+    assert abs(end.plane_errors[0] - right) > 0.01  # type: ignore[union-attr]
     with pytest.raises(InputError, match="nothing is left to fit"):
         list(run(lesson.preset("drift").params, huber_weights=lambda r, c: np.zeros(len(r))))
 
@@ -298,9 +299,8 @@ def test_the_coins_rim_lies_on_the_photograph():
     scene = lesson.draw(of("coin")[0])
     picture, rim = scene["photograph"], scene["rim"]
     assert isinstance(rim, Points)
-    subject = of("coin")[0].subject
-    x, y, radius = subject.middle
-    uv = np.column_stack([x + radius * rim.p[:, 0], y - radius * rim.p[:, 1]])
+    found = of("coin")[0].subject.rim
+    uv = found.center + found.radius * rim.p[:, :2] * [1, -1]
     np.testing.assert_allclose(picture.places(uv)[:, :2], rim.p[:, :2], atol=1e-9)  # type: ignore[union-attr]
 
 
