@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable
 from decimal import Decimal
 
-_SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 ROUND_OFF = 1e-9
 """Below this share of its unit (metre, pixel, degree, per cent) a quantity is rounding: it is zero, in words and on axes."""
 
@@ -32,7 +32,12 @@ def fixed_or_power(value: float, places: int) -> str:
     if abs(value) < 1e6:
         return fixed(value, places)
     mantissa, exponent = f"{value:.2e}".split("e")
-    return f"{mantissa} × 10{str(int(exponent)).translate(_SUPERSCRIPTS)}".replace("-", "−")
+    return f"{mantissa} × {power_of_ten(int(exponent))}".replace("-", "−")
+
+
+def power_of_ten(exponent: int) -> str:
+    """Write a power of ten: 10⁹, 10⁻⁵."""
+    return f"10{str(exponent).translate(_SUPERSCRIPTS)}"
 
 
 def fixed_row(values: Iterable[float], places: int) -> str:
@@ -63,6 +68,12 @@ def length(metres: float, digits: int = 3) -> str:
     if size >= 0.1:
         return f"{brief(metres, digits)} m"
     return f"{brief(1e3 * metres, digits)} mm" if size >= 1e-6 else f"{brief(1e6 * metres, min(digits, 2))} µm"
+
+
+def area(square_metres: float, digits: int = 3) -> str:
+    """Write an area or a sum of squared lengths with so many significant digits, below a thousandth of a m² in mm²."""
+    in_metres = abs(square_metres) >= 1e-3
+    return f"{brief(square_metres, digits)} m²" if in_metres else f"{brief(1e6 * square_metres, digits)} mm²"
 
 
 def pixels(count: float, digits: int = 3) -> str:

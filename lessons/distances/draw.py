@@ -8,7 +8,7 @@ from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, Stat
 from lessons.distances.subjects import true_way
 from lessons.distances.words import caption
 from workbench.algorithms.heat_method import HeatState
-from workbench.geometry.polylines import between, rectangle, segments
+from workbench.geometry.polylines import at_height, between, rectangle, segments
 from workbench.scene import Classes, Color, Field, Label, Mesh, Points, Primitive, Scene, Segments
 
 MOST_EDGES, MOST_ARROWS = 2500, 900
@@ -33,11 +33,6 @@ def draw(state: State) -> Scene:
     return {"caption": caption(state)} | scene | beside(state)
 
 
-def flat(p: np.ndarray, height: float = 0.0) -> np.ndarray:
-    """Return points or segments of the plane with a third coordinate."""
-    return np.concatenate([p, np.full((*p.shape[:-1], 1), height)], axis=-1)
-
-
 def _ways(state: State) -> dict[str, Primitive]:
     now, subject = state.now, state.subject
     assert subject is not None
@@ -51,7 +46,7 @@ def _ways(state: State) -> dict[str, Primitive]:
     scene["source"] = Points(subject.p[[subject.source]] + up, "highlight", 1.8 * subject.radius, name="source")
     if subject.tip is not None and not subject.free.all():
         foot = np.array([subject.tip[0], -0.5])
-        scene["wall"] = Segments(flat(between(foot, subject.tip)) + up, "neutral", 8.0, name="wall")
+        scene["wall"] = Segments(at_height(between(foot, subject.tip)) + up, "neutral", 8.0, name="wall")
     elif 0 < len(subject.edges) <= MOST_EDGES and len(subject.faces):
         scene["edges"] = Segments(subject.p[subject.edges], "neutral", 1.0, opacity=0.5, name="edges")
     if len(subject.shortcuts):
@@ -103,19 +98,21 @@ def _arrows(subject: Subject, now: HeatState) -> dict[str, Primitive]:
 
 def _ball(now: Ball) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {
-        "border": Segments(flat(segments(rectangle(*SQUARE), closed=True)), "neutral", 1.0),
-        "nodes": Points(flat(now.p), "target", 0.022, name="points"),
-        "source": Points(flat(now.p[[now.query]], 0.01), "highlight", 0.035, name="in the middle"),
-        "ball": Segments(flat(_within(now.rims[0])), "source", 4.0, name="ball by this distance"),
-        "euclid": Segments(flat(_within(now.rims[1])), "correspondence", 2.0, name="Euclid's"),
+        "border": Segments(at_height(segments(rectangle(*SQUARE), closed=True)), "neutral", 1.0),
+        "nodes": Points(at_height(now.p), "target", 0.022, name="points"),
+        "source": Points(at_height(now.p[[now.query]], 0.01), "highlight", 0.035, name="in the middle"),
+        "ball": Segments(at_height(_within(now.rims[0])), "source", 4.0, name="ball by this distance"),
+        "euclid": Segments(at_height(_within(now.rims[1])), "correspondence", 2.0, name="Euclid's"),
     }
     if now.nearest:
         first = int(np.argmin(now.d))
-        scene["nearest"] = Points(flat(now.p[[first]], 0.005), "source", 0.035, name="nearest by this distance")
+        scene["nearest"] = Points(at_height(now.p[[first]], 0.005), "source", 0.035, name="nearest by this distance")
         straight = now.nearest["euclid"]
-        scene["nearest/euclid"] = Points(flat(now.p[[straight]], -0.005), "correspondence", 0.045, name="by Euclid's")
+        scene["nearest/euclid"] = Points(
+            at_height(now.p[[straight]], -0.005), "correspondence", 0.045, name="by Euclid's"
+        )
         told = Classes.marking(now.changed, "wrong", "another nearest", others=("neutral", "the same"))
-        scene["queries"] = Points(flat(now.queries, -0.01), told, 0.009, name="queries")
+        scene["queries"] = Points(at_height(now.queries, -0.01), told, 0.009, name="queries")
     return scene
 
 
@@ -130,13 +127,13 @@ def _trials(now: Trials) -> dict[str, Primitive]:
     role = "wrong" if now.sides[2] > now.sides[0] + now.sides[1] + 1e-9 else "truth"
     p = np.stack([a, b, c])
     out = p - p.mean(axis=0)
-    beyond = flat(p + 0.1 * out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-9))
+    beyond = at_height(p + 0.1 * out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-9))
     return {
         **{f"letters/{letter}": Label(letter, place, "target") for letter, place in zip("abc", beyond, strict=True)},
-        "border": Segments(flat(segments(rectangle(*SQUARE), closed=True)), "neutral", 1.0),
-        "nodes": Points(flat(p), "target", 0.035, name="a, b, c"),
-        "over b": Segments(flat(segments(p)), "correspondence", 4.0, name="from a over b to c"),
-        "straight": Segments(flat(between(a, c)), role, 4.0, name="from a to c"),
+        "border": Segments(at_height(segments(rectangle(*SQUARE), closed=True)), "neutral", 1.0),
+        "nodes": Points(at_height(p), "target", 0.035, name="a, b, c"),
+        "over b": Segments(at_height(segments(p)), "correspondence", 4.0, name="from a over b to c"),
+        "straight": Segments(at_height(between(a, c)), role, 4.0, name="from a to c"),
     }
 
 
@@ -148,9 +145,9 @@ def _scatter(now: Scatter) -> dict[str, Primitive]:
     )  # fmt: skip
     told: Color = named if now.phase in ("told", "dimensions") or now.outlier.any() else "target"
     return {
-        "nodes": Points(flat(now.p), told, 0.035, name="points"),
-        "rim": Segments(flat(segments(now.rim)), "source", 4.0, name="95 %"),
-        "axes": Segments(flat(np.array([[[-4.0, 0], [4, 0]], [[0, -4], [0, 4]]]), -0.01), "neutral", 1.0),
+        "nodes": Points(at_height(now.p), told, 0.035, name="points"),
+        "rim": Segments(at_height(segments(now.rim)), "source", 4.0, name="95 %"),
+        "axes": Segments(at_height(np.array([[[-4.0, 0], [4, 0]], [[0, -4], [0, 4]]]), -0.01), "neutral", 1.0),
     }
 
 
@@ -161,7 +158,7 @@ def _landmarks(now: Landmarks) -> dict[str, Primitive]:
     missed = now.mahalanobis[new] != now.true[new]
 
     def show(p: np.ndarray, height: float = 0.0) -> np.ndarray:
-        return flat(p + AHEAD - [0.0, 1.0], height)
+        return at_height(p + AHEAD - [0.0, 1.0], height)
 
     return {
         "nodes": Points(show(now.landmarks), "target", 0.02, name="landmarks"),

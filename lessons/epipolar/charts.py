@@ -79,9 +79,10 @@ def _depths(state: State, now: Related) -> dict[str, Primitive]:
     assert now.p_first is not None
     order = np.argsort(true[:, 2])
     z, off = true[order, 2], (state.length * now.p_first[:, 2] - true[:, 2])[order]
-    scene: dict[str, Primitive] = {"depth errors": DEPTH.dots(z, np.abs(off), "points", "source")}
+    top = 2.0 * z[-1]  # what is farther off is drawn there
+    scene: dict[str, Primitive] = {"depth errors": DEPTH.dots(z, np.minimum(np.abs(off), top), "points", "source")}
     if state.moved:
         Ps = camera_matrix(state.views.K_first, np.eye(4)), camera_matrix(state.views.K_second, T)
         sigma = np.sqrt(triangulation_covariances(*Ps, true[order], state.params.noise)[:, 2, 2])
-        scene["depth sigma"] = DEPTH.curve(z, sigma, "σ from the pixels' noise", "truth")
+        scene["depth sigma"] = DEPTH.curve(z, np.minimum(sigma, top), "σ from the pixels' noise", "truth")
     return scene

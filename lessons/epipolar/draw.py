@@ -1,4 +1,4 @@
-"""What one step looks like: both pictures upright, below them the street with both cameras, and the numbers beside."""
+"""What one step looks like: both pictures upright, below them the scene with both cameras, and the numbers beside."""
 
 import functools
 from dataclasses import dataclass
@@ -9,13 +9,15 @@ from lessons.epipolar.charts import beside
 from lessons.epipolar.state import State
 from lessons.epipolar.words import caption
 from workbench.algorithms.two_views import Followed
+from workbench.data.skyline import skyline
 from workbench.data.street import street
 from workbench.data.thinning import evenly, every
+from workbench.data.two_views import EYE, MODEL, What
 from workbench.geometry.cameras import camera_center
 from workbench.geometry.clipping import clip_lines
 from workbench.geometry.epipolar import epipolar_lines, epipoles, fundamental_from_cameras
 from workbench.geometry.homography import transform_pixels
-from workbench.geometry.motions import inverse
+from workbench.geometry.motions import inverse, motion
 from workbench.geometry.polylines import between, fan, sphere_rings
 from workbench.geometry.rectification import fitted, warp
 from workbench.geometry.triangulation import camera_matrix, triangulation_covariances
@@ -28,6 +30,8 @@ WIDTH, APART, ABOVE = 8.6, 0.35, 2.3  # of a picture, between both, and their mi
 LAYER = 0.04  # metres from a picture to what is drawn on it
 SHOWN_LINES, SHOWN_ELLIPSOIDS, SHOWN_POINTS = 8, 10, 400
 DEEP, REACH = 14.0, 45.0  # metres that a ray is drawn, and from the first camera that anything is
+SCALE_AT = np.array([-0.4, 0.5, 0.2])  # of a model
+CLOSE, POINTER = 0.3, 1.8  # metres between cameras, drawn, below which a pointer tells the direction; and its length
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,46 +148,57 @@ def _pictures(state: State) -> dict[str, Primitive]:
 
 
 def _space(state: State) -> dict[str, Primitive]:
-    """Return the cameras, the followed ray and plane, and the points."""
+    """Return the cameras, the followed ray and plane, and the points, all as large as they are drawn."""
     views, now = state.views, state.now
     T_world_first = inverse(views.T_first_world)
     w, h = views.sizes[0]
     scene: dict[str, Primitive] = {
         "first/camera": Camera(views.K_first, w, h, T_world_first, 1.3, color="target", name="first camera"),
-        **_scenery(views.depth is not None),
+        **_scenery(state.params.scene if views.depth is not None else None),
     }
     cameras: tuple[tuple[str, np.ndarray | None, Role, str], ...] = (
-        ("true camera", state.T_true, "truth", "true second camera"),
-        ("camera", state.T_second_first, "source", "estimated"),
+        ("true camera", _drawn(state.T_true, views.model), "truth", "true second camera"),
+        ("camera", _drawn(state.T_second_first, views.model), "source", "estimated second camera"),
     )
     for path, T, role, name in cameras:
-        if T is not None:
-            T_world_second = T_world_first @ inverse(T)
-            scene[path] = Camera(views.K_second, *views.sizes[1], T_world_second, 1.3, color=role, name=name)
+        if T is None:
+            continue
+        T_world_second = T_world_first @ inverse(T)
+        scene[path] = Camera(views.K_second, *views.sizes[1], T_world_second, 1.3, color=role, name=name)
+        way = camera_center(T)
+        if 0.0 < np.linalg.norm(way) < CLOSE:
+            pointer = between(np.zeros(3), POINTER * way / np.linalg.norm(way))
+            scene[f"direction/{path}"] = Segments(pointer, role, 5, T_world_first, name=f"way to the {name}")
     if isinstance(now, Followed):
         assert state.T_true is not None
-        return scene | _followed(now, camera_center(state.T_true), T_world_first)
+        return scene | _followed(now, camera_center(state.T_true) / views.model, T_world_first, views.model)
     shown = evenly(len(views.matches), SHOWN_POINTS)
-    if views.p_first is not None:
-        scene["true points"] = Points(views.p_first[shown], "truth", 0.06, T_world_first)
+    p_true = None if views.p_first is None else views.p_first[shown] / views.model
+    if p_true is not None:
+        scene["true points"] = Points(p_true, "truth", 0.06, T_world_first)
     if now.p_first is None:
         return scene
-    p = state.length * now.p_first[shown]
+    p = state.length / views.model * now.p_first[shown]
     near = np.linalg.norm(np.nan_to_num(p, nan=np.inf), axis=1) < REACH
     scene["points"] = Points(p[near], "source", 0.07, T_world_first, name="estimated points")
-    if views.p_first is not None:
-        ends = between(views.p_first[shown][near], p[near])
+    if p_true is not None:
+        ends = between(p_true[near], p[near])
         scene["misses"] = Segments(ends, "wrong", 1, T_world_first, opacity=0.5, name="their errors")
     if now.stage == "points":
         scene["uncertainty"] = _ellipsoids(state, p[near][every(int(near.sum()), SHOWN_ELLIPSOIDS)], T_world_first)
     return scene
 
 
-def _followed(now: Followed, p_center: np.ndarray, T_world_first: np.ndarray) -> dict[str, Primitive]:
+def _drawn(T: np.ndarray | None, model: float) -> np.ndarray | None:
+    """Return a motion with its translation as long as it is drawn."""
+    return None if T is None else motion(T[:3, :3], T[:3, 3] / model)
+
+
+def _followed(now: Followed, p_center: np.ndarray, T_world_first: np.ndarray, model: float) -> dict[str, Primitive]:
     """Return the ray of the followed pixel with marks, the rays that the second camera sees them by, and the plane."""
-    near = now.depths <= DEEP
-    p = now.p_first[near]
-    end = now.p_first[-1] * min(1.0, DEEP / now.p_first[-1, 2])
+    near = now.depths <= DEEP * model
+    p = now.p_first[near] / model
+    end = now.p_first[-1] * min(1.0 / model, DEEP / now.p_first[-1, 2])
     scene: dict[str, Primitive] = {
         "ray": Segments(between(np.zeros(3), end), "highlight", 3, T_world_first, name="ray of the pixel"),
         "marks": Points(p, "highlight", 0.14, T_world_first),
@@ -204,7 +219,7 @@ def _followed(now: Followed, p_center: np.ndarray, T_world_first: np.ndarray) ->
 
 def _ellipsoids(state: State, p: np.ndarray, T_world_first: np.ndarray) -> Segments:
     """Return where points lie with two standard deviations, from the noise or what the lines say of it."""
-    T = state.T_second_first
+    T = _drawn(state.T_second_first, state.views.model)
     assert T is not None
     n = len(state.views.matches)
     sigma = state.views.sigma or state.to_lines(state.views.matches) * np.sqrt(n / max(n - 5, 1))
@@ -219,10 +234,13 @@ def _ellipsoids(state: State, p: np.ndarray, T_world_first: np.ndarray) -> Segme
 
 
 @functools.cache
-def _scenery(known: bool) -> dict[str, Primitive]:
-    """Return the outlines of the street, where that is what was photographed."""
-    if not known:
+def _scenery(what: What | None) -> dict[str, Primitive]:
+    """Return the outlines of what was photographed, as large as it is drawn; none of a person's scene."""
+    if what is None:
         return {}
+    if what == "far":
+        model = Segments(EYE + (skyline().edges - EYE) / MODEL, "neutral", 1, opacity=0.5)
+        return {"street": model, "scale": Label(f"drawn 1 : {MODEL:.0f}", SCALE_AT, "neutral")}
     scene = street()
     rails = np.array([[[x, -2.0, 0.06], [x, 22.0, 0.06]] for x in (-0.75, 0.75)])
     return {"street": Segments(np.concatenate([scene.edges, rails]), "neutral", 1, opacity=0.5)}

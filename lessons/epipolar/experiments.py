@@ -15,9 +15,10 @@ RAW = Params(normalise=False, route="eight-point")
 PLANE = Params(scene="plane", route="eight-point")
 TURNED = Params(baseline=0.0)
 SHORT = Params(baseline=0.05)
+FAR = Params(scene="far")
 HALF = Params(baseline=0.5, heading=0.0)
 WRONG_F = Params(heading=0.0, f_error=20.0)
-PENCIL, EQUATIONS, RANK_TWO = 7, 8, 10
+PENCIL, EQUATIONS, RANK_TWO, POINTS = 7, 8, 10, 16
 DEPTH = 8.0  # metres, of the point whose uncertainty is asked for
 
 PRESETS: tuple[Preset[Params], ...] = (
@@ -55,6 +56,12 @@ PRESETS: tuple[Preset[Params], ...] = (
         "short", "Five centimetres",
         "A twentieth of the baseline: lines as near, rotation as good. Direction and depths pay.",
         SHORT, -1, breaks=True,
+    ),
+    Preset(
+        "far", "Everything far away",
+        "A city from a hill, nothing nearer than 180 baselines: parallax is hardly more than noise. The rotation is as good"
+        " as ever; see the pointers, the needles, and what is behind.",
+        FAR, POINTS, breaks=True,
     ),
     Preset(
         "forward", "Straight ahead",

@@ -17,12 +17,12 @@ from lessons.epipolar.exercises.triangulate import triangulate
 from lessons.epipolar.experiments import PRESETS, QUESTIONS
 from lessons.epipolar.state import MOST_MATCHES, Params, State
 from workbench.algorithms.two_views import EightPoint, Poses, Triangulate, follow_ray, relate, solve_linear
-from workbench.data.two_views import TwoViews, own_views, shown_length, street_views
+from workbench.data.two_views import TwoViews, made_views, own_views, shown_length
 from workbench.geometry.homography import normalising_similarity
 from workbench.geometry.motions import motion
 from workbench.lesson import Lesson, Sweep
 
-DEPTHS = np.array([3.0, 4.0, 6.0, 8.0, 12.0, np.inf])  # metres along the ray of the followed pixel
+DEPTHS = np.array([3.0, 4.0, 6.0, 8.0, 12.0, np.inf])  # metres along the ray of the followed pixel, as they are drawn
 
 
 def run(
@@ -49,7 +49,7 @@ def run(
         "T_true": T,
     }
     if T is not None:
-        for now in follow_ray(known["uv_first"], DEPTHS, T, views.K_first, views.K_second):
+        for now in follow_ray(known["uv_first"], views.model * DEPTHS, T, views.K_first, views.K_second):
             yield State(**known, now=now)
 
     uv_first, uv_second = views.matches[:, :2], views.matches[:, 2:]
@@ -83,7 +83,7 @@ def views_of(params: Params) -> TwoViews:
             K=params.intrinsics,
             most=MOST_MATCHES,
         )
-    return street_views(
+    return made_views(
         params.scene,
         count=params.matches,
         sigma=params.noise,

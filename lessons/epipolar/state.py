@@ -3,13 +3,14 @@
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 
 from workbench.algorithms.two_views import Followed, Related, Route
-from workbench.data.two_views import LARGEST, TwoViews
+from workbench.data.two_views import LARGEST, TwoViews, What
 from workbench.geometry.alignment import degrees_between
+from workbench.geometry.cameras import project
 from workbench.geometry.epipolar import sampson_distances
 from workbench.geometry.homography import transform_pixels
 from workbench.geometry.motions import angle_between, motion
@@ -23,9 +24,7 @@ GOOD_TURN, GOOD_DIRECTION = 1.0, 5.0  # degrees within which a pose is called ri
 class Params:
     """Two cameras, the matches between their pictures, and what is made of them."""
 
-    scene: Annotated[Literal["street", "plane"], Knob("Where the matches lie: everywhere, or on level ground")] = (
-        "street"
-    )
+    scene: Annotated[What, Knob("What is seen: a street, its level ground alone, or a city from a hill")] = "street"
     baseline: Annotated[
         float, Knob("How far the second camera stands from the first; 0: it only turned", 0, 2, unit="m", step=0.01)
     ] = 1.0
@@ -90,6 +89,15 @@ class State:
     def moved(self) -> bool:
         """Whether a baseline is there to be found, as far as one knows."""
         return self.T_true is None or bool(np.any(self.T_true[:3, 3]))
+
+    @cached_property
+    def parallax(self) -> float:
+        """How far points are seen from where they would be infinitely far away: the median, pixels; NaN if not known."""
+        p, T = self.views.p_first, self.T_true
+        if p is None or T is None:
+            return float("nan")
+        seen, at_infinity = (project(p, motion(T[:3, :3], t), self.views.K_second) for t in (T[:3, 3], np.zeros(3)))
+        return float(np.median(np.linalg.norm(seen - at_infinity, axis=1)))
 
     @cached_property
     def turn_error(self) -> float:

@@ -130,7 +130,9 @@ def _points(state: State, now: Related) -> str:
     if state.views.p_first is None or now.p_first is None or not state.moved:
         return f"{text}. The length of its baseline is made up: no picture tells it."
     miss = np.median(np.abs(state.length * now.p_first[:, 2] - state.views.p_first[:, 2]))
-    return f"{text}: {off(state)}. Depths are {length(float(miss))} off in the median, with the baseline's true length."
+    medians = f"parallax is {pixels(state.parallax)}, depths are {length(float(miss))} off"
+    text = f"{text}: {off(state)}. In the median {medians} with the baseline's true length"
+    return f"{text}. Noise is {pixels(state.params.noise)}."
 
 
 def _rectified(state: State, now: Related) -> Caption:

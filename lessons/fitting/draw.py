@@ -1,21 +1,24 @@
 """What one step looks like, stage by stage."""
 
-from functools import cache
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
-from lessons.fitting.state import State, Subject, Trusted, Walked
-from lessons.fitting.words import caption, fate_of, off_best, predicted_span, straight_cost
-from workbench.algorithms.fit_studies import Basin, Lines, Rivals, Spread
-from workbench.algorithms.least_squares import Descent
-from workbench.algorithms.robust import LOSSES
-from workbench.algorithms.round_shapes import CYLINDER
+from lessons.fitting.contours import REACH, on_contours
+from lessons.fitting.state import State, Subject
+from lessons.fitting.words import caption
+from workbench.algorithms.fit_studies import AWAY, FATES, Basin, Lines, Rivals, Spread
+from workbench.algorithms.least_squares import Descent, Walked
+from workbench.algorithms.robust import LOSSES, Trusted
+from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, RoundShape, feet, outline
+from workbench.data.rims import Rim
 from workbench.data.thinning import every
 from workbench.geometry.algebraic_fits import ALGEBRAIC
 from workbench.geometry.clipping import plane_in_box
 from workbench.geometry.lines_planes import line_angle
 from workbench.geometry.motions import across
-from workbench.geometry.polylines import between, circle, cylinder_rings, fan, near_arc, segments, sphere_rings
+from workbench.geometry.polylines import at_height, between, circle, fan, segments
 from workbench.numerals import angle, brief, fixed
 from workbench.scene import Chart, Classes, Field, Mesh, Picture, Points, Primitive, Role, Scene, Segments, Table
 
@@ -30,7 +33,6 @@ MEDIANS = Chart("Median radius by arc", "arc (°)", "of the true radius")
 ANGLES = Chart("Angles, measured anew", "angle (°)", "how many")
 PULL = Chart("How hard a point pulls", "distance (mm)", "weight × distance (mm)")
 PLANE_ERROR = Chart("Error to the truth", unit="mm")
-REACH = 4.5  # metres that circles are drawn
 COLORS: dict[str, Role] = {
     "Kåsa": "wrong", "Pratt": "neutral", "Taubin": "source", "Hyper": "other", "geometric": "highlight",
     "upright": "wrong", "level": "other", "perpendicular": "source",
@@ -39,54 +41,15 @@ COLORS: dict[str, Role] = {
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    scene: dict[str, Primitive] = {"caption": caption(state)}
-    match state.now:
-        case Walked():
-            return scene | _points(state.subject) | _walked(state, state.now)
-        case Spread():
-            return scene | _points(state.subject) | _spread(state.subject, state.now)
-        case Basin():
-            return scene | _points(state.subject, 0.12, 0.05) | _basin(state.now)
-        case Rivals():
-            return scene | _rivals(state, state.now)
-        case Lines():
-            return scene | _points(state.subject) | _lines(state.subject, state.now)
-        case Trusted():
-            return scene | _trusted(state, state.now)
-
-
-def solid(p: np.ndarray, z: float = 0.0) -> np.ndarray:
-    """Return points in space: those in the plane at a height."""
-    return p if p.shape[-1] == 3 else np.concatenate([p, np.full((*p.shape[:-1], 1), z)], axis=-1)
+    return {"caption": caption(state), **DRAWN[type(state.now)](state, state.now)}
 
 
 def _points(subject: Subject, z: float = 0.0, least: float = 0.01) -> dict[str, Primitive]:
     radius = max(float(np.clip(0.2 / np.sqrt(len(subject.p)), 0.01, 0.025)), least)
-    scene: dict[str, Primitive] = {"points": Points(solid(subject.p, z), "target", radius, name="points")}
+    scene: dict[str, Primitive] = {"points": Points(at_height(subject.p, z), "target", radius, name="points")}
     if subject.truth is not None and subject.kind is not None:
-        scene["truth"] = Segments(outline(subject, subject.truth), "truth", 2.0, name="truth")
+        scene["truth"] = Segments(outline(subject.kind, subject.truth, REACH), "truth", 2.0, name="truth")
     return scene
-
-
-def outline(subject: Subject, unknown: np.ndarray) -> np.ndarray:
-    """Return a circle, sphere or cylinder as segments; of a very large circle what is near; none where not finite."""
-    if not np.isfinite(unknown).all() or abs(unknown[-1]) > 1e9:
-        return np.empty((0, 2, 3))
-    if subject.kind is CYLINDER:
-        n_axis = unknown[3:6]
-        p_axis = unknown[:3] - (unknown[:3] @ n_axis) * n_axis
-        return cylinder_rings(p_axis, np.column_stack([*across(n_axis), n_axis]), abs(float(unknown[6])))
-    if len(unknown) == 3:
-        return segments(solid(near_arc(unknown, REACH)))
-    return sphere_rings(unknown[:3], abs(float(unknown[3])))
-
-
-def feet(subject: Subject, unknown: np.ndarray) -> np.ndarray:
-    """Return the nearest places of a circle, sphere or cylinder to the points."""
-    assert subject.kind is not None
-    residuals, jacobian = subject.kind.linearise(unknown, subject.p)
-    ways = np.stack(across(unknown[3:6])) if subject.kind is CYLINDER else np.eye(subject.p.shape[1])
-    return subject.p + residuals[:, None] * (jacobian[:, : len(ways)] @ ways)
 
 
 def _near(ends: np.ndarray) -> np.ndarray:
@@ -94,38 +57,43 @@ def _near(ends: np.ndarray) -> np.ndarray:
     return ends[(np.abs(ends) < 3 * REACH).all(axis=(1, 2))]
 
 
+def _distances(p: np.ndarray, at: np.ndarray) -> Segments:
+    return Segments(_near(between(at_height(p), at_height(at))), "correspondence", 1.5, name="distances")
+
+
 def _walked(state: State, walked: Walked) -> dict[str, Primitive]:
-    subject, now = state.subject, walked.now
-    scene: dict[str, Primitive] = {"estimate": Segments(outline(subject, now.unknown), "source", 4.0, name="estimate")}
+    subject, now, kind = state.subject, walked.now, state.subject.kind
+    assert kind is not None
+    scene = _points(subject) | _estimate(kind, now.unknown)
     if np.isfinite(now.unknown).all() and now.phase != "tried":
-        at = solid(feet(subject, now.unknown))
-        scene["distances"] = Segments(_near(between(solid(subject.p), at)), "correspondence", 1.5, name="distances")
+        scene["distances"] = _distances(subject.p, feet(kind, now.unknown, subject.p))
     if now.phase == "linearised" and subject.p.shape[1] == 2:
         some = every(len(subject.p), 9)
-        n, at = now.jacobian[some, :2], feet(subject, now.unknown)[some]
+        n, at = now.jacobian[some, :2], feet(kind, now.unknown, subject.p)[some]
         along = 0.25 * np.column_stack([-n[:, 1], n[:, 0]])
-        ends = _near(between(solid(at - along, 0.01), solid(at + along, 0.01)))
+        ends = _near(between(at_height(at - along, 0.01), at_height(at + along, 0.01)))
         scene["tangents"] = Segments(ends, "highlight", 3.0, name="tangents")
     if now.trial is not None and now.phase in ("tried", "rejected"):
-        dashed = outline(subject, now.trial)[::2]
-        scene["trial"] = Segments(dashed, "highlight", 3.0, name="trial" if now.phase == "tried" else "taken back")
-    if now.stop and subject.straight is not None and abs(now.unknown[-1]) > 50.0:
-        a, b, c = subject.straight
-        middle, way = -c * np.array([a, b]), np.array([-b, a])
-        ends = solid(np.stack([middle - REACH * way, middle + REACH * way]))[None]
-        scene["straight"] = Segments(ends, "neutral", 2.0, name="best straight line")
-    return scene | _walked_beside(state, walked, now)
+        dashed, tried = outline(kind, now.trial, REACH)[::2], now.phase == "tried"
+        scene["trial"] = Segments(
+            dashed, "highlight" if tried else "wrong", 3.0, name="trial" if tried else "taken back"
+        )
+    if now.stop and subject.straight is not None and abs(now.unknown[-1]) > AWAY:
+        scene["straight"] = Segments(_line(subject.straight, REACH), "neutral", 2.0, name="best straight line")
+    if kind is CIRCLE:
+        scene |= on_contours(subject.p, walked)
+    return scene | _walked_beside(subject, walked, now)
 
 
-def _walked_beside(state: State, walked: Walked, now: Descent) -> dict[str, Primitive]:
-    subject = state.subject
+def _walked_beside(subject: Subject, walked: Walked, now: Descent) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {"cost": COST.scalar(now.cost, "estimate", log=True)}
     if subject.straight is not None:
-        scene["straight cost"] = COST.scalar(straight_cost(state), "best straight line", "neutral", log=True)
+        scene["straight cost"] = COST.scalar(subject.straight_cost, "best straight line", "neutral", log=True)
     if subject.truth is not None and np.isfinite(now.unknown).all():
         scene["radius error"] = ERROR.scalar(abs(abs(now.unknown[-1]) - subject.truth[-1]), "of the radius", log=True)
-    if np.isfinite(off_best(state, now.unknown)) and subject.truth is not None and subject.kind is not CYLINDER:
-        scene["off"] = OFF.scalar(max(off_best(state, now.unknown), 1e-9), "estimate", log=True)
+    off = subject.off_best(now.unknown)
+    if np.isfinite(off) and subject.truth is not None and subject.kind is not CYLINDER:
+        scene["off"] = OFF.scalar(max(off, 1e-9), "estimate", log=True)
     if now.damping:
         scene["damping"] = DAMPING.scalar(now.damping, "λ", "other", log=True)
     if walked.along is not None:
@@ -135,58 +103,60 @@ def _walked_beside(state: State, walked: Walked, now: Descent) -> dict[str, Prim
     return scene
 
 
-def _spread(subject: Subject, now: Spread) -> dict[str, Primitive]:
-    d, unknown = subject.p.shape[1], now.unknown
-    assert subject.kind is not None
-    scene: dict[str, Primitive] = {"estimate": Segments(outline(subject, unknown), "source", 4.0, name="estimate")}
-    axes = np.stack(across(unknown[3:6])) if subject.kind is CYLINDER else np.eye(3)[:2]
+def _estimate(kind: RoundShape, unknown: np.ndarray) -> dict[str, Primitive]:
+    return {"estimate": Segments(outline(kind, unknown, REACH), "source", 4.0, name="estimate")}
+
+
+def _spread(state: State, now: Spread) -> dict[str, Primitive]:
+    subject, kind, unknown, d = state.subject, state.subject.kind, now.unknown, state.subject.p.shape[1]
+    assert kind is not None
+    scene = _points(subject) | _estimate(kind, unknown)
+    axes = np.stack(across(unknown[3:6])) if kind is CYLINDER else np.eye(3)[:2]
     values, vectors = np.linalg.eigh(now.covariance[:2, :2])
-    ellipse = 2.448 * (circle() * np.sqrt(np.maximum(values, 0.0))) @ vectors.T @ axes + solid(unknown[:d])
+    ellipse = 2.448 * (circle() * np.sqrt(np.maximum(values, 0.0))) @ vectors.T @ axes + at_height(unknown[:d])
     scene["ellipse"] = Segments(segments(ellipse), "highlight", 4.0, name="95 % of centres, by the covariance")
     if len(now.radii):
         near = np.abs(now.centers).max(axis=1) < REACH
-        scene["centers"] = Points(solid(now.centers[near]), "other", 0.0035, name="centres, measured anew")
-        low, high = predicted_span(now)
+        scene["centers"] = Points(at_height(now.centers[near]), "other", 0.0035, name="centres, measured anew")
+        low, high = now.predicted
         edges = np.linspace(max(2 * low - high, 0.0), max(2 * high - low, 1e-6), 40)
         kept = np.clip(now.radii, edges[0], edges[-1])
         scene["radii"] = AGAIN.histogram(kept * subject.scale, edges * subject.scale, "repetition", "other")
-        x, sd = (edges[1:] + edges[:-1]) / 2, float(np.sqrt(now.covariance[-1, -1]))
-        bell = np.exp(-0.5 * ((x - abs(unknown[-1])) / sd) ** 2) / (sd * np.sqrt(2 * np.pi))
-        expected = len(now.radii) * (edges[1] - edges[0]) * bell
+        x, width, sd = (edges[1:] + edges[:-1]) / 2, edges[1] - edges[0], now.radius_deviation
+        expected = len(now.radii) * width * np.exp(-0.5 * ((x - now.radius) / sd) ** 2) / (sd * np.sqrt(2 * np.pi))
         scene["bell"] = AGAIN.curve(x * subject.scale, expected, "covariance", "highlight")
-    rows, sds = [], np.sqrt(np.diag(now.covariance))
-    for name, sd in zip(subject.kind.names, sds, strict=True):
-        is_angle = name.startswith("tilt")
-        value = f"{brief(float(np.degrees(sd)))}°" if is_angle else f"{brief(float(sd * subject.scale))} m"
-        rows.append((name, value))
+    rows = [
+        (
+            name,
+            f"{brief(float(np.degrees(sd)))}°" if name.startswith("tilt") else f"{brief(float(sd * subject.scale))} m",
+        )
+        for name, sd in zip(kind.names, np.sqrt(np.diag(now.covariance)), strict=True)
+    ]
     scene["table"] = Table("Standard deviations by the covariance", ("", "±"), tuple(rows))
     return scene
 
 
-def _basin(now: Basin) -> dict[str, Primitive]:
-    fates = fate_of(now)
-    roles: tuple[Role, ...] = ("truth", "wrong", "neutral")
-    ids = Classes(fates.astype(np.uint8), roles, ("comes home", "away or lost", "under way"))
-    return {
-        "starts": Points(solid(now.starts[:, :2], -0.02), ids, 0.13, name="starts: centres"),
-        "share": HOME.scalar(100.0 * float((fates == 0).mean()), "home", "truth"),
-        "lost": HOME.scalar(100.0 * float((fates == 1).mean()), "away or lost", "wrong"),
+def _basin(state: State, now: Basin) -> dict[str, Primitive]:
+    fates = Classes(now.fates, ("truth", "wrong", "neutral"), FATES)
+    return _points(state.subject, 0.12, 0.05) | {
+        "starts": Points(at_height(now.starts[:, :2], -0.02), fates, 0.13, name="starts: centres"),
+        "share": HOME.scalar(100.0 * now.share("comes home"), "home", "truth"),
+        "lost": HOME.scalar(100.0 * now.share("away or lost"), "away or lost", "wrong"),
     }
 
 
 def _rivals(state: State, now: Rivals) -> dict[str, Primitive]:
     subject = state.subject
     scene = _points(subject)
-    if subject.photograph is not None:
-        scene["photograph"] = _photograph(subject)
-        assert subject.p_true is not None
-        scene["rim"] = Points(solid(subject.p_true), "correspondence", 0.008, name="all of the rim")
+    if subject.rim is not None:
+        scene["photograph"] = _photograph(subject.rim)
+        scene["rim"] = Points(at_height(subject.rim.p), "correspondence", 0.008, name="all of the rim")
     names = list(now.circles)
     for name in names if now.arcs else names[-1:]:
-        lines = outline(subject, now.circles[name])
+        lines = outline(CIRCLE, now.circles[name], REACH)
         scene[f"circle/{name}"] = Segments(lines, COLORS[name], 3.0, name=f"{name}'s" if name in ALGEBRAIC else name)
     rows = tuple((name, fixed(c[2] * subject.scale, 3)) for name, c in now.circles.items())
-    scene["table"] = Table("Radius of these points (m)" if subject.photograph is None else "Radius (of the rim's)",
+    scene["table"] = Table("Radius of these points (m)" if subject.rim is None else "Radius (of the rim's)",
                            ("fit", "R"), rows)  # fmt: skip
     if len(now.arcs) > 1:
         x, medians = np.array(now.arcs), np.array(now.medians)
@@ -195,25 +165,19 @@ def _rivals(state: State, now: Rivals) -> dict[str, Primitive]:
     return scene
 
 
-@cache
-def _turned_down() -> np.ndarray:
-    """Return the pose of a picture that lies on the ground, its rows going down the page."""
-    return np.diag([1.0, -1.0, -1.0, 1.0])
-
-
-def _photograph(subject: Subject) -> Picture:
+def _photograph(rim: Rim) -> Picture:
     """Lay the photograph under the points: the coin's centre at the origin, its radius 1 m."""
-    assert subject.photograph is not None
-    h, w = subject.photograph.shape[:2]
-    x, y, radius = subject.middle
-    T = _turned_down().copy()
-    T[:3, 3] = ((w - 1) / 2 - x) / radius, -((h - 1) / 2 - y) / radius, -0.02
-    return Picture(subject.photograph, "Coins", width=w / radius, T_world_object=T)
+    h, w = rim.photograph.shape[:2]
+    right, down = (np.array([w - 1, h - 1]) / 2 - rim.center) / rim.radius
+    T = np.diag([1.0, -1.0, -1.0, 1.0])
+    T[:3, 3] = right, -down, -0.02
+    return Picture(rim.photograph, "Coins", width=w / rim.radius, T_world_object=T)
 
 
-def _lines(subject: Subject, now: Lines) -> dict[str, Primitive]:
-    assert subject.truth is not None
-    scene: dict[str, Primitive] = {"true line": Segments(_line(subject.truth), "truth", 3.0, name="truth")}
+def _lines(state: State, now: Lines) -> dict[str, Primitive]:
+    subject, truth = state.subject, state.subject.truth
+    assert truth is not None
+    scene = _points(subject) | {"true line": Segments(_line(truth), "truth", 3.0, name="truth")}
     names = list(now.lines)
     for name in names:
         scene[f"line/{name}"] = Segments(_line(now.lines[name]), COLORS[name], 3.0, name=f"{name} distances")
@@ -221,16 +185,11 @@ def _lines(subject: Subject, now: Lines) -> dict[str, Primitive]:
         a, b, c = now.lines[names[-1]]
         off = subject.p @ np.array([a, b]) + c
         way = {"upright": np.array([0.0, 1.0 / b]), "level": np.array([1.0 / a, 0.0])}.get(names[-1], np.array([a, b]))
-        scene["distances"] = Segments(
-            _near(between(solid(subject.p), solid(subject.p - np.outer(off, way)))),
-            "correspondence",
-            1.5,
-            name="distances",
-        )
+        scene["distances"] = _distances(subject.p, subject.p - np.outer(off, way))
     if names:
-        rows = tuple((name, angle(float(np.degrees(line_angle(line))))) for name, line in now.lines.items())
-        truth = ("truth", angle(float(np.degrees(line_angle(subject.truth)))))
-        scene["table"] = Table("Angles of these points", ("distances", "angle"), (*rows, truth))
+        told = (now.lines | {"truth": truth}).items()
+        rows = tuple((name, angle(float(np.degrees(line_angle(line))))) for name, line in told)
+        scene["table"] = Table("Angles of these points", ("distances", "angle"), rows)
     for name, angles in now.angles.items():
         both = np.percentile(np.concatenate(list(now.angles.values())), [0.5, 99.5])
         edges = np.linspace(both[0], both[1] + 1e-6, 50)
@@ -238,17 +197,16 @@ def _lines(subject: Subject, now: Lines) -> dict[str, Primitive]:
     return scene
 
 
-def _line(line: np.ndarray) -> np.ndarray:
-    middle, way = -line[2] * line[:2], np.array([-line[1], line[0]])
-    return solid(np.stack([middle - 1.6 * way, middle + 1.6 * way]))[None]
+def _line(line: np.ndarray, half: float = 1.6) -> np.ndarray:
+    middle, way = -line[2] * line[:2], half * np.array([-line[1], line[0]])
+    return at_height(np.stack([middle - way, middle + way]))[None]
 
 
 def _trusted(state: State, now: Trusted) -> dict[str, Primitive]:
     subject, scale = state.subject, 1e3 * state.subject.scale
     low = np.minimum(subject.p.min(axis=0), -1.0) - 0.01
     high = np.maximum(subject.p.max(axis=0), 1.0) + 0.01
-    weights = now.now.weights
-    trust = Field(weights, 0.0, 1.0, "weight")
+    trust = Field(now.now.weights, 0.0, 1.0, "weight")
     scene: dict[str, Primitive] = {"points": Points(subject.p, trust, 0.018, name="points")}
     planes: list[tuple[str, np.ndarray, Role]] = [("estimate", now.now.estimate, "source")]
     if subject.truth is not None:
@@ -258,17 +216,18 @@ def _trusted(state: State, now: Trusted) -> dict[str, Primitive]:
         if len(corners):
             scene[name] = Segments(segments(corners, closed=True), color, 4.0, name=name)
             scene[f"{name}/surface"] = Mesh(corners, fan(len(corners)), color, opacity=0.25, flat=True)
-    loss, top = LOSSES[now.loss], float(np.clip(np.abs(now.now.distances).max(), 3e-3, 1.0))
-    x = np.linspace(-top, top, 161)
-    scene["pull"] = PULL.curve(scale * x, scale * x * loss.weights(x, now.corner), now.loss)
-    scene["pulls"] = PULL.dots(
-        scale * now.now.distances,
-        scale * now.now.distances * loss.weights(now.now.distances, now.corner),
-        "points",
-        "target",
-    )
-    if np.isfinite(now.error):
-        scene["error"] = PLANE_ERROR.scalar(1e3 * now.error, "estimate", log=True)
-        scene["squares"] = PLANE_ERROR.scalar(1e3 * now.squares_error, "least squares", "neutral", log=True)
-    scene["loss"] = Chart("Sum of the losses").scalar(now.now.cost / now.corner**2, now.loss)
+    weights, off = LOSSES[now.loss.name].weights, now.now.distances
+    x = np.linspace(-1.0, 1.0, 161) * float(np.clip(np.abs(off).max(), 3e-3, 1.0))
+    scene["pull"] = PULL.curve(scale * x, scale * x * weights(x, now.corner), now.loss.name)
+    scene["pulls"] = PULL.dots(scale * off, scale * off * weights(off, now.corner), "points", "target")
+    error, squares_error = state.plane_errors
+    if np.isfinite(error):
+        scene["error"] = PLANE_ERROR.scalar(1e3 * error, "estimate", log=True)
+        scene["squares"] = PLANE_ERROR.scalar(1e3 * squares_error, "least squares", "neutral", log=True)
+    scene["loss"] = Chart("Sum of the losses").scalar(now.now.cost / now.corner**2, now.loss.name)
     return scene
+
+
+DRAWN: dict[type, Callable[[State, Any], dict[str, Primitive]]] = {
+    Walked: _walked, Spread: _spread, Basin: _basin, Rivals: _rivals, Lines: _lines, Trusted: _trusted,
+}  # fmt: skip

@@ -5,8 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from lessons.fitting.state import Params, State, Walked
-from lessons.fitting.words import FAR, is_right, off_best, square, straight_cost, wider
+from lessons.fitting.state import Params, State
+from lessons.fitting.words import square
+from workbench.algorithms.fit_studies import AWAY
+from workbench.algorithms.least_squares import Walked
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import angle, fixed, length
 
@@ -114,21 +116,21 @@ def last(states: Sequence[State]) -> Any:
 def wrong_end(states: Sequence[State]) -> float:
     """Return which choice tells the end of a descent: home, on another circle, or away for ever."""
     end = ended(states)
-    if abs(end.unknown[-1]) > FAR:
+    if abs(end.unknown[-1]) > AWAY:
         return 2.0
-    return 0.0 if off_best(states[0], end.unknown) < 0.01 else 1.0
+    return 0.0 if states[0].subject.off_best(end.unknown) < 0.01 else 1.0
 
 
 def iterations_to(states: Sequence[State], metres: float) -> int:
     """Return the first iteration whose circle is so near to the best one."""
     moments = [state.now.now for state in states if isinstance(state.now, Walked)]
-    return min(now.iteration for now in moments if off_best(states[0], now.unknown) < metres)
+    return min(now.iteration for now in moments if states[0].subject.off_best(now.unknown) < metres)
 
 
 def against_squares(states: Sequence[State]) -> float:
     """Return whether a robust plane ends on the truth, nearer to it than least squares, or farther."""
-    end = last(states)
-    return 0.0 if is_right(states[-1], end) else 1.0 if end.error < 0.95 * end.squares_error else 2.0
+    error, squares_error = states[-1].plane_errors
+    return 0.0 if states[-1].plane_is_right else 1.0 if error < 0.95 * squares_error else 2.0
 
 
 QUESTIONS: tuple[Question[Params, State], ...] = (
@@ -153,7 +155,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         why=lambda states: (
             f"After {ended(states).iteration} iterations R = {length(abs(float(ended(states).unknown[-1])))}. The"
             f" sum of squares fell to {square(ended(states).cost)}, that of the best straight line:"
-            f" {square(straight_cost(states[0]))}. A line is a circle with R without end, and lower still is only"
+            f" {square(states[0].subject.straight_cost)}. A line is a circle with R without end, and lower still is only"
             " behind a hill."
         ),
         params=ESCAPE,
@@ -194,9 +196,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-alike",
         "Ten neighbours share their error, all as large as before. How many times as wide as the covariance says do"
         " the radii lie, measured anew?",
-        answer=lambda states: wider(last(states)),
+        answer=lambda states: last(states).wider,
         why=lambda states: (
-            f"{fixed(wider(last(states)), 1)} times. Ten that err alike count as one: with a tenth of the points"
+            f"{fixed(last(states).wider, 1)} times. Ten that err alike count as one: with a tenth of the points"
             " that would be √10 = 3.2, and s comes out too small besides."
         ),
         params=ALIKE,
@@ -208,7 +210,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         " least squares: where does it end?",
         answer=against_squares,
         why=lambda states: (
-            f"{length(last(states).error)} off, least squares {length(last(states).squares_error)}. The plane of"
+            f"{length(states[-1].plane_errors[0])} off, least squares {length(states[-1].plane_errors[1])}. The plane of"
             " least squares lies among the wrong points: those of the true plane are the far ones from there."
         ),
         params=TUKEY,

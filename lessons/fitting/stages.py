@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lessons.fitting.state import Now, Params, Subject, Trusted, Walked
-from lessons.fitting.subjects import windows
+from lessons.fitting.state import Now, Params, Subject
 from workbench.algorithms.fit_studies import (
     Basin,
     Lines,
@@ -16,9 +15,9 @@ from workbench.algorithms.fit_studies import (
     repeat_fit,
     try_starts,
 )
-from workbench.algorithms.least_squares import FIRST_DAMPING, DampedStep, Stop, along_step, descend
-from workbench.algorithms.models import PLANE, rms_distance
-from workbench.algorithms.robust import HUBER, LOSSES, reweighted_fit
+from workbench.algorithms.least_squares import FIRST_DAMPING, DampedStep, Stop, descend, with_its_way
+from workbench.algorithms.models import PLANE
+from workbench.algorithms.robust import HUBER, LOSSES, Trusted, cascade
 from workbench.data.fit_scenes import arc_points, errors
 from workbench.errors import InputError
 from workbench.geometry.lines_planes import hyperplane_distances
@@ -35,7 +34,6 @@ ARCS, MOST_DRAWS = (360.0, 270.0, 180.0, 120.0, 90.0, 60.0, 45.0, 30.0, 20.0), 2
 FEWER_DRAWS = 1200  # where there are several arcs
 ROUNDS, CALM = 100, 0.01  # of a reweighted fit: at most, and by which share of the corner distances still change
 FIRST_ROUNDS, EVERY = 6, 6  # that become steps: all up to that one, then some
-PLANE_PLACES = np.stack([*np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), np.zeros((9, 9))], axis=-1).reshape(-1, 3)
 
 
 def damping_of(params: Params) -> float:
@@ -60,7 +58,7 @@ def walk(
     """Yield the moments of a descent, and what its end is worth: made points get other errors, own points are drawn anew."""
     kind, p, now = subject.kind, subject.p, None
     assert kind is not None
-    for now in descend(
+    moments = descend(
         lambda unknown: linearise(unknown, p),
         kind.retract,
         start_of(params),
@@ -68,12 +66,11 @@ def walk(
         damping_of(params),
         iterations=ITERATIONS,
         tolerance=RESTS[params.rest],
-    ):
-        if now.iteration > SHOWN_IN_PARTS and now.phase in ("linearised", "tried"):
-            continue
-        tried = now.phase == "tried"
-        shares = np.linspace(0.0, 1.5, 31)
-        yield Walked(now, along_step(now, lambda c: kind.linearise(c, p), kind.retract, shares) if tried else None)
+    )
+    for walked in with_its_way(moments, lambda c: kind.linearise(c, p), kind.retract, np.linspace(0.0, 1.5, 31)):
+        now = walked.now
+        if now.iteration <= SHOWN_IN_PARTS or now.phase not in ("linearised", "tried"):
+            yield walked
     assert now is not None
     if now.stop is not Stop.CONVERGED or abs(now.unknown[-1]) > LARGEST:
         return
@@ -94,9 +91,8 @@ def basin(params: Params, subject: Subject) -> Iterator[Basin]:
 
 def rivals(params: Params, subject: Subject, rng: np.random.Generator) -> Iterator[Rivals]:
     """Yield the circles of the points, and medians over draws from ever shorter arcs, or over windows of a coin's rim."""
-    if subject.photograph is not None:
-        assert subject.p_true is not None
-        return compare_circles(subject.p, iter([(params.arc, windows(subject.p_true, params.arc))]))
+    if subject.rim is not None:
+        return compare_circles(subject.p, iter([(params.arc, subject.rim.windows(params.arc))]))
     arcs = [] if subject.truth is None else [arc for arc in ARCS if arc > params.arc] + [params.arc]
 
     def drawn(arc: float) -> np.ndarray:
@@ -116,23 +112,15 @@ def lines(params: Params, subject: Subject, rng: np.random.Generator) -> Iterato
 def trust(params: Params, subject: Subject, huber_weights: Weights) -> Iterator[Trusted]:
     """Yield the rounds of a reweighted fit of a plane, by one loss or by two, the second from the end of the first."""
     sigma = max(params.noise / subject.scale, 1e-4)
-    losses = {**LOSSES, "Huber": replace(HUBER, weights=huber_weights)}
-    model, names = replace(PLANE, distances=hyperplane_distances), params.loss.split(" then ")
-    start, now, squares_error = None, None, np.nan
-    for name in names:
-        loss = losses[name]
-        corner = sigma * (params.corner if params.corner and name == names[0] else min(loss.efficient_corner, 6.0))
-        rounds = reweighted_fit(
-            subject.p, model, loss, corner=corner, start=start, max_iterations=ROUNDS, tolerance=CALM
-        )
-        try:
-            for now in rounds:
-                error = np.nan if subject.truth is None else rms_distance(PLANE, now.estimate, PLANE_PLACES)
-                squares_error = error if np.isnan(squares_error) else squares_error
-                wanted = now.iteration <= FIRST_ROUNDS or now.iteration % EVERY == 0 or now.stop is not None
-                if wanted and (start is None or now.iteration > 0):
-                    last = now.stop is not None and name == names[-1]
-                    yield Trusted(name, corner, now, error, squares_error, last)
-        except ValueError as reason:
-            raise InputError(f"nothing is left to fit: {reason}") from None
-        start = now.estimate if now else None
+    losses = [{**LOSSES, "Huber": replace(HUBER, weights=huber_weights)}[name] for name in params.loss.split(" then ")]
+    corners = [sigma * min(loss.efficient_corner, 6.0) for loss in losses]
+    if params.corner:
+        corners[0] = sigma * params.corner
+    model, by = replace(PLANE, distances=hyperplane_distances), list(zip(losses, corners, strict=True))
+    try:
+        for now in cascade(subject.p, model, by, max_iterations=ROUNDS, tolerance=CALM):
+            k = now.now.iteration
+            if k <= FIRST_ROUNDS or k % EVERY == 0 or now.now.stop is not None:
+                yield now
+    except ValueError as reason:
+        raise InputError(f"nothing is left to fit: {reason}") from None

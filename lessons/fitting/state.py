@@ -1,17 +1,20 @@
 """The inputs, what is fitted, and what one step holds."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
 
 from workbench.algorithms.fit_studies import Basin, Lines, Rivals, Spread
-from workbench.algorithms.least_squares import Along, Descent
-from workbench.algorithms.robust import Reweighted
+from workbench.algorithms.least_squares import Walked
+from workbench.algorithms.models import PLANE, rms_distance
+from workbench.algorithms.robust import Trusted
 from workbench.algorithms.round_shapes import RoundName, RoundShape
 from workbench.data.fit_scenes import Errors
 from workbench.data.framing import Unit
+from workbench.data.rims import Rim
 from workbench.knobs import Gizmo, Knob
 
 Stage = Literal["descent", "basin", "algebraic", "coin", "line", "robust"]
@@ -21,6 +24,7 @@ ROUND = {"stage": ("descent", "basin", "algebraic", "coin")}
 DESCENT, WALKS = {"stage": ("descent",)}, {"stage": ("descent", "basin")}
 ROBUST = {"stage": ("robust",)}
 BENT = {**ROBUST, "loss": ("Huber", "Cauchy", "Geman-McClure", "Tukey", "Huber then Tukey")}
+PLANE_PLACES = np.stack([*np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), np.zeros((9, 9))], axis=-1).reshape(-1, 3)
 MADE = {"stage": ("descent", "basin", "algebraic", "line", "robust")}
 
 
@@ -87,8 +91,7 @@ class Subject:
         straight: The best straight line (a, b, c), for points in the plane.
         best: The unknowns with the least squares, where known.
         scale: Metres of what was measured per metre of the picture.
-        photograph: Where the points come from, if from a picture.
-        middle: The centre of the whole rim in it, and its radius, pixels.
+        rim: What the points are a part of, if they come from a photograph.
     """
 
     p: np.ndarray
@@ -98,37 +101,24 @@ class Subject:
     straight: np.ndarray | None = None
     best: np.ndarray | None = None
     scale: float = 1.0
-    photograph: np.ndarray | None = None
-    middle: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    rim: Rim | None = None
 
+    @property
+    def straight_cost(self) -> float:
+        """The sum of squares of the best straight line through points in the plane; NaN where there is none."""
+        line = self.straight
+        return np.nan if line is None else float(np.square(self.p @ line[:-1] + line[-1]).sum())
 
-@dataclass(frozen=True, eq=False)
-class Walked:
-    """A moment of a descent, and while a step is tried, the sums of squares along it."""
+    @cached_property
+    def least_cost(self) -> float:
+        """The least sum of squares; NaN where nobody knows it."""
+        if self.best is None or self.kind is None:
+            return np.nan
+        return float(np.square(self.kind.linearise(self.best, self.p)[0]).sum())
 
-    now: Descent
-    along: Along | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Trusted:
-    """A round of a reweighted fit.
-
-    Attributes:
-        loss: By which loss.
-        corner: Where it bends, metres.
-        now: The round.
-        error: RMS distance of the true plane from the fit, metres; NaN where it is not known.
-        squares_error: That of plain least squares.
-        last: Whether no other loss follows.
-    """
-
-    loss: str
-    corner: float
-    now: Reweighted
-    error: float
-    squares_error: float
-    last: bool
+    def off_best(self, unknown: np.ndarray) -> float:
+        """Return how far the numbers of a fit are from those with the least squares, metres; NaN where nobody knows."""
+        return np.nan if self.best is None else float(np.abs(unknown - self.best).max())
 
 
 Now = Walked | Spread | Basin | Rivals | Lines | Trusted
@@ -141,3 +131,16 @@ class State:
     params: Params
     subject: Subject
     now: Now
+
+    @property
+    def plane_errors(self) -> tuple[float, float]:
+        """The RMS distances of the true plane from the fit and from that of least squares, metres; NaN if not known."""
+        if not isinstance(self.now, Trusted) or self.subject.truth is None:
+            return np.nan, np.nan
+        fit, first = (rms_distance(PLANE, plane, PLANE_PLACES) for plane in (self.now.now.estimate, self.now.first))
+        return fit, first
+
+    @property
+    def plane_is_right(self) -> bool:
+        """Whether the plane is nearer to the true one than the noise allows single points to be."""
+        return self.plane_errors[0] < max(self.params.noise, 0.005)

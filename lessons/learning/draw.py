@@ -15,7 +15,7 @@ from workbench.algorithms.set_regression import SetLearned
 from workbench.data import flatland
 from workbench.data.labelled_shapes import NAMES
 from workbench.geometry.mesh_energies import face_pairs, fold_angles
-from workbench.geometry.polylines import between, circle, segments, sphere_rings
+from workbench.geometry.polylines import at_height, between, circle, segments, sphere_rings
 from workbench.numerals import percent
 from workbench.scene import Chart, Classes, Field, Label, Mesh, Picture, Points, Primitive, Scene, Segments, Table
 
@@ -153,11 +153,11 @@ def _field(params: Params, now: Reconstructed, about: Looks) -> dict[str, Primit
     strips = np.repeat(np.stack([about.truth, np.ones_like(about.truth), about.image]), (STRIP, 1, STRIP), axis=0)
     return {
         "field": Picture(np.ascontiguousarray(image), "", 2.0, T_WORLD_FIELD),
-        "discs": Segments(_flat(discs, 0.01), "truth", 2.0, name="true discs"),
-        "cameras": Points(_flat(places[:-1]), "target", 0.05, name="cameras"),
-        "new view": Points(_flat(places[-1:]), "source", 0.07, name="camera of the new view"),
-        "inputs": Points(_flat(line), _bytes(about.image), 0.02, name="its pixels"),
-        "ray": Segments(_flat(about.ray[None], 0.02), "highlight", 3.0, name="picked ray"),
+        "discs": Segments(at_height(discs, 0.01), "truth", 2.0, name="true discs"),
+        "cameras": Points(at_height(places[:-1]), "target", 0.05, name="cameras"),
+        "new view": Points(at_height(places[-1:]), "source", 0.07, name="camera of the new view"),
+        "inputs": Points(at_height(line), _bytes(about.image), 0.02, name="its pixels"),
+        "ray": Segments(at_height(about.ray[None], 0.02), "highlight", 3.0, name="picked ray"),
         "ours": ALONG.curve(about.along, about.weights, "learned"),
         "true": ALONG.curve(about.along, about.true_weights, "true", "truth"),
         "view": Picture(_bytes(strips), "New view: true above, learned below"),
@@ -168,7 +168,3 @@ def _field(params: Params, now: Reconstructed, about: Looks) -> dict[str, Primit
 
 def _bytes(color: np.ndarray) -> np.ndarray:
     return np.rint(255 * np.clip(color, 0, 1)).astype(np.uint8)
-
-
-def _flat(p: np.ndarray, height: float = 0.0) -> np.ndarray:
-    return np.concatenate([p, np.full((*p.shape[:-1], 1), height)], axis=-1)

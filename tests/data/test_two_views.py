@@ -6,7 +6,8 @@ import pytest
 
 from workbench.data.intrinsics import read_intrinsics
 from workbench.data.matches import read_matches
-from workbench.data.two_views import What, own_views, street_views
+from workbench.data.skyline import VALLEY, skyline
+from workbench.data.two_views import What, made_views, own_views
 from workbench.errors import InputError
 from workbench.geometry.cameras import project
 from workbench.geometry.epipolar import fundamental_from_cameras, sampson_distances
@@ -14,12 +15,13 @@ from workbench.geometry.motions import apply, exp_so3, inverse
 
 
 def street(what: What = "street", count=60, sigma=0.0, baseline=1.0, heading=0.0, seed=0):
-    return street_views(what, count, sigma, baseline, heading, np.random.default_rng(seed))
+    return made_views(what, count, sigma, baseline, heading, np.random.default_rng(seed))
 
 
+@pytest.mark.parametrize("what", ["street", "far"])
 @pytest.mark.parametrize("heading", [0.0, 0.35, np.pi / 2, np.pi])
-def test_matches_are_pictures_of_their_points(heading):
-    views = street(heading=heading)
+def test_matches_are_pictures_of_their_points(what, heading):
+    views = street(what, heading=heading)
     assert views.p_first is not None
     assert views.T_second_first is not None
     np.testing.assert_allclose(project(views.p_first, np.eye(4), views.K_first), views.matches[:, :2], atol=1e-6)
@@ -41,8 +43,19 @@ def test_the_ground_is_a_plane_and_noise_is_noise():
     assert not np.array_equal(street(seed=1).matches, street(seed=2).matches)
 
 
-def test_pictures_agree_at_matches():
-    views = street(count=300)
+def test_the_far_scene_is_far_and_stands_on_its_valley():
+    views = street("far", 300)
+    assert views.p_first is not None
+    assert views.p_first[:, 2].min() > 180
+    z = apply(inverse(views.T_first_world), views.p_first)[:, 2]
+    assert z.min() == pytest.approx(VALLEY)
+    assert (np.abs(z - VALLEY) < 1e-6).mean() < 0.7  # and much of it is on towers and mountains
+    assert (skyline().edges[..., 2] > VALLEY - 1e-9).all()
+
+
+@pytest.mark.parametrize("what", ["street", "far"])
+def test_pictures_agree_at_matches(what):
+    views = street(what, count=300)
     first, second = views.images
     assert first is not None
     assert second is not None

@@ -4,7 +4,13 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.circles_spheres import circle_from_points, fit_sphere, sphere_distances, sphere_from_points
+from workbench.geometry.circles_spheres import (
+    circle_from_points,
+    costs_of_centers,
+    fit_sphere,
+    sphere_distances,
+    sphere_from_points,
+)
 
 seeds = st.integers(0, 2**32 - 1)
 MINIMAL = {2: circle_from_points, 3: sphere_from_points}
@@ -94,3 +100,20 @@ def test_a_start_is_refined_to_the_same_optimum():
 def test_too_few_points_are_refused():
     with pytest.raises(ValueError, match="3 points"):
         fit_sphere(np.zeros((2, 2)))
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_the_cost_of_a_centre_is_that_of_its_best_radius(d):
+    rng = np.random.default_rng(0)
+    p, centers = rng.normal(size=(30, d)), 3 * rng.normal(size=(50, d))
+    for center, cost in zip(centers, costs_of_centers(p, centers), strict=True):
+        ways = np.linalg.norm(p - center, axis=1)
+        best = scipy.optimize.minimize_scalar(lambda r, ways=ways: np.square(ways - r).sum())
+        assert cost == pytest.approx(best.fun, rel=1e-9)
+    sphere = fit_sphere(p)
+    least = np.square(sphere_distances(sphere, p)).sum()
+    near = sphere[:-1] + 1e-3 * rng.normal(size=(20, d))
+    assert costs_of_centers(p, sphere[None, :-1])[0] == pytest.approx(least, rel=1e-9)
+    assert (costs_of_centers(p, near) >= least).all()
+    round_about = on_sphere(rng, 20, np.array([*np.ones(d), 2.0]))
+    assert costs_of_centers(round_about, np.ones((1, d)))[0] == pytest.approx(0, abs=1e-12)

@@ -14,6 +14,7 @@ from tests.runs import finished
 from tests.truths.epipolar import apart, errors, sampson, true_fundamental
 from workbench.algorithms.two_views import Followed
 from workbench.errors import InputError
+from workbench.geometry.motions import apply
 from workbench.geometry.rectification import growth
 from workbench.geometry.rotations import rotation_about
 from workbench.scene import Caption, Points, Segments, caption_of
@@ -130,6 +131,57 @@ def test_a_short_baseline_costs_direction_and_depth():
     assert (errors(short) or (0, 0))[1] > 5
     sigmas = [depth_sigma(next(run(Params(heading=0.0, baseline=b)))) for b in (1.0, 0.5, 0.1, 0.02)]
     assert sigmas == pytest.approx([0.11, 0.22, 1.07, 5.4], rel=0.03)
+
+
+def test_far_away_there_is_a_rotation_and_hardly_more():
+    found = {"far": [], "home": []}
+    for name, ends in found.items():
+        for seed in range(12):
+            last = steps_of(run(replace(lesson.preset(name).params, seed=seed)))[-1]
+            z = last.views.p_first[:, 2]
+            ahead = (last.now.p_first[:, 2] > 0) & (
+                apply(last.now.T_second_first, last.now.p_first)[:, 2] > 0
+            )  # before both cameras, after refinement
+            sigma = np.sqrt(2) * 0.5 * z / (420 * np.cos(np.radians(20)))  # of Z over Z, beside each other, 1 m apart
+            line = sampson(last.now.F, last.views.matches)
+            ends.append((*(errors(last) or (9, 9)), ahead.mean(), np.median(sigma), line, last.parallax, z.min()))
+    far, home = (np.median(found[name], axis=0) for name in ("far", "home"))
+    assert far[0] < 1.3 * home[0] < 0.4  # degrees of rotation: as good
+    assert far[1] > 45 > 20 * home[1]  # of direction
+    assert far[2] < 0.8 < 1 == home[2]  # of the points in front
+    assert 0.35 < far[3] < 0.7  # of its depth is the uncertainty of a point, by parallax alone
+    assert far[4] < 1.1 * home[4]  # px from their lines
+    assert 1.2 < far[5] < 1.8 < 40 < home[5]  # px of parallax: little more than the noise of both pixels, 0.7
+    assert min(row[6] for row in found["far"]) > 180  # baselines
+    points = of("far")[16]
+    assert points.now.stage == "points"
+    assert max(points.now.in_front) < 60
+    assert f"parallax is {points.parallax:.2f} px" in caption_of(lesson.draw(points)).text
+    assert end("far").tone == "wrong"
+
+
+def test_what_is_far_is_drawn_as_a_model():
+    state = of("far")[16]
+    scene = lesson.draw(state)
+    seen = {name: scene[name] for name in ("true points", "points", "direction/camera", "direction/true camera")}
+    true, estimated = seen["true points"], seen["points"]
+    assert isinstance(true, Points)
+    assert isinstance(estimated, Points)
+    np.testing.assert_allclose(50 * true.p, state.views.p_first, rtol=1e-12)
+    nearest = np.linalg.norm(estimated.p[:, None] - state.length * state.now.p_first / 50, axis=2).min(axis=1)
+    assert nearest.max() < 1e-9
+    for path, T in (("direction/camera", state.T_second_first), ("direction/true camera", state.T_true)):
+        pointer = seen[path]
+        assert isinstance(pointer, Segments)
+        way = pointer.ends[0, 1] - pointer.ends[0, 0]
+        np.testing.assert_allclose(
+            way / np.linalg.norm(way), -T[:3, :3].T @ T[:3, 3] / np.linalg.norm(T[:3, 3]), atol=1e-9
+        )
+    assert "direction/camera" not in lesson.draw(of("home")[16])  # there it is seen
+    marks = lesson.draw(of("far")[3])["marks"]
+    assert isinstance(marks, Points)
+    np.testing.assert_allclose(marks.p[:, 2], [3, 4, 6, 8])
+    assert [label for label in lesson.draw(of("far")[3]) if label.startswith("mark/")] == ["mark/150", "mark/300"]
 
 
 def test_ahead_the_epipole_is_in_the_picture_and_rows_cannot_be_had():

@@ -8,9 +8,10 @@ import pytest
 
 from lessons.fitting.experiments import ALIKE, EDGE, LARGE, SMALL, iterations_to
 from lessons.fitting.lesson import lesson, run
-from lessons.fitting.state import Params, Walked
+from lessons.fitting.state import Params
 from tests.runs import finished
 from tests.truths.fitting import cost, least, plane_error, straight, wider
+from workbench.algorithms.least_squares import Walked
 from workbench.errors import InputError
 from workbench.geometry.circles_spheres import linearise_sphere
 from workbench.scene import Curve, Points, Segments, Table, caption_of
@@ -167,7 +168,7 @@ def test_losses_on_one_plane():
         "tukey": pytest.approx(157, abs=1),
         "cascade": pytest.approx(2.4, abs=0.1),
     }
-    assert 1e3 * last("drift").squares_error == pytest.approx(132, abs=1)
+    assert 1e3 * of("drift")[-1].plane_errors[1] == pytest.approx(132, abs=1)
     assert [tone(name) for name in ("drift", "tukey", "cascade", "edge-on")] == ["wrong", "wrong", "good", "wrong"]
 
 
@@ -254,9 +255,9 @@ def test_a_wrong_step_is_taken_back_or_goes_astray():
 
 
 def test_wrong_weights_show_in_the_plane():
-    right = last("drift").error
+    right = of("drift")[-1].plane_errors[0]
     *_, end = run(lesson.preset("drift").params, huber_weights=lambda r, c: c / np.maximum(r, c))
-    assert abs(end.now.error - right) > 0.01  # type: ignore[union-attr]
+    assert abs(end.plane_errors[0] - right) > 0.01  # type: ignore[union-attr]
     with pytest.raises(InputError, match="nothing is left to fit"):
         list(run(lesson.preset("drift").params, huber_weights=lambda r, c: np.zeros(len(r))))
 
@@ -298,7 +299,59 @@ def test_the_coins_rim_lies_on_the_photograph():
     scene = lesson.draw(of("coin")[0])
     picture, rim = scene["photograph"], scene["rim"]
     assert isinstance(rim, Points)
-    subject = of("coin")[0].subject
-    x, y, radius = subject.middle
-    uv = np.column_stack([x + radius * rim.p[:, 0], y - radius * rim.p[:, 1]])
+    found = of("coin")[0].subject.rim
+    uv = found.center + found.radius * rim.p[:, :2] * [1, -1]
     np.testing.assert_allclose(picture.places(uv)[:, :2], rim.p[:, :2], atol=1e-9)  # type: ignore[union-attr]
+
+
+def cost_of_centre(p: np.ndarray, centre: np.ndarray) -> float:
+    return float(len(p) * np.linalg.norm(p - centre, axis=1).var())
+
+
+def test_contours_are_where_centres_are_equally_good():
+    state = of("home")[0]
+    valley = lesson.draw(state)["valley"]
+    assert isinstance(valley, Segments)
+    costs = np.array([cost_of_centre(state.subject.p, at) for at in valley.ends[::7, :, :2].mean(axis=1)])
+    octaves = np.log2(costs / costs.max())
+    assert np.median(np.abs(octaves - octaves.round())) < 0.01
+    assert np.percentile(np.abs(octaves - octaves.round()), 97) < 0.05  # the innermost are a few cells wide
+    assert len(np.unique(octaves.round())) >= 7
+    assert all(lesson.draw(other)["valley"] is valley for other in of("escape")[::4])  # the same points, made once
+    assert "valley" not in lesson.draw(of("sphere")[0])
+
+
+@pytest.mark.parametrize("name", ["home", "escape"])
+def test_the_way_goes_down_across_the_contours(name):
+    walked = [state for state in of(name) if isinstance(state.now, Walked)]
+    p = walked[0].subject.p
+    down = [cost_of_centre(p, unknown[:2]) for unknown in walked[-1].now.kept[:8]]
+    assert (np.diff(down) < 1e-6).all()
+    assert len(walked[-1].now.kept) == 1 + sum(state.now.now.phase == "accepted" for state in walked)
+    between_both = [cost_of_centre(p, np.array([x, 0.0])) for x in np.linspace(0.3, 2.5, 12)]
+    assert max(between_both) > 2.5 * max(between_both[0], between_both[-1])  # a hill
+
+
+def test_each_kind_of_step_is_seen_on_the_contours():
+    far = Params(start=(0.9, 0.6, 0.0), start_radius=0.3, arc=45.0)
+    seen = {state.now.now.phase: (state, lesson.draw(state)) for state in states(far) if isinstance(state.now, Walked)}
+    for phase, color, name in (("tried", "highlight", "trial"), ("rejected", "wrong", "taken back")):
+        state, scene = seen[phase]
+        step, circle = scene["way/step"], scene["trial"]
+        assert isinstance(step, Segments)
+        assert isinstance(circle, Segments)
+        assert step.color == circle.color == color
+        assert circle.name == name
+        np.testing.assert_allclose(step.ends[0, :, :2], [state.now.now.unknown[:2], state.now.now.trial[:2]])
+    assert "way/step" not in seen["accepted"][1]
+    assert len(seen["rejected"][0].now.taken_back) >= 1
+    centres = seen["rejected"][1]["way/taken back"]
+    assert isinstance(centres, Points)
+    np.testing.assert_allclose(centres.p[-1, :2], seen["rejected"][0].now.now.trial[:2])
+
+
+def test_a_way_that_leaves_the_picture_is_cut():
+    way = lesson.draw(of("escape")[-1])["way"]
+    assert isinstance(way, Segments)
+    assert np.abs(way.ends).max() == pytest.approx(4.5)
+    assert np.abs(of("escape")[-1].now.kept).max() > 1e4

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from lessons.fitting.lesson import lesson, run
-from lessons.fitting.state import Params, Walked
+from lessons.fitting.state import Params
+from workbench.algorithms.least_squares import Walked
 from workbench.data.files import read_cloud
 from workbench.data.fit_scenes import arc_points, cap_points, pipe_points
 from workbench.errors import InputError
@@ -81,7 +82,7 @@ def test_own_photographs(tmp_path):
     disc = np.where(np.hypot(u - 52, v - 41) < 20, 200, 30).astype(np.uint8)
     Image.fromarray(disc).save(tmp_path / "disc.png")
     end = steps(Params(stage="coin", arc=90.0, image=tmp_path / "disc.png", coin=(50, 40)))[-1]
-    assert end.subject.middle == pytest.approx((52, 41, 20), abs=0.5)
+    assert (*end.subject.rim.center, end.subject.rim.radius) == pytest.approx((52, 41, 20), abs=0.5)
     Image.fromarray(np.zeros((1000, 1000), np.uint8)).save(tmp_path / "large.png")
     with pytest.raises(InputError, match="make it smaller"):
         steps(Params(stage="coin", image=tmp_path / "large.png"))
@@ -121,5 +122,5 @@ def test_a_kinect_scan_in_the_lesson(shared_data):
     path = shared_data / "ransac" / "capture0001.pcd"
     found = steps(Params(stage="robust", loss="Huber then Tukey", cloud=path, noise=0.01))
     assert found[-1].now.last
-    assert np.isnan(found[-1].now.error)
+    assert np.isnan(found[-1].plane_errors[0])
     assert caption_of(lesson.draw(found[-1])).tone == "info"

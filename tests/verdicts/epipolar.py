@@ -54,6 +54,17 @@ def before_both(run: Run, k: int, m: re.Match[str]) -> bool:
     return abs(number(m[1]) - in_front(state, state.now.tested[-1])) <= 1  # one may be on a border
 
 
+def parallax(run: Run, k: int, m: re.Match[str]) -> bool:
+    """Each match's true point beside the point a million times as far along its ray, both seen by the second camera."""
+    views = run.states[k].views
+    R, t = views.T_second_first[:3, :3], views.T_second_first[:3, 3]
+    moves = []
+    for p in views.p_first:
+        near, far = (views.K_second @ (R @ q + t) for q in (p, 1e9 * p))
+        moves.append(np.hypot(*(near[:2] / near[2] - far[:2] / far[2])))
+    return near_px(m[1], float(np.median(moves))) and near_px(m[2], run.params.noise)
+
+
 CAPTIONS = (
     Claim(
         rf"The motion is ({NUMBER}|less than 0\.001)° in rotation and ({NUMBER})° in direction from the true one"
@@ -65,6 +76,7 @@ CAPTIONS = (
     Claim(rf"atches are {PX} from their lines", to_lines),
     Claim(rf"it puts ({NUMBER}) of {NUMBER} points in front", before_both),
     Claim(rf"matched rows are {PX} apart", lambda run, k, m: near_px(m[1], rows_apart(run.states[k]))),
+    Claim(rf"In the median parallax is {PX}, depths .* Noise is ({NUMBER}) px", parallax),
     Claim(rf"the rotation is ({NUMBER})° off, the direction ({NUMBER})°", off),
 )
 
@@ -101,6 +113,10 @@ LINES = {
     "short": (
         Claim(r"lines as near", lambda run, k, m: last_distance(run) < 1.3 * run.params.noise),
         Claim(r"rotation as good", lambda run, k, m: last_errors(run)[0] < 1.0),
+    ),
+    "far": (
+        Claim(r"nothing nearer than 180 baselines", lambda run, k, m: run.states[0].views.p_first[:, 2].min() > 180),
+        Claim(r"The rotation is as good as ever", lambda run, k, m: last_errors(run)[0] < 1.0),
     ),
     "wrong-f": (Claim(r"The matches of the run straight to the side", lambda run, k, m: run.params.heading == 0),),
     "turned": (Claim(r"the rotation can be had all the same", lambda run, k, m: last_errors(run)[0] < 1.0),),

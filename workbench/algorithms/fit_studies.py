@@ -2,14 +2,20 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Literal, get_args
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from workbench.algorithms.least_squares import Descent, Descents, covariance, descend_many
 from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, RoundShape, fit_round
 from workbench.geometry.algebraic_fits import ALGEBRAIC, fit_algebraic
 from workbench.geometry.lines_planes import fit_hyperplane, line_angle, regression_line
+
+NINETY = 1.645  # standard deviations to each side that hold 90 % of normal errors
+HOME, AWAY = 1e-2, 50.0  # metres: so near the best fit a start came home, and with such a radius it will not
+Fate = Literal["comes home", "away or lost", "under way"]
+FATES: tuple[Fate, ...] = get_args(Fate)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -31,6 +37,33 @@ class Spread:
     condition: float
     centers: Float[np.ndarray, "k d"]
     radii: Float[np.ndarray, " k"]
+
+    @property
+    def radius(self) -> float:
+        """Of the answer."""
+        return abs(float(self.unknown[-1]))
+
+    @property
+    def radius_deviation(self) -> float:
+        """Its standard deviation by the covariance."""
+        return float(np.sqrt(self.covariance[-1, -1]))
+
+    @property
+    def predicted(self) -> tuple[float, float]:
+        """Between which radii the middle 90 % should lie by the covariance."""
+        return self.radius - NINETY * self.radius_deviation, self.radius + NINETY * self.radius_deviation
+
+    @property
+    def repeated(self) -> tuple[float, float]:
+        """Between which they do lie in repetition."""
+        low, high = np.percentile(self.radii, [5.0, 95.0])
+        return float(low), float(high)
+
+    @property
+    def wider(self) -> float:
+        """How many times as wide as predicted they lie."""
+        (low, high), (predicted_low, predicted_high) = self.repeated, self.predicted
+        return (high - low) / (predicted_high - predicted_low)
 
 
 def repeat_fit(
@@ -74,6 +107,19 @@ class Basin:
     starts: Float[np.ndarray, "k m"]
     best: Float[np.ndarray, " m"]
     now: Descents
+
+    @property
+    def fates(self) -> Int[np.ndarray, " k"]:
+        """What became of each start, as its place in FATES; the sign of a radius does not matter."""
+        unknowns, best = (
+            np.column_stack([u[..., :-1], np.abs(u[..., -1])]) for u in (self.now.unknowns, self.best[None])
+        )
+        home = (np.abs(unknowns - best) < HOME).all(axis=1)
+        return np.where(home, 0, np.where(self.now.done | (unknowns[:, -1] > AWAY), 1, 2))
+
+    def share(self, fate: Fate) -> float:
+        """Return the share of the starts that met this fate."""
+        return float((self.fates == FATES.index(fate)).mean())
 
 
 def try_starts(

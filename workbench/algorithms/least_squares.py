@@ -186,6 +186,46 @@ def along_step(now: Descent, linearise: Linearise, retract: Retract, shares: Flo
     return Along(shares, costs, promised)
 
 
+@dataclass(frozen=True, eq=False)
+class Walked:
+    """A moment of a descent, where it has been so far, and while a step is tried the sums of squares along it.
+
+    Attributes:
+        now: The moment.
+        kept: The unknowns from the start to the present one.
+        taken_back: Those that were tried and not kept.
+        along: While a step is tried.
+    """
+
+    now: Descent
+    kept: Float[np.ndarray, "k m"]
+    taken_back: Float[np.ndarray, "t m"]
+    along: Along | None = None
+
+
+def with_its_way(
+    moments: Iterator[Descent], linearise: Linearise, retract: Retract, shares: Float[np.ndarray, " k"]
+) -> Iterator[Walked]:
+    """Yield the moments of a descent, each with the way that led there.
+
+    Args:
+        moments: As `descend` yields them.
+        linearise: As of `along_step`.
+        retract: Likewise.
+        shares: Likewise.
+
+    Reference: as `descend` and `along_step`.
+    """
+    kept, taken_back = [], []
+    for now in moments:
+        if now.phase in ("start", "accepted"):
+            kept.append(now.unknown)
+        elif now.phase == "rejected" and now.trial is not None:
+            taken_back.append(now.trial)
+        along = along_step(now, linearise, retract, shares) if now.phase == "tried" else None
+        yield Walked(now, np.array(kept), np.array(taken_back).reshape(-1, now.unknown.size), along)
+
+
 def covariance(residuals: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n k"]) -> Float[np.ndarray, "k k"]:
     """Return the covariance of the unknowns at the minimum, s² (JᵀJ)⁻¹ with s² = r·r / (n - k).
 

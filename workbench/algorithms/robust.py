@@ -1,6 +1,6 @@
 """Robust fits: they use all points at once, and trust each by its distance."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -105,6 +105,57 @@ TUKEY = Loss(
     weights=lambda distances, corner: np.square(np.maximum(1.0 - np.square(distances / corner), 0.0)),
 )
 LOSSES = {loss.name: loss for loss in (SQUARES, HUBER, CAUCHY, GEMAN_MCCLURE, TUKEY)}
+
+
+@dataclass(frozen=True, eq=False)
+class Trusted:
+    """A round of one of several reweighted fits, each from the end of the one before.
+
+    Attributes:
+        loss: By which loss.
+        corner: Where it bends, in the unit of the model's distances.
+        now: The round.
+        first: The estimate that all began with, of plain least squares.
+        last: Whether no other round follows.
+    """
+
+    loss: Loss
+    corner: float
+    now: Reweighted
+    first: Float[np.ndarray, "..."]
+    last: bool
+
+
+def cascade(
+    p: Float[np.ndarray, "n d"],
+    model: Model,
+    losses: Sequence[tuple[Loss, float]],
+    max_iterations: int,
+    tolerance: float,
+) -> Iterator[Trusted]:
+    """Yield the rounds of reweighted fits with several losses, each but the first from the end of the one before.
+
+    Args:
+        p: The rows.
+        model: What to fit.
+        losses: Each with its corner.
+        max_iterations: As of `reweighted_fit`.
+        tolerance: Likewise.
+
+    Raises:
+        ValueError: As `reweighted_fit`.
+    Reference: Maronna, Martin, Yohai and Salibian-Barrera, Robust Statistics, 2nd ed., 2019, 5.5: a loss whose slope returns
+        to zero starts from a fit that is robust already.
+    """
+    first, now = None, None
+    for k, (loss, corner) in enumerate(losses):
+        start = now.estimate if now else None
+        for now in reweighted_fit(
+            p, model, loss, corner=corner, start=start, max_iterations=max_iterations, tolerance=tolerance
+        ):
+            first = now.estimate if first is None else first
+            if start is None or now.iteration > 0:
+                yield Trusted(loss, corner, now, first, now.stop is not None and k == len(losses) - 1)
 
 
 @traced

@@ -10,6 +10,8 @@ from jaxtyping import Float
 from workbench.algorithms.least_squares import descend_many
 from workbench.geometry.circles_spheres import linearise_sphere
 from workbench.geometry.cylinders import linearise_cylinder, retract_cylinder
+from workbench.geometry.motions import across
+from workbench.geometry.polylines import at_height, cylinder_rings, near_arc, segments, sphere_rings
 
 RoundName = Literal["circle", "sphere", "cylinder"]
 
@@ -40,6 +42,42 @@ CYLINDER = RoundShape(
     names=("shift", "shift across", "tilt", "tilt across", "R"),
 )
 ROUND_SHAPES: dict[RoundName, RoundShape] = {shape.name: shape for shape in (CIRCLE, SPHERE, CYLINDER)}
+
+
+def feet(shape: RoundShape, unknown: Float[np.ndarray, " m"], p: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "n d"]:
+    """Return the places of a shape that are nearest to points.
+
+    Args:
+        shape: What it is.
+        unknown: Its numbers.
+        p: The points.
+
+    Reference: a distance falls fastest straight towards its foot; its slopes by a shift of the centre tell that way.
+    """
+    residuals, jacobian = shape.linearise(unknown, p)
+    ways = np.stack(across(unknown[3:6])) if shape is CYLINDER else np.eye(p.shape[1])
+    return p + residuals[:, None] * (jacobian[:, : len(ways)] @ ways)
+
+
+def outline(shape: RoundShape, unknown: Float[np.ndarray, " m"], reach: float) -> Float[np.ndarray, "s 2 3"]:
+    """Return a shape as segments in space; a circle lies at height 0.
+
+    Args:
+        shape: What it is.
+        unknown: Its numbers; none are returned where one is not finite, or the radius is beyond 10⁹.
+        reach: Of a larger circle the arc nearest to the origin, half of it so long.
+
+    Reference: as `linearise_sphere` and `linearise_cylinder`.
+    """
+    if not np.isfinite(unknown).all() or abs(unknown[-1]) > 1e9:
+        return np.empty((0, 2, 3))
+    if shape is CIRCLE:
+        return segments(at_height(near_arc(unknown, reach)))
+    if shape is SPHERE:
+        return sphere_rings(unknown[:3], abs(float(unknown[3])))
+    n_axis = unknown[3:6]
+    p_axis = unknown[:3] - (unknown[:3] @ n_axis) * n_axis
+    return cylinder_rings(p_axis, np.column_stack([*across(n_axis), n_axis]), abs(float(unknown[6])))
 
 
 def fit_round(

@@ -149,7 +149,7 @@ def solve_linear(
 
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997.
     """
-    constraints = epipolar_constraints(homogeneous(uv_first) @ T_first.T, homogeneous(uv_second) @ T_second.T)
+    constraints = epipolar_constraints((T_first @ homogeneous(uv_first).T).T, (T_second @ homogeneous(uv_second).T).T)
     _, values, Vt = np.linalg.svd(constraints)
     F, F_two = (T_second.T @ G @ T_first for G in (Vt[-1].reshape(3, 3), rank_two(Vt[-1].reshape(3, 3))))
     nine = np.zeros(9)

@@ -32,6 +32,11 @@ def pipe_points(arc: float, count: int) -> Float[np.ndarray, "n 3"]:
     return np.column_stack([np.cos(turn), np.sin(turn), height])
 
 
+def line_points(rng: np.random.Generator, slope: float, count: int) -> Float[np.ndarray, "n 2"]:
+    """Return places along a line through the origin, 2 m long, by chance; its slope is an angle, radians."""
+    return rng.uniform(-1.0, 1.0, count)[:, None] * np.array([np.cos(slope), np.sin(slope)])
+
+
 def errors(rng: np.random.Generator, shape: tuple[int, ...], sigma: float, kind: Errors = "independent") -> np.ndarray:
     """Return normal errors of one standard deviation in every coordinate.
 

@@ -1,15 +1,21 @@
-"""Points that people bring in the plane: two columns of a text file."""
+"""Points that people bring in the plane: two columns of a text file; and of something round, in the plane or in space."""
 
 import functools
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
 
 from workbench.data.files import number_rows, read_cloud, stamp, word_rows
 from workbench.data.formats import is_number
+from workbench.data.framing import box
+from workbench.data.thinning import evenly
 from workbench.errors import InputError
+from workbench.geometry.algebraic_fits import fit_algebraic
 
+WIDTH = 2.0  # metres that points are long in the picture, where nothing round says how large they are
+LARGEST = 3.0  # times as large as the points a circle may be that they are shown by
 _TEXT = (".xyz", ".txt", ".csv", ".tsv", ".dat")
 
 
@@ -26,6 +32,42 @@ def read_flat_or_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n d"]:
         InputError: If it is not understood, or has fewer points.
     """
     return _read(path, fewest, stamp(path))
+
+
+def read_round(
+    path: Path, shape: Literal["circle", "sphere", "cylinder", "plane"], most: int
+) -> tuple[Float[np.ndarray, "n d"], float]:
+    """Return the points of a shape about the origin, where the circle or sphere that fits them has about the radius 1 m.
+
+    Args:
+        path: The file, as `read_flat_or_cloud` takes it.
+        shape: What they are points of: of a circle they have two coordinates, of the others three.
+        most: How many points are used; evenly chosen of more.
+
+    Returns:
+        The points, and how many units of the file 1 m of them is. Of a cylinder or a plane, and of an arc so short that its
+        circle is far larger, the box is about the origin, 2 m long.
+
+    Raises:
+        InputError: If the file is not understood, has other columns, or all points lie at one place; and where something
+            round is wanted, if they lie on a line or a plane.
+    """
+    p = read_flat_or_cloud(path, fewest=6)
+    p, wanted = p[evenly(len(p), most)], 2 if shape == "circle" else 3
+    if wanted != p.shape[1]:
+        raise InputError(f"{path.name} has {p.shape[1]} columns, and a {shape} needs {wanted}")
+    size = np.ptp(p, axis=0).max()
+    if not size > 0:
+        raise InputError(f"{path.name}: all its points lie at one place")
+    low, high = box(p)
+    center, unit = (low + high) / 2, size / WIDTH
+    if shape != "plane" and np.linalg.matrix_rank(p - p.mean(axis=0), tol=1e-9 * size) < wanted:
+        flat = "line" if wanted == 2 else "plane"
+        raise InputError(f"{path.name}: the points lie on a {flat}, and nothing round fits them best")
+    found = fit_algebraic(p) if shape in ("circle", "sphere") else None
+    if found is not None and found[-1] < LARGEST * size:
+        center, unit = found[:-1], found[-1]
+    return (p - center) / unit, float(unit)
 
 
 @functools.lru_cache(maxsize=4)

@@ -1,11 +1,71 @@
 """The rim of something bright and round on a dark ground, such as a coin, found from a pixel inside."""
 
+import functools
+from dataclasses import dataclass
+
 import numpy as np
 import scipy
 from jaxtyping import Float, UInt8
 
+from workbench.errors import InputError
+from workbench.geometry.algebraic_fits import fit_algebraic
+
 SMOOTH = 1.5  # pixels, standard deviation
-NEAREST, STEP = 6.0, 0.5  # pixels from the pixel inside
+NEAREST, FARTHEST, STEP = 6.0, 45.0, 0.5  # pixels from the pixel inside
+RAYS, WINDOWS = 360, 12  # round it
+MOST_PIXELS = 900  # of a photograph's longer side
+
+
+@dataclass(frozen=True, eq=False)
+class Rim:
+    """The rim of something round in a photograph.
+
+    Attributes:
+        photograph: Grey or coloured.
+        p: Its points in order round it, y upwards, in radii of the circle through all of them, about its centre.
+        center: Of that circle, pixels.
+        radius: Likewise.
+    """
+
+    photograph: UInt8[np.ndarray, "h w *channels"]
+    p: Float[np.ndarray, "n 2"]
+    center: Float[np.ndarray, "2"]
+    radius: float
+
+    def windows(self, arc: float) -> Float[np.ndarray, "k m 2"]:
+        """Return parts of it that are an arc of so many degrees long and begin in twelve places, the first about +x."""
+        n = len(self.p)
+        count = max(round(n * arc / 360.0), 4)
+        first = np.arange(WINDOWS) * n // WINDOWS - count // 2
+        return self.p[(first[:, None] + np.arange(count)) % n]
+
+
+def find_rim(photograph: UInt8[np.ndarray, "h w *channels"], pixel: tuple[int, int]) -> Rim:
+    """Return the rim of what a pixel is inside of.
+
+    Args:
+        photograph: Of something bright on dark.
+        pixel: Column and row; one beyond the photograph is its last.
+
+    Raises:
+        InputError: If the photograph is too large, or no rim is found.
+    """
+    h, w = photograph.shape[:2]
+    if max(h, w) > MOST_PIXELS:
+        raise InputError(f"the photograph is {w} by {h} pixels; at most {MOST_PIXELS} are used: make it smaller")
+    rim = rim_points(photograph, np.minimum(pixel, (w - 1, h - 1)).astype(float), RAYS, FARTHEST)
+    whole = fit_algebraic(rim)
+    if not (np.isfinite(whole).all() and 0.0 < whole[2] < 4 * FARTHEST):
+        raise InputError("no rim is found round this pixel: pick one inside something bright and round")
+    return Rim(photograph, (rim - whole[:2]) * [1.0, -1.0] / whole[2], whole[:2], float(whole[2]))
+
+
+@functools.cache
+def coins() -> UInt8[np.ndarray, "h w"]:
+    """Return the coins of Pompeii that scikit-image ships."""
+    from skimage import data
+
+    return data.coins()
 
 
 def rim_points(

@@ -55,14 +55,14 @@ def street() -> Street:
     sleepers = [_box((0.0, y, -0.02), (2.2, 0.25, 0.06)) for y in np.arange(1.0, 40.0, 1.5)]
     solids = {
         "ground": _ground(),
-        "sleepers": _lit(_merge(sleepers), (164, 154, 146)),
-        "crate": _lit(crate, (216, 202, 178)),
-        "tower": _lit(tower, (200, 198, 206)),
-        "house": _lit(house, (232, 222, 204)),
-        "roof": _lit(roof, (188, 160, 152)),
-        "door": _lit(door, (140, 130, 122)),
-        "ball": _lit(_ball(BALL_CENTER, BALL_RADIUS), (186, 196, 208)),
-        "far ball": _lit(_ball(np.array([-2.6, 11.0, 0.9]), 0.9), (194, 206, 192)),
+        "sleepers": lit(_merge(sleepers), (164, 154, 146)),
+        "crate": lit(crate, (216, 202, 178)),
+        "tower": lit(tower, (200, 198, 206)),
+        "house": lit(house, (232, 222, 204)),
+        "roof": lit(roof, (188, 160, 152)),
+        "door": lit(door, (140, 130, 122)),
+        "ball": lit(_ball(BALL_CENTER, BALL_RADIUS), (186, 196, 208)),
+        "far ball": lit(_ball(np.array([-2.6, 11.0, 0.9]), 0.9), (194, 206, 192)),
     }
     rails = np.array([[[x, 0.0, 0.06], [x, RAIL_END, 0.06]] for x in (-RAIL_HALF_GAUGE, RAIL_HALF_GAUGE)])
     edges = np.concatenate([_box_edges(mesh) for mesh in (crate, tower, house)] + [_roof_edges(roof)])
@@ -163,8 +163,8 @@ def _merge(meshes: list[Mesh]) -> Mesh:
     return np.concatenate([p for p, _ in meshes]), np.concatenate(faces)
 
 
-def _lit(mesh: Mesh, color: tuple[int, int, int]) -> Solid:
-    """Colour each face by Lambert's law, with half of the light from everywhere."""
+def lit(mesh: Mesh, color: tuple[int, int, int]) -> Solid:
+    """Return vertices and faces with a colour for each face, by Lambert's law, half of the light from everywhere."""
     p, faces = mesh
     a, b, c = p[faces[:, 0]], p[faces[:, 1]], p[faces[:, 2]]
     normal = np.cross(b - a, c - a)

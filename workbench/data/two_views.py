@@ -1,4 +1,4 @@
-"""Two pictures of one scene with matches between them: of the made street, where all is known, or from people's files."""
+"""Two pictures of one scene with matches between them: of a made one, where all is known, or from people's files."""
 
 import functools
 from dataclasses import dataclass, replace
@@ -11,6 +11,7 @@ from jaxtyping import Float, UInt8
 from workbench.data.files import read_image
 from workbench.data.intrinsics import read_intrinsics
 from workbench.data.matches import read_matches
+from workbench.data.skyline import skyline_items
 from workbench.data.street import street_items
 from workbench.data.thinning import evenly
 from workbench.errors import InputError
@@ -24,14 +25,15 @@ from workbench.geometry.triangulation import midpoints
 SIZE = (480, 320)
 FOCAL = 420.0
 EYE, TARGET = np.array([-0.4, 0.5, 1.7]), np.array([0.3, 8.0, 1.2])
-NEAREST, FARTHEST = 3.0, 22.0  # metres, of what is matched
+NEAREST, FARTHEST = 3.0, 22.0  # metres, of what is matched of the street
+MODEL = 50.0  # of the far scene's metres one is drawn: nearly 200 m become the street's 4
 INWARD = 0.1  # radians that the second camera turns towards what both see, where it stands beside the first
 CANDIDATES, CLEAN = 12_000, 300
 GROUND = -0.02  # metres below which everything is ground
 SHOWN_DEPTH = 9.0  # metres that the middle of a person's scene is drawn away
 LARGEST = 720  # pixels that a person's picture is shown wide, at most
 
-What = Literal["street", "plane"]
+What = Literal["street", "plane", "far"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -51,6 +53,7 @@ class TwoViews:
         p_first: The true points of the matches in the first camera's frame, where known.
         clean: Other matches of the same scene without noise, none where not known.
         depth: Of every pixel of the first picture, metres, where known.
+        model: How many metres one metre of the drawing stands for, about the first camera.
     """
 
     images: tuple[UInt8[np.ndarray, "_h _w 3"] | None, UInt8[np.ndarray, "_k _m 3"] | None]
@@ -65,15 +68,16 @@ class TwoViews:
     p_first: Float[np.ndarray, "n 3"] | None = None
     clean: Float[np.ndarray, "_c 4"]
     depth: Float[np.ndarray, "_h _w"] | None = None
+    model: float = 1.0
 
 
-def street_views(
+def made_views(
     what: What, count: int, sigma: float, baseline: float, heading: float, rng: np.random.Generator
 ) -> TwoViews:
-    """Return two pictures of the street, and matches on its surfaces that both cameras see.
+    """Return two pictures of a made scene, and matches on its surfaces that both cameras see.
 
     Args:
-        what: Whether matches lie on all of it, or on its level ground alone.
+        what: The street, its level ground alone, or a city far away.
         count: How many matches.
         sigma: Standard deviation of the noise of each of their numbers, pixels.
         baseline: Distance between the cameras, metres; 0 for a camera that only turns.
@@ -107,10 +111,10 @@ def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.nd
     T_second_world = T_second_first @ T_first_world
     w, h = SIZE
     K = intrinsics(FOCAL, (w - 1) / 2, (h - 1) / 2)
-    first, second = _photograph(T_first_world.tobytes()), _photograph(T_second_world.tobytes())
+    first, second = _photograph(T_first_world.tobytes(), what), _photograph(T_second_world.tobytes(), what)
     uv = np.random.default_rng(0).integers(0, SIZE, (CANDIDATES, 2))
     z = first.depth[uv[:, 1], uv[:, 0]]
-    between = np.flatnonzero((z > NEAREST) & (z < FARTHEST))
+    between = np.flatnonzero((z > NEAREST) & (z < (np.inf if what == "far" else FARTHEST)))
     uv, z = uv[between].astype(float), z[between]
     _, n_first = pixel_rays(uv, np.eye(4), K)
     p_first = n_first / n_first[:, 2:] * z[:, None]
@@ -128,16 +132,17 @@ def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.nd
         T_second_first=T_second_first,
         clean=np.empty((0, 4)),
         depth=first.depth,
+        model=MODEL if what == "far" else 1.0,
     )
     return views, p_first[seen], np.hstack([uv, uv_second])[seen]
 
 
 @functools.lru_cache(maxsize=16)
-def _photograph(T_camera_world: bytes) -> Image:
+def _photograph(T_camera_world: bytes, what: What) -> Image:
     w, h = SIZE
     K = intrinsics(FOCAL, (w - 1) / 2, (h - 1) / 2)
     T = np.frombuffer(T_camera_world).reshape(4, 4)
-    return render(street_items(), T, K, w, h, background=(238, 243, 248))
+    return render(skyline_items() if what == "far" else street_items(), T, K, w, h, background=(238, 243, 248))
 
 
 def own_views(

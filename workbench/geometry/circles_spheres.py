@@ -33,6 +33,26 @@ def sphere_from_points(p: Float[np.ndarray, "*k 4 3"]) -> Float[np.ndarray, "*k 
     return _with_radius(p[..., 0, :], arm / twice[..., None])
 
 
+def costs_of_centers(p: Float[np.ndarray, "n d"], p_centers: Float[np.ndarray, "k d"]) -> Float[np.ndarray, " k"]:
+    """Return for each centre the sum of squared distances of points to the best circle or sphere about it, square metres.
+
+    The best radius is the mean of the ways to the points, so the sum is n times their variance.
+
+    Args:
+        p: The points, metres.
+        p_centers: The centres; one at a time would take the same time, so ask for many.
+
+    Reference: Gander, Golub and Strebel, Least-squares fitting of circles and ellipses, 1994, section 3: the derivative
+        by the radius is zero there.
+    """
+    columns, ways, squares = np.ascontiguousarray(p_centers.T), np.zeros(len(p_centers)), np.zeros(len(p_centers))
+    for point in p:
+        square = np.square(columns - point[:, None]).sum(axis=0)
+        ways += np.sqrt(square)
+        squares += square
+    return np.maximum(squares - ways * ways / len(p), 0.0)
+
+
 def fit_sphere(
     p: Float[np.ndarray, "n d"],
     weights: Float[np.ndarray, " n"] | None = None,

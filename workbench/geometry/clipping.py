@@ -83,6 +83,26 @@ def segments_inside(
     return ends[(np.isfinite(ends) & (ends >= low) & (ends <= high)).all(axis=(1, 2))]
 
 
+def cut_to_rectangle(
+    ends: Float[np.ndarray, "n 2 2"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
+) -> Float[np.ndarray, "m 2 2"]:
+    """Return the parts of segments inside a rectangle; nothing of those whose ends are not finite.
+
+    Args:
+        ends: Both ends of each segment.
+        low: The corner of the rectangle with the smallest coordinates.
+        high: The corner with the largest.
+
+    Examples:
+        >>> cut_to_rectangle(np.array([[[-3.0, 0.0], [1.0, 0.0]]]), np.full(2, -1.0), np.full(2, 2.0)).tolist()
+        [[[-1.0, 0.0], [1.0, 0.0]]]
+    """
+    ends = ends[np.isfinite(ends).all(axis=(1, 2))]
+    shares = np.stack(clip_to_rectangle(ends, low, high), axis=1)
+    cut = ends[:, :1] + shares[..., None] * (ends[:, 1:] - ends[:, :1])
+    return cut[shares[:, 0] < shares[:, 1]]
+
+
 def clip_lines(
     lines: Float[np.ndarray, "n 3"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
 ) -> Float[np.ndarray, "m 2 2"]:

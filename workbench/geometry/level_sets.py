@@ -1,4 +1,5 @@
-"""The surface where a field on a grid is zero: marching cubes, with the places on the grid's edges made by a function.
+"""Where a field on a grid has a value: lines in the plane, and in space the surface where it is zero, by marching cubes with
+the places on the grid's edges made by a function.
 
 Reference: Lorensen and Cline, Marching cubes, SIGGRAPH 1987. Lewiner et al., Efficient implementation of marching cubes'
 cases with topological guarantees, JGT 8(2), 2003.
@@ -9,6 +10,7 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Float, Int
 
+from workbench.geometry.polylines import segments
 from workbench.geometry.voxels import Grid
 
 EdgeCrossings = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
@@ -36,6 +38,33 @@ def edge_crossings(
     apart = f_a - f_b
     t = np.where(apart == 0, 0.5, f_a / np.where(apart == 0, 1.0, apart))
     return p_a + t[:, None] * (p_b - p_a)
+
+
+def level_lines(
+    values: Float[np.ndarray, "y x"],
+    levels: Float[np.ndarray, " k"],
+    low: Float[np.ndarray, "2"],
+    spacing: float,
+) -> Float[np.ndarray, "n 2 2"]:
+    """Return the segments in the plane along which a field has one of some values.
+
+    Args:
+        values: The field at the points of a grid, a row for each y.
+        levels: The values.
+        low: x and y of the first point, m.
+        spacing: From point to point, m.
+
+    Returns:
+        Both ends of each segment; none where the field has no such value.
+
+    Examples:
+        >>> level_lines(np.array([[0.0, 1.0], [0.0, 1.0]]), np.array([0.25]), np.zeros(2), 1.0).tolist()
+        [[[0.25, 1.0], [0.25, 0.0]]]
+    """
+    from skimage.measure import find_contours
+
+    lines = [segments(line) for level in levels for line in find_contours(values, level)]
+    return low + spacing * np.concatenate([np.empty((0, 2, 2)), *lines])[..., ::-1]
 
 
 def level_surface(

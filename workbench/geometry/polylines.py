@@ -21,6 +21,16 @@ def between(p: Float[np.ndarray, "*n d"], q: Float[np.ndarray, "*k d"]) -> Float
     return np.stack([np.atleast_2d(p), np.atleast_2d(q)], axis=1)
 
 
+def at_height(p: Float[np.ndarray, "*n d"], height: float = 0.0) -> Float[np.ndarray, "*n 3"]:
+    """Return points of the plane, or ends of segments, in space at a height; what is in space already stays as it is.
+
+    Examples:
+        >>> at_height(np.array([[1.0, 2.0]]), 3.0).tolist()
+        [[1.0, 2.0, 3.0]]
+    """
+    return p if p.shape[-1] == 3 else np.concatenate([p, np.full((*p.shape[:-1], 1), height)], axis=-1)
+
+
 def rectangle(low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]) -> Float[np.ndarray, "4 2"]:
     """Return the corners of an upright rectangle in order, the lowest first and then the one farther along x."""
     (x0, y0), (x1, y1) = low, high

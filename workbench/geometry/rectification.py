@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from workbench.geometry.homography import homogeneous
+from workbench.geometry.motions import skew
 from workbench.geometry.polylines import rectangle
 
 
@@ -66,11 +67,11 @@ def rectify(
     second_is_left = bool(n_x @ (np.eye(3)[0] + R[0]) < 0.0)
     if second_is_left and keep_upright:
         n_x = -n_x
-    n_y = np.cross(np.eye(3)[2] + R[2], n_x)
+    n_y = skew(np.eye(3)[2] + R[2]) @ n_x
     if not np.linalg.norm(n_y) > 1e-9:
         raise ValueError("the baseline runs along the optical axes: no turn makes rows correspond")
     n_y /= np.linalg.norm(n_y)
-    R_rectified_first = np.stack([n_x, n_y, np.cross(n_x, n_y)])
+    R_rectified_first = np.stack([n_x, n_y, skew(n_x) @ n_y])
     R_rectified_second = R_rectified_first @ R.T
     K = 0.5 * (K_first + K_second)
     K[0, 1] = 0.0
