@@ -7,7 +7,7 @@ import numpy as np
 
 from lessons.fitting.state import Params, Subject
 from workbench.algorithms.round_shapes import CYLINDER, ROUND_SHAPES, RoundName, RoundShape, fit_round
-from workbench.data.files import read_image
+from workbench.data.files import read_image, shipped
 from workbench.data.fit_scenes import arc_points, cap_points, errors, outlying_plane, pipe_points
 from workbench.data.flat_points import read_flat_or_cloud
 from workbench.data.framing import METRES, box
@@ -126,6 +126,4 @@ def windows(rim: np.ndarray, arc: float) -> np.ndarray:
 @functools.cache
 def coins() -> np.ndarray:
     """Return the coins of Pompeii that scikit-image ships."""
-    from skimage import data
-
-    return data.coins()
+    return read_image(shipped("coins.png"))

@@ -121,6 +121,13 @@ def read_image(path: Path) -> UInt8[np.ndarray, "h w *channels"]:
         return np.array(image.convert("L" if image.mode in ("1", "L", "LA") else "RGB"))
 
 
+def shipped(name: str) -> Path:
+    """Return where scikit-image keeps one of the samples in its wheel: to import its own readers takes 0.3 s."""
+    import skimage
+
+    return Path(skimage.__file__).with_name("data") / name
+
+
 @contextlib.contextmanager
 def opened_image(source: Path | io.BytesIO, name: str) -> "Iterator[Image.Image]":
     """Give an image of Pillow's, its size and depth judged and nothing decoded yet; what fails on it is told in one line.
