@@ -101,7 +101,7 @@ def _distances(scene: Street, p_world: np.ndarray, v_world: np.ndarray) -> np.nd
 
 
 def _towards(off: np.ndarray, reach: float, v_world: np.ndarray, flat: np.ndarray) -> np.ndarray:
-    """Return which rays, seen from above, pass a middle by `reach` or less, and some more; `flat` is their squared length."""
+    """Return which rays, seen from above, pass a middle by `reach` or little more; `flat` is their squared length."""
     along = v_world[:, :2] @ off
     beside = off @ off - (1.01 * reach) ** 2  # square of how far it is to the circle's edge
     return np.flatnonzero((along > 0) & (along * along >= beside * flat)) if beside > 0 else np.arange(len(flat))
