@@ -7,7 +7,7 @@ import numpy as np
 from lessons.calibration.charts import beside
 from lessons.calibration.state import State, Subject
 from lessons.calibration.views import photograph
-from lessons.calibration.words import caption
+from lessons.calibration.words import caption, title
 from workbench.data.boards import board_mesh, board_points
 from workbench.geometry.cameras import look_at
 from workbench.geometry.motions import apply, inverse
@@ -95,7 +95,7 @@ def _picture(state: State) -> dict[str, Primitive]:
     """Draw the view that is shown, with corners as measured and as the model has them."""
     subject, now = state.subject, state.now
     image = photograph(state.params, subject, state.shown)
-    picture = Picture(image, f"View {subject.views[state.shown]}", SCREEN[1], SCREEN[0])
+    picture = Picture(image, title(subject, subject.views[state.shown]), SCREEN[1], SCREEN[0])
     factor = picture.size[0] / subject.size[0]
     uv, off = subject.uv[state.shown], now.residuals[state.shown]
     long = LONGER * off

@@ -11,6 +11,7 @@ from workbench.algorithms.board_adjustment import Adjustment
 from workbench.data.boards import Fault
 from workbench.data.corners import MOST_VIEWS, Which
 from workbench.data.framing import Unit
+from workbench.data.pictures import Pictures
 from workbench.geometry.distortion import NONE, Distortion
 from workbench.knobs import Knob, Pick
 
@@ -41,7 +42,10 @@ class Params:
     corners: Annotated[Path | None, Knob("Own corners: npz (object_points, corners) or lines view X Y u v")] = None
     camera: Annotated[Which, Knob("Which camera, where a file has two", of_files=True)] = "first"
     unit: Annotated[Unit, Knob("In which unit an own board is", of_files=True)] = "m"
-    image: Annotated[Path | None, Knob("Own picture of the view that is shown")] = None
+    images: Annotated[
+        Path | None,
+        Knob("Own pictures of the views: a folder or a zip of jpg or png; or one picture, of the view shown"),
+    ] = None
     seed: Annotated[int, Knob("Where boards are, and their noise", 0, 99)] = 0
 
 
@@ -57,6 +61,7 @@ class Subject:
         K: The true camera, or None where nobody knows it.
         lens: The true lens.
         Ts_camera_board: True poses of the views that are used; none where nobody knows.
+        pictures: A person's own pictures of all views.
     """
 
     p_board: np.ndarray
@@ -66,6 +71,7 @@ class Subject:
     K: np.ndarray | None = None
     lens: Distortion = NONE
     Ts_camera_board: np.ndarray = field(default_factory=lambda: np.empty((0, 4, 4)))
+    pictures: Pictures | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

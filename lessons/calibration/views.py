@@ -8,8 +8,7 @@ import numpy as np
 from lessons.calibration.state import COEFFICIENTS, Params, Subject
 from workbench.algorithms.board_adjustment import linearised, shared_information
 from workbench.data import boards
-from workbench.data.corners import read_corners
-from workbench.data.files import read_image
+from workbench.data.corners import pictures_below, read_corners
 from workbench.data.framing import METRES
 from workbench.errors import InputError
 from workbench.geometry.cameras import normalize, resize_intrinsics
@@ -20,22 +19,27 @@ from workbench.knobs import only
 TILTS = np.array([1.0, 2, 5, 10, 15, 20, 30, 40, 50, 60])  # degrees
 GRID = (33, 25)  # places along the width and the height of a picture
 PHOTOGRAPH = (320, 240)
+MOST_SIDE = 640  # pixels, of an own picture
 
 
 def subject_of(params: Params) -> Subject:
     """Return the views of a run.
 
     Raises:
-        InputError: If fewer than two are left.
+        InputError: If fewer than two are left, or own files cannot be used.
     """
     if params.corners is not None:
         found = read_corners(params.corners, params.camera)
+        pictures = None if params.images is None else pictures_below(found, params.images, params.shown)
         subject = Subject(
             p_board=METRES[params.unit] * found.p_board,
             uv=found.uv,
             views=tuple(range(len(found.uv))),
-            size=found.size,
+            size=found.size if pictures is None else found.stated or pictures.size,
+            pictures=pictures,
         )
+    elif params.images is not None:
+        raise InputError("own pictures show own corners: give a file of these too")
     else:
         subject = _built_in(
             only(params, "views", "tilt", "distance", "spread", "noise", "fault", "bad_corners", "seed")
@@ -79,9 +83,9 @@ def photograph(params: Params, subject: Subject, shown: int) -> np.ndarray:
     """Return the picture of a view: as our camera takes it, a person's own, or an empty one."""
     if subject.K is not None:
         return _taken(only(params, "views", "tilt", "distance", "spread", "fault", "seed"), subject.views[shown])
-    if params.image is not None and subject.views[shown] == params.shown:
-        image = read_image(params.image)
-        return image[..., :3] if image.ndim == 3 else image
+    own = None if subject.pictures is None else subject.pictures.shown(subject.views[shown], MOST_SIDE)
+    if own is not None:
+        return own
     w, h = subject.size
     return np.full((max(round(PHOTOGRAPH[0] * h / w), 1), PHOTOGRAPH[0], 3), 232, np.uint8)
 

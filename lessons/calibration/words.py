@@ -1,9 +1,12 @@
 """The captions: what a step did, with its numbers, and whether the end is right."""
 
+from pathlib import PurePosixPath
+
 import numpy as np
 
-from lessons.calibration.state import Ending, State
+from lessons.calibration.state import Ending, State, Subject
 from workbench.algorithms.board_adjustment import Stop
+from workbench.errors import one_line
 from workbench.numerals import brief, counted, fixed, percent, pixels
 from workbench.scene import Caption
 
@@ -28,6 +31,14 @@ def caption(state: State) -> Caption:
         "lens": _lens,
         "refine": _refine,
     }[state.now.phase](state)
+
+
+def title(subject: Subject, view: int) -> str:
+    """Return what the picture of a view is called, by its file where a person brought one."""
+    if subject.pictures is None:
+        return f"View {view}"
+    name = subject.pictures.names[view]
+    return f"View {view}, no picture" if name is None else f"View {view}, {one_line(PurePosixPath(name).name)}"
 
 
 def is_right(state: State) -> bool:

@@ -87,7 +87,8 @@ def nearer(p: np.ndarray, share: np.ndarray | float) -> np.ndarray:
 
 def _clumps(side: str, p: np.ndarray, dot: float, T_world_side: np.ndarray) -> dict[str, Primitive]:
     """Return a disc behind source points that share a place: its area is theirs, rounded up to 2, 4, 8, ... points."""
-    pairs = scipy.spatial.KDTree(p).sparse_distance_matrix(scipy.spatial.KDTree(p), 0.3 * dot, output_type="coo_matrix")
+    tree = scipy.spatial.KDTree(p)
+    pairs = tree.sparse_distance_matrix(tree, 0.3 * dot, output_type="coo_matrix")
     links = scipy.sparse.coo_array((np.ones(pairs.nnz), (pairs.row, pairs.col)), shape=(len(p), len(p)))
     _, place = scipy.sparse.csgraph.connected_components(links, directed=False)
     _, first, counts = np.unique(place, return_index=True, return_counts=True)

@@ -1,5 +1,6 @@
 """What one step looks like: the two cameras with their pictures, the cloud so far, and the ray of the followed pixel."""
 
+import functools
 import math
 
 import numpy as np
@@ -148,6 +149,7 @@ def _swept(state: State) -> dict[str, Primitive]:
     }
 
 
+@functools.lru_cache(maxsize=16)
 def _ruler(setup: Setup) -> dict[str, Primitive]:
     """Show what the cameras see as a faint pyramid, along one edge of which the metres are counted."""
     far = _corners(setup, setup.far / 1.25)

@@ -1,5 +1,6 @@
 """Where things stand: both pictures upright side by side, the map of disparities below, and beside it the depths."""
 
+import functools
 import math
 
 import numpy as np
@@ -49,7 +50,12 @@ def pictures(state: State) -> dict[str, Primitive]:
 
 def _upright(image: np.ndarray | Field, title: str, x: float, y: float) -> Picture:
     h, w = (image.values if isinstance(image, Field) else image).shape[:2]
-    return Picture(image, title, min(LARGEST[0], LARGEST[1] * w / h), VIEW.facing(x, y, NEARER))
+    return Picture(image, title, min(LARGEST[0], LARGEST[1] * w / h), _pose(x, y))
+
+
+@functools.cache
+def _pose(x: float, y: float) -> np.ndarray:
+    return VIEW.facing(x, y, NEARER)
 
 
 def _named(picture: Picture, name: str, color: Role) -> Label:

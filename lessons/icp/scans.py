@@ -15,7 +15,7 @@ from workbench.data.lidar import lidar_pair
 from workbench.data.thinning import some_points, spacing, voxel_means
 from workbench.errors import InputError
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
-from workbench.geometry.normals import on_a_line, point_normals
+from workbench.geometry.normals import point_normals
 
 RINGS, COLUMNS = 32, 900
 WIDTH = 1.2  # metres of the picture that large or small scans are shown wide
@@ -149,7 +149,6 @@ def _framed(p_target: np.ndarray, p_source: np.ndarray, up: Up, planes: Planes) 
 
 def _normals_when_asked(p: np.ndarray, planes: Planes) -> Callable[[], np.ndarray]:
     def normals() -> np.ndarray:
-        pull = ~on_a_line(p) if planes == "spread" else np.ones(len(p), bool)
-        return point_normals(p) * (pull if pull.any() else ~pull)[:, None]
+        return point_normals(p, spread=planes == "spread")
 
     return functools.cache(normals)

@@ -201,13 +201,20 @@ def neural(params: Params, subject: Subject, functions: Functions) -> Steps:
     p = np.concatenate([near + NEAR_SPREAD * rng.standard_normal(near.shape), rng.uniform(-1, 1, (FAR, 3))])
     network, corners = new_network(params.width, params.features, params.activation, rng), grid.centres()
     counts = iteration_counts(params.iterations)
-    found = train_field(network, p, subject.field(p), counts=counts, target=params.target, rng=rng)
+    field = subject.field(p) if subject.quick else _known(subject, p.tobytes())
+    found = train_field(network, p, field, counts=counts, target=params.target, rng=rng)
     for trained in found:
         values = trained.network(corners).reshape(grid.shape)
         surface = measured(subject, *level_surface(values, grid, functions.edge_crossings))
         now = Fitted(trained=trained, grid=grid, values=values)
         state = grown(replace(state, now=now, surface=surface), network.bytes, surface.mean)
         yield state
+
+
+@functools.lru_cache(maxsize=4)
+def _known(subject: Subject, p: bytes) -> np.ndarray:
+    """Return the distances of samples to a mesh, which do not change with the network."""
+    return subject.field(np.frombuffer(p).reshape(-1, 3))
 
 
 def iteration_counts(last: int) -> tuple[int, ...]:

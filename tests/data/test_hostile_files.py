@@ -3,6 +3,7 @@
 import gzip
 import io
 import json
+import os
 import pickle
 import struct
 import zipfile
@@ -13,13 +14,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from workbench.data import arrays, files, formats
+from workbench.data import arrays, files, formats, pictures
 from workbench.data.corners import read_corners
 from workbench.data.edge_lists import read_edges
 from workbench.data.files import read_cloud, read_image, read_mesh, read_pose
 from workbench.data.flat_points import read_flat_or_cloud
 from workbench.data.intrinsics import read_intrinsics
 from workbench.data.matches import read_matches
+from workbench.data.pictures import names_in, pictures_of
 from workbench.data.places import read_places
 from workbench.data.sightings import read_sightings
 from workbench.errors import InputError
@@ -165,6 +167,44 @@ def test_an_image_s_size_is_judged_before_it_is_unpacked(tmp_path, monkeypatch):
     monkeypatch.setattr(files, "MOST_PIXELS", 10**6)
     monkeypatch.setattr(Image.Image, "convert", lambda *_: pytest.fail("unpacked"))
     refused(read_image, tmp_path / "a.png", "2000 x 2000 pixels; at most 1,000,000")
+
+
+def test_a_folder_of_pictures_leads_nowhere_else(tmp_path):
+    home, other = tmp_path / "home", tmp_path / "other"
+    (home / "below.jpg").mkdir(parents=True)
+    other.mkdir()
+    Image.new("L", (4, 3)).save(other / "secret.png")
+    (home / "secret.png").symlink_to(other / "secret.png")
+    (home / "zero.png").symlink_to("/dev/zero")
+    os.mkfifo(home / "pipe.png")
+    refused(names_in, home, "no pictures")
+    Image.new("L", (4, 3)).save(home / "a.png")
+    assert names_in(home) == ("a.png",)
+
+
+def test_a_zip_of_pictures_writes_nothing_and_does_not_unpack_to_much(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    picture = io.BytesIO()
+    Image.new("L", (4, 3)).save(picture, "PNG")
+    with zipfile.ZipFile("p.zip", "w", zipfile.ZIP_DEFLATED) as packed:
+        packed.writestr("../../escaped.png", picture.getvalue())
+        packed.writestr("/etc/absolute.png", picture.getvalue())
+        packed.writestr("__MACOSX/._a.png", b"a note of the system")
+        packed.writestr("large.png", picture.getvalue() + bytes(10**6))
+    path = Path("p.zip")
+    assert set(names_in(path)) == {"../../escaped.png", "/etc/absolute.png", "large.png"}
+    shown = pictures_of(path, names_in(path)).shown(0)
+    assert shown is not None
+    assert shown.shape == (3, 4)
+    assert [one.name for one in tmp_path.iterdir()] == ["p.zip"]
+    monkeypatch.setattr(pictures, "MOST_BYTES", 10**5)
+    refused(lambda path: pictures_of(path, ("large.png",)), path, "too large")
+    Path("broken.zip").write_bytes(path.read_bytes()[:-30])
+    refused(names_in, Path("broken.zip"), "not readable as a zip")
+    content = bytearray(path.read_bytes())
+    content[60:70] = bytes(10)
+    Path("damaged.zip").write_bytes(content)
+    refused(lambda path: pictures_of(path, names_in(path)), Path("damaged.zip"), "cannot be unpacked|not readable")
 
 
 def test_a_mesh_names_no_other_files(tmp_path):

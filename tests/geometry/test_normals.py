@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.normals import _least_directions, on_a_line, point_normals, surface_variation
+from workbench.geometry.normals import _least_directions, _neighbourhoods, on_a_line, point_normals, surface_variation
 
 
 def angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -97,15 +97,25 @@ def test_the_oracle_of_plain_principal_components():
     assert angles(point_normals(p, k=12), expected).max() < 1e-4
 
 
+def lines(p: np.ndarray) -> np.ndarray:
+    found = np.zeros(len(p), bool)
+    for rows, covariances in _neighbourhoods(p, 16):
+        found[rows] = on_a_line(covariances)
+    return found
+
+
 def test_points_on_rings_lie_on_lines_and_points_on_a_surface_do_not():
     rng = np.random.default_rng(0)
     angle = np.linspace(0, 2 * np.pi, 400, endpoint=False)
     rings = np.concatenate([r * np.column_stack([np.cos(angle), np.sin(angle), 0 * angle]) for r in (8.0, 10.0)])
     plane, lump = rng.uniform(-1, 1, (600, 3)) * [1, 1, 0], rng.normal(size=(600, 3))
-    assert on_a_line(rings + 0.005 * rng.normal(size=rings.shape)).all()
-    assert on_a_line(plane).mean() < 0.03
-    assert on_a_line(lump).mean() < 0.1
-    assert on_a_line(np.ones((20, 3))).all()
+    assert lines(rings + 0.005 * rng.normal(size=rings.shape)).all()
+    assert lines(plane).mean() < 0.03
+    assert lines(lump).mean() < 0.1
+    assert lines(np.ones((20, 3))).all()
+    mixed = np.concatenate([plane, rings])
+    np.testing.assert_array_equal(point_normals(mixed, spread=True), point_normals(mixed) * ~lines(mixed)[:, None])
+    np.testing.assert_array_equal(point_normals(rings, spread=True), point_normals(rings))
 
 
 @settings(max_examples=25, deadline=None)

@@ -1,15 +1,20 @@
 """Own corners in the calibration lesson: two real cameras, a picture, units, and what is refused."""
 
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
+from scipy import ndimage
 
 from lessons.calibration.lesson import lesson, run
 from lessons.calibration.state import Params, State
+from workbench import open_recording, record
 from workbench.data.boards import board_points
 from workbench.errors import InputError
 from workbench.scene import Camera, Picture, Segments, Table, caption_of
+from workbench.timeline import Timeline
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +28,9 @@ def end(params: Params) -> State:
 
 
 def test_the_left_camera(corners, shared_data):
-    states = list(run(Params(corners=corners, lens="k1 k2 p1 p2 k3", image=shared_data / "calibration" / "left01.jpg")))
+    states = list(
+        run(Params(corners=corners, lens="k1 k2 p1 p2 k3", images=shared_data / "calibration" / "left01.jpg"))
+    )
     last = states[-1]
     assert last.rms == pytest.approx(0.40877, abs=1e-4)
     assert last.now.K is not None
@@ -45,6 +52,79 @@ def test_the_left_camera(corners, shared_data):
     other = lesson.draw(views)["picture"]  # of view 1 there is no picture
     assert isinstance(other, Picture)
     assert other.rgb().std() == 0
+
+
+def test_pictures_lie_below_the_corners_of_their_views(corners, tmp_path):
+    """A corner of the board is a saddle: its four neighbours along the diagonals are two dark and two bright."""
+    folder = corners.parent
+    shutil.make_archive(str(tmp_path / "all"), "zip", folder)
+    for images in (folder, tmp_path / "all.zip"):
+        states = list(run(Params(corners=corners, images=images)))
+        for state, name in ((states[0], "left01.jpg"), (states[13], "left14.jpg"), (states[-3], "left02.jpg")):
+            picture = lesson.draw(state)["picture"]
+            assert isinstance(picture, Picture)
+            assert picture.title == f"View {state.shown}, {name}"
+            assert picture.size == (640, 480)
+            level = ndimage.gaussian_filter(picture.rgb()[..., 0].astype(float), 1.0)
+            u, v = state.subject.uv[state.shown].T
+            ring = [ndimage.map_coordinates(level, [v + 4 * np.sin(a), u + 4 * np.cos(a)])
+                    for a in np.arange(32) * np.pi / 16]  # fmt: skip
+            signs = np.sign(ring - np.mean(ring, axis=0))
+            assert ((signs != np.roll(signs, 1, axis=0)).sum(axis=0) == 4).mean() > 0.9
+
+
+def test_pictures_are_recorded(corners, tmp_path):
+    path = tmp_path / "own.rrd"
+    record(lesson, path, params=Params(corners=corners, images=corners.parent, leave_out=1))
+    assert len(open_recording(path).captions) == 22
+    assert path.stat().st_size > 12 * 50_000  # 12 pictures; empty ones take nothing
+
+
+def test_pictures_without_names_shrunk_and_one_missing(corners, tmp_path):
+    arrays = np.load(corners)
+    small = tmp_path / "small"
+    small.mkdir()
+    for k, path in enumerate(sorted(corners.parent.glob("left*.jpg"))):
+        Image.open(path).resize((320, 240)).save(small / f"p{k}.png")
+    board, uv = arrays["object_points"], arrays["left"]
+    np.savez(tmp_path / "sized.npz", board=board, uv=uv, size=[640, 480])
+    np.savez(tmp_path / "plain.npz", board=board, uv=uv)
+    np.savez(tmp_path / "named.npz", board=board, uv=uv, names=[f"p{k}" for k in range(13)], size=[640, 480])
+    state = next(run(Params(corners=tmp_path / "sized.npz", images=small)))
+    assert state.subject.size == (640, 480)
+    picture = lesson.draw(state)["picture"]
+    assert isinstance(picture, Picture)
+    assert (picture.title, picture.size) == ("View 0, p0.png", (320, 240))
+    with pytest.raises(InputError, match="small: pictures of 320 x 240 pixels, and corners as far as"):
+        next(run(Params(corners=tmp_path / "plain.npz", images=small)))
+    (small / "p0.png").unlink()
+    with pytest.raises(InputError, match="small: 12 pictures for 13 views"):
+        next(run(Params(corners=tmp_path / "sized.npz", images=small)))
+    picture = lesson.draw(next(run(Params(corners=tmp_path / "named.npz", images=small))))["picture"]
+    assert isinstance(picture, Picture)
+    assert picture.title == "View 0, no picture"
+    Image.new("L", (320, 320)).save(small / "p4.png")
+    with pytest.raises(InputError, match=r"p4.png has 320 x 320 pixels, p1.png 320 x 240"):
+        next(run(Params(corners=tmp_path / "named.npz", images=small)))
+    for path in small.iterdir():
+        Image.new("L", (320, 320)).save(path)
+    with pytest.raises(InputError, match="small: pictures of 320 x 320 pixels, and corners of 640 x 480"):
+        next(run(Params(corners=tmp_path / "named.npz", images=small)))
+    (small / "p4.png").write_text("no picture")
+    with pytest.raises(InputError, match=r"p4.png: not readable"):
+        next(run(Params(corners=tmp_path / "named.npz", images=small)))
+
+
+def test_a_picture_that_breaks_off_ends_the_run_where_it_is_shown(corners, tmp_path):
+    for path in corners.parent.glob("left*.jpg"):
+        shutil.copyfile(path, tmp_path / path.name)
+    whole = (tmp_path / "left05.jpg").read_bytes()
+    (tmp_path / "left05.jpg").write_bytes(whole[: len(whole) // 2])
+    timeline = Timeline(lesson, Params(corners=corners, images=tmp_path))
+    timeline.complete()
+    assert len(timeline) == 5
+    assert timeline.stopped is not None
+    assert timeline.stopped.startswith("left05.jpg: not readable as an image")
 
 
 def test_without_its_bad_view_and_with_cauchys_loss(corners):

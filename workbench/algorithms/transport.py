@@ -4,6 +4,7 @@ References: Rubner, Tomasi and Guibas, The earth mover's distance, 2000; Crouse,
 algorithms, 2016 (scipy's solver); Peyre and Cuturi, Computational optimal transport, 2019, sections 2.3 and 3.
 """
 
+import functools
 from dataclasses import dataclass
 from typing import Any
 
@@ -115,13 +116,23 @@ def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) 
         Several matchings may share the least total; one of them is returned.
     """
     check_clouds(p_a, p_b)
+    return _matched(*(one for p in (p_a, p_b) for one in (np.asarray(p, float).tobytes(), p.shape)))
+
+
+@functools.lru_cache(maxsize=8)
+def _matched(a: bytes, shape_a: tuple[int, ...], b: bytes, shape_b: tuple[int, ...]) -> Matching:
+    """Return the best matching; who asks how far two clouds are apart then asks which way they go, and what goes where."""
+    p_a, p_b = np.frombuffer(a).reshape(shape_a), np.frombuffer(b).reshape(shape_b)
     distances = scipy.spatial.distance.cdist(p_a, p_b)
     if len(p_a) == len(p_b):
         i_a, i_b = best_assignment(distances)
         mass = np.full(len(p_a), 1 / len(p_a))
     else:
         i_a, i_b, mass = best_plan(distances)
-    return Matching(i_a, i_b, mass, distances[i_a, i_b])
+    found = Matching(i_a, i_b, mass, distances[i_a, i_b])
+    for array in (found.i_a, found.i_b, found.mass, found.distances):
+        array.setflags(write=False)
+    return found
 
 
 def best_assignment(cost: Float[np.ndarray, "n m"]) -> tuple[Int[np.ndarray, "n"], Int[np.ndarray, "n"]]:

@@ -9,9 +9,11 @@ from jaxtyping import Float
 
 from workbench.data.arrays import read_arrays
 from workbench.data.files import stamp, word_rows
+from workbench.data.pictures import Pictures, holds_many, matched, pictures_of
 from workbench.errors import InputError
 
 MOST_VIEWS, MOST_POINTS = 40, 1000
+STRETCHED = 0.01  # share by which the shape of a picture may differ from that which corners were found in
 Which = Literal["first", "second"]
 _BOARD = ("object_points", "p_board", "board")
 _PIXELS = (("left", "right"), ("uv", "uv2"), ("corners", "corners2"), ("image_points", "image_points2"))
@@ -21,26 +23,34 @@ _SIZES = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Corners:
     """Corners of a file.
 
     Attributes:
         p_board: Points of the board, in the file's unit, Z = 0.
         uv: Their pixels in every view.
-        size: Width and height of the pictures, as the file says, or the least usual size that holds all corners.
+        names: What the views are called; empty where the file does not say.
+        stated: Width and height of the pictures, as the file says, or None.
     """
 
     p_board: Float[np.ndarray, "n 3"]
     uv: Float[np.ndarray, "k n 2"]
-    size: tuple[int, int]
+    names: tuple[str, ...] = ()
+    stated: tuple[int, int] | None = None
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the pictures: as stated, or the least usual size that holds all corners."""
+        return self.stated or _size_of(self.uv)
 
 
 def read_corners(path: Path, which: Which = "first") -> Corners:
     """Return the corners of a file.
 
     Formats: npz with object_points (n, 3) or (n, 2), and left, corners, uv or image_points (k, n, 2), a second camera's in
-    right, corners2, uv2 or image_points2, and optionally size (width, height); or lines of text `view X Y u v`.
+    right, corners2, uv2 or image_points2, and optionally size (width, height) and what the pictures are called (names, or
+    left_names, right_names and so on); or lines of text `view X Y u v`.
 
     Args:
         path: The file.
@@ -64,6 +74,28 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
     if (np.ptp(uv, axis=1).min(axis=1) <= 0).any():
         raise InputError(f"{path.name}: in a view all corners are on one row or column of pixels")
     return found
+
+
+def pictures_below(found: Corners, path: Path, only: int) -> Pictures:
+    """Return a person's own pictures in which corners were found, as large as these or shrunk.
+
+    Args:
+        found: The corners; they have to lie in the pictures, or their file says of which size these were.
+        path: A folder or a zip, matched by the names of views or in order; or a picture of one view.
+        only: That view, where it is one picture.
+
+    Raises:
+        InputError: If they are no pictures, not as many as views, or of another size than each other or the corners.
+    """
+    count = len(found.uv)
+    one = tuple(path.name if view == min(only, count - 1) else None for view in range(count))
+    pictures = pictures_of(path, matched(path, found.names, count) if holds_many(path) else one)
+    (w, h), (u, v), stated = pictures.size, found.uv.reshape(-1, 2).max(axis=0), found.stated
+    if stated is None and not (u < w and v < h):
+        raise InputError(f"{path.name or path}: pictures of {w} x {h} pixels, and corners as far as ({u:.0f}, {v:.0f})")
+    if stated is not None and abs(w * stated[1] / (h * stated[0]) - 1) > STRETCHED:
+        raise InputError(f"{path.name or path}: pictures of {w} x {h} pixels, and corners of {stated[0]} x {stated[1]}")
+    return pictures
 
 
 def _from_arrays(path: Path, which: Which) -> Corners:
@@ -91,7 +123,14 @@ def _from_arrays(path: Path, which: Which) -> Corners:
         size.shape == (2,) and size.dtype.kind in "iuf" and size.min() > 0 and size.max() < 1e5
     ):
         raise InputError(f"{path.name}: size is two numbers, width and height in pixels")
-    return Corners(p, uv.astype(float), _size_of(uv) if size is None else (int(size[0]), int(size[1])))
+    said = (f"{pair[which == 'second']}_names", "names")
+    names = next((arrays[one] for one in said if one in arrays and arrays[one].shape == uv.shape[:1]), np.empty(0, str))
+    return Corners(
+        p_board=p,
+        uv=uv.astype(float),
+        names=tuple(names.tolist()) if names.dtype.kind == "U" else (),
+        stated=None if size is None else (int(size[0]), int(size[1])),
+    )
 
 
 def _from_text(path: Path) -> Corners:
@@ -114,8 +153,7 @@ def _from_text(path: Path) -> Corners:
     if np.ptp(table[:, :, :2], axis=0).max() > 0:
         raise InputError(f"{path.name}: the views do not list the same points of the board in the same order")
     p = np.column_stack([table[0, :, :2], np.zeros(table.shape[1])])
-    uv = table[:, :, 2:]
-    return Corners(p, uv, _size_of(uv))
+    return Corners(p_board=p, uv=table[:, :, 2:], names=tuple(views))
 
 
 def _size_of(uv: np.ndarray) -> tuple[int, int]:

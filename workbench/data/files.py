@@ -1,12 +1,14 @@
 """Files that people bring: clouds, meshes, images and known poses, each read or refused in one clear line."""
 
+import contextlib
 import functools
 import gzip
 import io
 import re
 import zlib
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy
@@ -16,6 +18,9 @@ from workbench.data.arrays import read_arrays
 from workbench.data.formats import is_number, mesh_error, obj_points, pcd_points, ply_points, text_points, words_of
 from workbench.errors import InputError
 from workbench.geometry.motions import inverse, motion
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 MOST_BYTES = 500 * 10**6
 MOST_POINTS = 5_000_000
@@ -112,21 +117,37 @@ def read_image(path: Path) -> UInt8[np.ndarray, "h w *channels"]:
     """
     path = Path(path)
     stamp(path)
+    with opened_image(path, path.name) as image:
+        return np.array(image.convert("L" if image.mode in ("1", "L", "LA") else "RGB"))
+
+
+def shipped(name: str) -> Path:
+    """Return where scikit-image keeps one of the samples in its wheel: to import its own readers takes 0.3 s."""
+    import skimage
+
+    return Path(skimage.__file__).with_name("data") / name
+
+
+@contextlib.contextmanager
+def opened_image(source: Path | io.BytesIO, name: str) -> "Iterator[Image.Image]":
+    """Give an image of Pillow's, its size and depth judged and nothing decoded yet; what fails on it is told in one line.
+
+    Raises:
+        InputError: If it is no image of 8 bits a channel, or too large.
+    """
     from PIL import Image
 
     try:
-        with Image.open(path, formats=IMAGES) as image:
+        with Image.open(source, formats=IMAGES) as image:
             if image.width * image.height > MOST_PIXELS:
-                raise InputError(
-                    f"{path.name}: {image.width} x {image.height} pixels; at most {MOST_PIXELS:,} are read"
-                )
+                raise InputError(f"{name}: {image.width} x {image.height} pixels; at most {MOST_PIXELS:,} are read")
             if image.mode in ("I", "F", "I;16", "I;16B"):
-                raise InputError(f"{path.name}: more than 8 bits a pixel; save it with 8 bits")
-            return np.array(image.convert("L" if image.mode in ("1", "L", "LA") else "RGB"))
+                raise InputError(f"{name}: more than 8 bits a pixel; save it with 8 bits")
+            yield image
     except InputError:
         raise
     except Exception as error:  # Pillow's decoders raise many kinds
-        raise InputError(f"{path.name}: not readable as an image ({type(error).__name__})") from None
+        raise InputError(f"{name}: not readable as an image ({type(error).__name__})") from None
 
 
 def read_pose(path: Path, target: Path | None = None, source: Path | None = None) -> Float[np.ndarray, "4 4"]:

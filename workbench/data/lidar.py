@@ -90,18 +90,28 @@ def _distances(scene: Street, p_world: np.ndarray, v_world: np.ndarray) -> np.nd
     """Return how far rays from one place go until they hit something; infinity where they hit nothing."""
     with np.errstate(divide="ignore", invalid="ignore"):  # rays along an axis
         hits = np.where(v_world[:, 2] < 0, -p_world[2] / v_world[:, 2], np.inf)
-        for box in scene.boxes:
-            hits = np.minimum(hits, _to_box(box, p_world, v_world))
-        for pole in scene.poles:
-            hits = np.minimum(hits, _to_pole(pole, p_world, v_world))
+        flat = np.square(v_world[:, :2]).sum(axis=1)
+        for to_it, things, reaches in (
+            (_to_box, scene.boxes, np.hypot(*scene.boxes[:, 3:5].T)), (_to_pole, scene.poles, scene.poles[:, 2])
+        ):  # fmt: skip
+            for thing, reach in zip(things, reaches, strict=True):
+                rays = _towards(thing[:2] - p_world[:2], float(reach), v_world, flat)
+                hits[rays] = np.minimum(hits[rays], to_it(thing, p_world, v_world[rays]))
     return hits
+
+
+def _towards(off: np.ndarray, reach: float, v_world: np.ndarray, flat: np.ndarray) -> np.ndarray:
+    """Return which rays, seen from above, pass a middle by `reach` or little more; `flat` is their squared length."""
+    along = v_world[:, :2] @ off
+    beside = off @ off - (1.01 * reach) ** 2  # square of how far it is to the circle's edge
+    return np.flatnonzero((along > 0) & (along * along >= beside * flat)) if beside > 0 else np.arange(len(flat))
 
 
 def _to_box(box: np.ndarray, p_world: np.ndarray, v_world: np.ndarray) -> np.ndarray:
     R_world_box = exp_so3(np.array([0.0, 0.0, box[6]]))
-    p, v = (p_world - box[:3]) @ R_world_box, v_world @ R_world_box
-    first, second = (-box[3:6] - p) / v, (box[3:6] - p) / v
-    enter, leave = np.minimum(first, second).max(axis=1), np.maximum(first, second).min(axis=1)
+    p, v = (p_world - box[:3]) @ R_world_box, np.ascontiguousarray((v_world @ R_world_box).T)
+    first, second = (-box[3:6] - p)[:, None] / v, (box[3:6] - p)[:, None] / v
+    enter, leave = np.minimum(first, second).max(axis=0), np.maximum(first, second).min(axis=0)
     return np.where((enter < leave) & (enter > 0), enter, np.inf)
 
 

@@ -8,6 +8,8 @@ import functools
 import numpy as np
 from jaxtyping import Float
 
+from workbench.data.files import read_image, shipped
+
 
 @functools.lru_cache(maxsize=4)
 def horse(count: int, reach: float) -> Float[np.ndarray, "n 2"]:
@@ -17,10 +19,9 @@ def horse(count: int, reach: float) -> Float[np.ndarray, "n 2"]:
         count: How many.
         reach: The largest coordinate, metres.
     """
-    import skimage.data
     from skimage.measure import find_contours
 
-    inside = ~skimage.data.horse().astype(bool)
+    inside = read_image(shipped("horse.png"))[..., 0] < 128
     outline = max(find_contours(inside.astype(float), 0.5), key=len)[:, ::-1] * [1.0, -1.0]
     along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(outline, axis=0), axis=1))]
     at = np.linspace(0.0, along[-1], count, endpoint=False)

@@ -72,10 +72,13 @@ def windings(mesh: Columns, q: Queries) -> Int[np.ndarray, " n"]:
     place = np.where(over, cell[:, 0] * mesh.cells + cell[:, 1], 0)
     counts = np.where(over, mesh.first[place + 1] - mesh.first[place], 0)
     total = np.zeros(len(q), dtype=np.int64)
+    tops = mesh.corners[:, :, 2].max(axis=1, initial=-np.inf)
     for rows in _blocks(counts):
         ray, k = spread_boxes(counts[rows, None])
         ray = ray + rows.start
         face = mesh.faces[mesh.first[place[ray]] + k[:, 0]]
+        above = np.flatnonzero(tops[face] > q[ray, 2])
+        ray, face = ray[above], face[above]
         sign, height = crossings(mesh.corners[face], q[ray, :2])
         np.add.at(total, ray, np.where(height > q[ray, 2], sign, 0))
     return total

@@ -139,9 +139,12 @@ def propagation(adjacency: Matrix) -> Matrix:
     Reference: Kipf and Welling, Semi-supervised classification with graph convolutional networks, 2017, section 2.2.
     """
     if isinstance(adjacency, np.ndarray):
-        looped = adjacency + np.eye(len(adjacency))
+        looped = adjacency + 0.0  # a copy of floats
+        looped.flat[:: len(looped) + 1] += 1
         root = 1 / np.sqrt(looped.sum(axis=1))
-        return root[:, None] * looped * root
+        looped *= root[:, None]
+        looped *= root
+        return looped
     looped = (adjacency + scipy.sparse.eye_array(adjacency.shape[0])).tocsr()
     scale = scipy.sparse.diags_array(1 / np.sqrt(degrees(looped)))
     return (scale @ looped @ scale).tocsr()

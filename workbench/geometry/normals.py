@@ -11,7 +11,7 @@ LINE = 0.2
 
 
 def point_normals(
-    p: Float[np.ndarray, "n 3"], k: int = 16, viewpoint: Float[np.ndarray, "3"] | None = None
+    p: Float[np.ndarray, "n 3"], k: int = 16, viewpoint: Float[np.ndarray, "3"] | None = None, *, spread: bool = False
 ) -> Float[np.ndarray, "n 3"]:
     """Return one unit normal per point, by principal components of its k nearest points (itself included).
 
@@ -19,6 +19,7 @@ def point_normals(
         p: Points, metres.
         k: Neighbours; fewer where the cloud has fewer points.
         viewpoint: Normals face this point (a scanner's position). Left out, they face away from the mean of the points.
+        spread: Normals of points whose neighbours lie along a line (`on_a_line`) are 0, unless all of them are such.
 
     Raises:
         ValueError: If there are fewer than 3 points, k is below 3, or a coordinate is not finite.
@@ -33,28 +34,28 @@ def point_normals(
         raise ValueError(f"normals need at least 3 points and 3 neighbours, not {len(p)} and {k}")
     if not np.isfinite(p).all():
         raise ValueError("a point is not finite; drop such points first")
-    normals = np.empty_like(p, dtype=float)
+    normals, line = np.empty_like(p, dtype=float), np.zeros(len(p), bool)
     for rows, covariances in _neighbourhoods(p, k):
         normals[rows] = _least_directions(covariances)
+        if spread:
+            line[rows] = on_a_line(covariances)
     outwards = p - p.mean(axis=0) if viewpoint is None else viewpoint - p
-    return np.where(np.einsum("ij,ij->i", normals, outwards)[:, None] < 0, -normals, normals)
+    normals = np.where(np.einsum("ij,ij->i", normals, outwards)[:, None] < 0, -normals, normals)
+    return normals * (line if line.all() else ~line)[:, None] if spread else normals
 
 
-def on_a_line(p: Float[np.ndarray, "n 3"], k: int = 16) -> Bool[np.ndarray, "n"]:
-    """Return of each point whether its k nearest points lie along a line, so that its normal means nothing.
+def on_a_line(covariances: Float[np.ndarray, "6 n"]) -> Bool[np.ndarray, "n"]:
+    """Return of neighbourhoods whether their points lie along a line, so that a normal means nothing.
 
-    They count as a line where the second of their variances along the principal axes is at most a fifth of the largest,
-    as on one ring of a lidar scan. Coinciding points count as a line.
+    They do where the second of the variances along the principal axes is at most a fifth of the largest, as on one ring of
+    a lidar scan. Coinciding points count as a line.
 
     Args:
-        p: Points, metres.
-        k: Neighbours, itself included; fewer where the cloud has fewer points.
+        covariances: Their entries xx, yy, zz, xy, xz, yz, square metres, up to a common factor each.
     """
-    line = np.zeros(len(p), bool)
-    for rows, (xx, yy, zz, xy, xz, yz) in _neighbourhoods(p, k):
-        variances = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).T)
-        line[rows] = variances[:, 1] <= LINE * variances[:, 2]
-    return line
+    xx, yy, zz, xy, xz, yz = covariances
+    variances = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).T)
+    return variances[:, 1] <= LINE * variances[:, 2]
 
 
 def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:

@@ -16,7 +16,8 @@ Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
 Queries = Float[np.ndarray, "n 3"]
 
-_BLOCK = 20_000  # points that are looked at together
+_BLOCK = 1_000  # points that are looked at together: what they need stays near the processor
+_ORDER = (0, 2, 1)  # in which coordinates are summed; rounding, and so every recording, depends on it
 
 
 def box_sdf(p: Queries, half_size: Float[np.ndarray, "3"]) -> Float[np.ndarray, " n"]:
@@ -54,16 +55,19 @@ def torus_sdf(p: Queries, ring: float, tube: float) -> Float[np.ndarray, " n"]:
 class FaceTree:
     """A mesh sorted for the question how far it is: boxes around all faces, around both halves of them, and so on.
 
+    Coordinates come first and lie together: that is several times as fast to gather from as rows of three.
+
     Attributes:
-        corners: Its triangles in the order of the last boxes, m; the last one is repeated up to a power of two.
-        boxes: For each level the lowest and the highest corners of its boxes, (2, 2^level, 3); box k holds boxes 2k and
+        corners: Its triangles in the order of the last boxes: (corner, coordinate, triangle), m; the last one is repeated
+            up to a power of two.
+        boxes: For each level the lowest and the highest corners of its boxes, (2, 3, 2^level); box k holds boxes 2k and
             2k + 1 of the next level, the last level one triangle each.
         middles: Finds a triangle that is near.
         columns: Tells inside from outside; None of a mesh that encloses nothing.
     """
 
-    corners: Float[np.ndarray, "f 3 3"]
-    boxes: tuple[Float[np.ndarray, "2 _ 3"], ...]
+    corners: Float[np.ndarray, "3 3 f"]
+    boxes: tuple[Float[np.ndarray, "2 3 _"], ...]
     middles: "scipy.spatial.cKDTree"
     columns: Columns | None
 
@@ -87,8 +91,12 @@ def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
     for _ in range(depth):
         low, high = boxes[-1].reshape(2, -1, 2, 3)
         boxes.append(np.stack([low.min(axis=1), high.max(axis=1)]))
-    tree = scipy.spatial.cKDTree(corners.mean(axis=1))
-    return FaceTree(corners, tuple(boxes[::-1]), tree, columns(p, faces) if closed else None)
+    return FaceTree(
+        np.ascontiguousarray(corners.transpose(1, 2, 0)),
+        tuple(np.ascontiguousarray(level.transpose(0, 2, 1)) for level in boxes[::-1]),
+        scipy.spatial.cKDTree(corners.mean(axis=1)),
+        columns(p, faces) if closed else None,
+    )
 
 
 def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
@@ -101,44 +109,61 @@ def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
         q: Points, m.
     """
     near = np.asarray(mesh.middles.query(q)[1], dtype=np.int64).reshape(-1)
-    best = _squared_distances(q, mesh.corners[near])
+    columns_of_q = np.ascontiguousarray(q.T)
+    best = _squared_distances(columns_of_q, mesh.corners.take(near, axis=2))
     for start in range(0, len(q), _BLOCK):
         rows = np.arange(start, min(start + _BLOCK, len(q)))
         box = np.zeros(len(rows), dtype=np.int64)
         for level, (low, high) in enumerate(mesh.boxes):
             if level:
                 rows, box = np.repeat(rows, 2), (2 * box[:, None] + [0, 1]).ravel()
-            beyond = np.maximum(np.maximum(low[box] - q[rows], q[rows] - high[box]), 0)
-            kept = np.einsum("nx,nx->n", beyond, beyond) < best[rows]
-            rows, box = rows[kept], box[kept]
-        np.minimum.at(best, rows, _squared_distances(q[rows], mesh.corners[box]))
+            kept = np.flatnonzero(_squared_beyond(columns_of_q, rows, low, high, box) < best.take(rows))
+            rows, box = rows.take(kept), box.take(kept)
+        nearer = _squared_distances(columns_of_q.take(rows, axis=1), mesh.corners.take(box, axis=2))
+        np.minimum.at(best, rows, nearer)
     found = np.sqrt(best)
     if mesh.columns is None:
         return found
     return np.where(windings(mesh.columns, q) != 0, -found, found)
 
 
+def _squared_beyond(q: np.ndarray, rows: np.ndarray, low: np.ndarray, high: np.ndarray, box: np.ndarray) -> np.ndarray:
+    """Return squared distances of points to boxes, pair by pair."""
+    total = np.zeros(len(rows))
+    for axis in _ORDER:
+        at, below, above = q[axis].take(rows), low[axis].take(box), high[axis].take(box)
+        np.subtract(below, at, out=below)
+        np.subtract(at, above, out=above)
+        beyond = np.maximum(np.maximum(below, above, out=below), 0.0, out=below)
+        total += np.multiply(beyond, beyond, out=beyond)
+    return total
+
+
 def _squared_distances(q: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Return squared distances (n,) of points (n, 3) to triangles (n, 3, 3), pair by pair."""
-    a, b, c = corners.transpose(1, 0, 2)
+    """Return squared distances (n,) of points (3, n) to triangles (3, 3, n), pair by pair."""
+    a, b, c = corners
     n = _cross(b - a, c - a)
     size = _dot(n, n)
     over = size > 0
-    best = np.full(len(q), np.inf)
+    best = np.full(len(size), np.inf)
     for start, end in ((a, b), (b, c), (c, a)):
         edge, away = end - start, q - start
         square = _dot(edge, edge)
         along = _dot(away, edge) / np.where(square > 0, square, 1.0)
-        rest = away - np.clip(along, 0, 1)[:, None] * edge
+        rest = away - np.clip(along, 0, 1) * edge
         best = np.minimum(best, _dot(rest, rest))
         over &= _dot(_cross(edge, away), n) >= 0
     return np.where(over, _dot(q - a, n) ** 2 / np.where(size > 0, size, 1.0), best)
 
 
 def _dot(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    return np.einsum("nx,nx->n", u, v)
+    first, *rest = _ORDER
+    total = u[first] * v[first]
+    for axis in rest:
+        total += u[axis] * v[axis]
+    return total
 
 
 def _cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    (ux, uy, uz), (vx, vy, vz) = u.T, v.T
-    return np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], axis=1)
+    (ux, uy, uz), (vx, vy, vz) = u, v
+    return np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx])
