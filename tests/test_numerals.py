@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from workbench.numerals import (
     angle,
+    area,
     brief,
     coordinates,
     counted,
@@ -18,6 +19,7 @@ from workbench.numerals import (
     length,
     percent,
     pixels,
+    power_of_ten,
 )
 
 NUMERAL = re.compile(r"−?\d{1,3}(,\d{3})*(\.\d+)?")
@@ -59,6 +61,12 @@ def test_brief_is_the_number_to_its_digits(value, digits):
         (fixed_or_power(-999999.4, 1), "−999,999.4"),
         (fixed_or_power(-3284908864.4, 1), "−3.28 × 10⁹"),
         (fixed_or_power(1e21, 1), "1.00 × 10²¹"),
+        (power_of_ten(9), "10⁹"),
+        (power_of_ten(-12), "10⁻¹²"),
+        (area(3.7251), "3.73 m²"),
+        (area(0.001), "0.001 m²"),
+        (area(0.0009), "900 mm²"),
+        (area(0.0), "0 mm²"),
         (fixed_row([1.0, -0.0, -2.5], 1), "1.0, 0.0, −2.5"),
         (length(0.0), "0 mm"),
         (length(1e-16), "0 mm"),

@@ -159,11 +159,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " behind a hill."
         ),
         params=ESCAPE,
-        choices=(
-            "it comes home, only later",
-            "it rests on another circle",
-            "it grows without end",
-        ),
+        choices=("it comes home, only later", "it rests on another circle", "it grows without end"),
     ),
     Question(
         "predict-iterations",

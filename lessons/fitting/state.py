@@ -44,9 +44,7 @@ class Params:
     rest: Annotated[
         Literal["a millionth", "a trillionth"],
         Knob(
-            "It stops when a step changes the sum of squares by less than this share of it",
-            label="stops at",
-            needs=DESCENT,
+            "It stops when a step changes the sum of squares by less than this share", label="stops at", needs=DESCENT
         ),
     ] = "a millionth"
     start: Annotated[

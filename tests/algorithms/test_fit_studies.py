@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.fit_studies import compare_circles, compare_lines, repeat_fit, try_starts
-from workbench.algorithms.least_squares import damped_step, descend
+from workbench.algorithms.fit_studies import FATES, Basin, compare_circles, compare_lines, repeat_fit, try_starts
+from workbench.algorithms.least_squares import Descents, damped_step, descend
 from workbench.algorithms.round_shapes import CIRCLE
 from workbench.data.fit_scenes import arc_points, errors
 from workbench.geometry.circles_spheres import linearise_sphere
@@ -24,6 +24,12 @@ def test_repetition_agrees_with_the_covariance_where_errors_are_independent_and_
         assert len(first.radii) == 0
         assert first.sigma == pytest.approx(0.02, rel=0.25)
         ratios.append(last.radii.std() / np.sqrt(last.covariance[-1, -1]))
+        assert last.wider == pytest.approx(ratios[-1], rel=0.12)
+        assert np.ptp(last.predicted) == pytest.approx(2 * 1.645 * np.sqrt(last.covariance[-1, -1]))
+        assert np.mean(last.predicted) == pytest.approx(abs(end.unknown[-1]))
+        assert ((last.repeated[0] < last.radii) & (last.radii < last.repeated[1])).mean() == pytest.approx(
+            0.9, abs=0.01
+        )
     assert ratios[0] == pytest.approx(1.0, abs=0.25)
     assert ratios[1] > 2
 
@@ -40,6 +46,16 @@ def test_starts_are_shown_when_asked_and_at_the_end():
     assert [basin.now.iteration for basin in found[:2]] == [0, 2]
     assert found[-1].now.done.all()
     np.testing.assert_allclose(found[-1].now.unknowns, np.tile([0, 0, 1], (7, 1)), atol=1e-6)
+    assert found[-1].share("comes home") == 1.0
+    assert found[0].share("under way") == 6 / 7  # one of them begins at home
+
+
+def test_fates_are_told_by_the_circle_and_not_by_the_sign_of_its_radius():
+    ends = np.array([[0, 0, -1], [0, 0, 1.5], [300, 0, 299], [2, 0, 1.0]])
+    now = Descents(5, ends, np.zeros(4), np.array([True, True, False, False]))
+    found = Basin(ends, np.array([0, 0, 1.0]), now)
+    assert [FATES[k] for k in found.fates] == ["comes home", "away or lost", "away or lost", "under way"]
+    assert found.share("away or lost") == 0.5
 
 
 def test_circles_come_one_by_one_and_medians_arc_by_arc():

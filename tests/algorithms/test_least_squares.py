@@ -14,6 +14,7 @@ from workbench.algorithms.least_squares import (
     damped_step,
     descend,
     descend_many,
+    with_its_way,
 )
 from workbench.data.fit_scenes import arc_points
 from workbench.geometry.circles_spheres import linearise_sphere
@@ -92,6 +93,24 @@ def test_what_was_promised_is_the_linear_problems_sum():
     assert tried.gain == pytest.approx((tried.before - tried.trial_cost) / tried.predicted)
     with pytest.raises(ValueError, match="no step"):
         along_step(moments(p, HOME)[0], lambda c: linearise_sphere(c, p), np.add, np.array([1.0]))
+
+
+def test_a_way_has_every_step_kept_and_every_one_taken_back():
+    p = an_arc(0, 45.0)
+
+    def linearise(c):
+        return linearise_sphere(c, p)
+
+    found = moments(p, np.array([0.9, 0.6, 0.3]))
+    walked = list(with_its_way(iter(found), linearise, np.add, np.linspace(0, 1, 3)))
+    assert [one.now for one in walked] == found
+    kept = [now.unknown for now in found if now.phase in ("start", "accepted")]
+    back = [now.trial for now in found if now.phase == "rejected"]
+    assert len(back) > 0
+    np.testing.assert_array_equal(walked[-1].kept, kept)
+    np.testing.assert_array_equal(walked[-1].taken_back, back)
+    assert all((one.along is not None) == (one.now.phase == "tried") for one in walked)
+    assert walked[0].taken_back.shape == (0, 3)
 
 
 def test_singular_and_infinite_ends_are_told():

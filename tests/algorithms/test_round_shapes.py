@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.truths.fitting import distances
-from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, ROUND_SHAPES, SPHERE, fit_round
+from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, ROUND_SHAPES, SPHERE, feet, fit_round, outline
 from workbench.data.fit_scenes import arc_points, cap_points, pipe_points
 
 STARTS = {
@@ -22,6 +22,21 @@ def test_exact_points_give_the_unit_shape(shape):
     np.testing.assert_allclose(distances(shape.name, found, p), 0, atol=1e-6)
     assert found[-1] == pytest.approx(1.0, abs=1e-6)
     assert len(shape.names) == shape.linearise(found, p)[1].shape[1]
+
+
+@pytest.mark.parametrize("shape", ROUND_SHAPES.values(), ids=ROUND_SHAPES)
+def test_feet_and_outlines_lie_on_the_shape(shape):
+    unknown = STARTS[shape.name]
+    p = np.random.default_rng(0).normal(size=(40, 2 if shape is CIRCLE else 3))
+    found = feet(shape, unknown, p)
+    np.testing.assert_allclose(distances(shape.name, unknown, found), 0, atol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(found - p, axis=1), np.abs(distances(shape.name, unknown, p)), atol=1e-9)
+    ends = outline(shape, unknown, 4.0)
+    assert ends.shape[1:] == (2, 3)
+    corners = ends.reshape(-1, 3)[:, : p.shape[1]]
+    np.testing.assert_allclose(distances(shape.name, unknown, corners), 0, atol=1e-9)
+    assert len(outline(shape, np.full(len(unknown), np.nan), 4.0)) == 0
+    assert len(outline(shape, np.array([*unknown[:-1], 1e10]), 4.0)) == 0
 
 
 def test_a_cylinder_is_scipys():

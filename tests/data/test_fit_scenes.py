@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from workbench.data.fit_scenes import arc_points, cap_points, errors, outlying_plane, pipe_points
-from workbench.data.rims import rim_points
+from workbench.data.fit_scenes import arc_points, cap_points, errors, line_points, outlying_plane, pipe_points
+from workbench.data.rims import find_rim, rim_points
+from workbench.errors import InputError
 
 
 @pytest.mark.parametrize("arc", [0.4, 2.0, 2 * np.pi])
@@ -40,3 +41,24 @@ def test_a_drawn_disc_has_its_rim():
     for image in (disc, np.repeat(disc[..., None], 3, 2)):
         rim = rim_points(image, np.array([50.0, 38.0]), 90, 35.0)
         assert np.abs(np.hypot(*(rim - [52, 41]).T) - 20).max() < 0.8
+
+
+def test_a_rim_is_in_its_own_radii_and_has_windows_all_round():
+    v, u = np.mgrid[:80, :100]
+    found = find_rim(np.where(np.hypot(u - 52, v - 41) < 20, 200, 30).astype(np.uint8), (52, 41))
+    assert (*found.center, found.radius) == pytest.approx((52, 41, 20), abs=0.5)
+    np.testing.assert_allclose(np.linalg.norm(found.p, axis=1), 1, atol=0.05)
+    windows = found.windows(90.0)
+    assert windows.shape == (12, 90, 2)
+    middles = np.unwrap(np.arctan2(*windows.mean(axis=1).T[::-1]))
+    np.testing.assert_allclose(np.abs(np.diff(middles)), np.pi / 6, atol=0.05)
+    assert middles[0] == pytest.approx(0, abs=0.05)
+    with pytest.raises(InputError, match="make it smaller"):
+        find_rim(np.zeros((10, 1000), np.uint8), (5, 5))
+
+
+@pytest.mark.parametrize("slope", [0.0, 1.0])
+def test_places_along_a_line(slope):
+    p = line_points(np.random.default_rng(0), slope, 50)
+    np.testing.assert_allclose(p @ [-np.sin(slope), np.cos(slope)], 0, atol=1e-12)
+    assert np.linalg.norm(p, axis=1).max() <= 1
