@@ -213,8 +213,16 @@ class Lesson(Generic[P, S]):
         return self.usual_view(params) if preset is None or preset.view is None else preset.view
 
     def usual_view(self, params: P) -> View:
-        """Return how runs of such params are first seen that are no preset with a camera of its own."""
-        return self.view if self.view_for is None else self.view_for(params)
+        """Return how runs of such params are first seen that are no preset with a camera of its own.
+
+        It is the camera of the default or the preset that is most alike in its choices, of which the first counts most: who
+        chooses another shape or stage sees it as its presets do.
+        """
+        if self.view_for is not None:
+            return self.view_for(params)
+        choices = [field.name for field in fields_of(self.params) if field.kind == "choice"]
+        known = [(self.params(), self.view), *((preset.params, preset.view or self.view) for preset in self.presets)]
+        return max(known, key=lambda one: [getattr(one[0], name) == getattr(params, name) for name in choices])[1]
 
     def text(self) -> str:
         """Return the page, Markdown; title and summary where the lesson has none.

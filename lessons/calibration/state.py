@@ -41,6 +41,16 @@ class Params:
     ] = 0
     corners: Annotated[Path | None, Knob("Own corners: npz (object_points, corners) or lines view X Y u v")] = None
     camera: Annotated[Which, Knob("Which camera, where a file has two", of_files=True)] = "first"
+    board: Annotated[
+        tuple[int, int],
+        Knob(
+            "Inner corners of the board where own pictures come without corners",
+            3,
+            20,
+            parts=("in a row", "rows"),
+            of_files=True,
+        ),
+    ] = (9, 6)
     unit: Annotated[Unit, Knob("In which unit an own board is", of_files=True)] = "m"
     images: Annotated[
         Path | None,
@@ -62,6 +72,7 @@ class Subject:
         lens: The true lens.
         Ts_camera_board: True poses of the views that are used; none where nobody knows.
         pictures: A person's own pictures of all views.
+        without: Names of own pictures in which no whole board was found.
     """
 
     p_board: np.ndarray
@@ -72,6 +83,7 @@ class Subject:
     lens: Distortion = NONE
     Ts_camera_board: np.ndarray = field(default_factory=lambda: np.empty((0, 4, 4)))
     pictures: Pictures | None = None
+    without: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -8,7 +8,7 @@ import numpy as np
 from lessons.calibration.state import COEFFICIENTS, Params, Subject
 from workbench.algorithms.board_adjustment import linearised, shared_information
 from workbench.data import boards
-from workbench.data.corners import pictures_below, read_corners
+from workbench.data.corners import find_corners, pictures_below, read_corners
 from workbench.data.framing import METRES
 from workbench.errors import InputError
 from workbench.geometry.cameras import normalize, resize_intrinsics
@@ -28,18 +28,8 @@ def subject_of(params: Params) -> Subject:
     Raises:
         InputError: If fewer than two are left, or own files cannot be used.
     """
-    if params.corners is not None:
-        found = read_corners(params.corners, params.camera)
-        pictures = None if params.images is None else pictures_below(found, params.images, params.shown)
-        subject = Subject(
-            p_board=METRES[params.unit] * found.p_board,
-            uv=found.uv,
-            views=tuple(range(len(found.uv))),
-            size=found.size if pictures is None else found.stated or pictures.size,
-            pictures=pictures,
-        )
-    elif params.images is not None:
-        raise InputError("own pictures show own corners: give a file of these too")
+    if params.corners is not None or params.images is not None:
+        subject = _own(params)
     else:
         subject = _built_in(
             only(params, "views", "tilt", "distance", "spread", "noise", "fault", "bad_corners", "seed")
@@ -54,6 +44,24 @@ def subject_of(params: Params) -> Subject:
         uv=subject.uv[keep],
         views=tuple(view for view in subject.views if view != params.leave_out),
         Ts_camera_board=subject.Ts_camera_board[keep] if subject.K is not None else subject.Ts_camera_board,
+    )
+
+
+def _own(params: Params) -> Subject:
+    pictures, without = None, ()
+    if params.corners is None:
+        assert params.images is not None
+        found, pictures, without = find_corners(params.images, *params.board)
+    else:
+        found = read_corners(params.corners, params.camera)
+        pictures = None if params.images is None else pictures_below(found, params.images, params.shown)
+    return Subject(
+        p_board=METRES[params.unit if params.corners else "m"] * found.p_board,
+        uv=found.uv,
+        views=tuple(range(len(found.uv))),
+        size=found.size if pictures is None else found.stated or pictures.size,
+        pictures=pictures,
+        without=without,
     )
 
 

@@ -62,11 +62,18 @@ def _homography(state: State) -> Caption:
         f" lines. It misses the corners by {pixels(state.rms)} (rms)"
     )
     if state.subject.K is None:
-        return Caption(f"{text}: noise, and what a lens bends.")
+        return Caption(f"{text}: noise, and what a lens bends.{_left_out(state.subject.without)}")
     sigma = state.params.noise
     if state.rms > 1.4 * np.sqrt(2) * sigma:
         return Caption(f"{text}, more than noise of {pixels(sigma)} in each coordinate explains: the lens bends lines.")
     return Caption(f"{text}, about what noise of {pixels(sigma)} in each coordinate leaves.")
+
+
+def _left_out(names: tuple[str, ...]) -> str:
+    if not names:
+        return ""
+    some = ", ".join(one_line(PurePosixPath(name).name)[:30] for name in names[:3]) + (" …" if len(names) > 3 else "")
+    return f" No whole board was found in {counted(len(names), 'picture')}: {some}."
 
 
 def _constraints(state: State) -> Caption:

@@ -193,7 +193,7 @@ def test_a_zip_of_pictures_writes_nothing_and_does_not_unpack_to_much(tmp_path, 
         packed.writestr("large.png", picture.getvalue() + bytes(10**6))
     path = Path("p.zip")
     assert set(names_in(path)) == {"../../escaped.png", "/etc/absolute.png", "large.png"}
-    shown = pictures_of(path, names_in(path)).shown(0)
+    shown = pictures_of(path, names_in(path)).shown(0, 100)
     assert shown is not None
     assert shown.shape == (3, 4)
     assert [one.name for one in tmp_path.iterdir()] == ["p.zip"]

@@ -46,7 +46,7 @@ def test_a_folder_and_its_zip_hold_the_same(folder):
     packed = Path(shutil.make_archive(str(folder), "zip", folder.parent, "home"))
     assert [Path(name).name for name in names_in(packed)] == list(names_in(folder))
     for view in range(3):
-        one, two = (pictures_of(path, matched(path, (), 3)).shown(view) for path in (folder, packed))
+        one, two = (pictures_of(path, matched(path, (), 3)).shown(view, 100) for path in (folder, packed))
         assert one is not None
         assert two is not None
         np.testing.assert_array_equal(one, two)
@@ -57,8 +57,8 @@ def test_a_picture_is_upright_and_as_large_as_is_shown(tmp_path):
     picture(tmp_path / "a.jpg", size=(400, 300), turned=6)
     one = pictures_of(tmp_path / "a.jpg", (None, "a.jpg"))
     assert one.size == (300, 400)
-    assert one.shown(0) is None
-    for most, shape in ((100, (100, 75)), (1000, (400, 300)), (None, (400, 300))):
+    assert one.shown(0, 100) is None
+    for most, shape in ((100, (100, 75)), (1000, (400, 300))):
         shown = one.shown(1, most)
         assert shown is not None
         assert shown.shape == shape
@@ -66,10 +66,10 @@ def test_a_picture_is_upright_and_as_large_as_is_shown(tmp_path):
 
 def test_it_is_decoded_once_and_again_when_it_changed(folder):
     found = pictures_of(folder, names_in(folder))
-    first = found.shown(1)
-    assert found.shown(1) is first
+    first = found.shown(1, 100)
+    assert found.shown(1, 100) is first
     picture(folder / "v2.jpg", 250, (40, 31))
-    again = found.shown(1)
+    again = found.shown(1, 100)
     assert again is not None
     assert again.min() > 240
 
@@ -85,7 +85,7 @@ def test_what_is_refused(folder):
     (folder / "v3.png").write_bytes((folder / "v3.png").read_bytes()[:600])  # its size can be read, its pixels cannot
     found = pictures_of(folder, names_in(folder))
     with pytest.raises(InputError, match=r"v3.png: not readable as an image"):
-        found.shown(2)
+        found.shown(2, 100)
     (folder / "v3.png").unlink()
     shutil.copy(folder / "v2.jpg", folder / "v2.png")
     with pytest.raises(InputError, match="two pictures are called v2"):

@@ -73,6 +73,39 @@ def test_pictures_lie_below_the_corners_of_their_views(corners, tmp_path):
             assert ((signs != np.roll(signs, 1, axis=0)).sum(axis=0) == 4).mean() > 0.9
 
 
+def test_pictures_alone(corners, tmp_path):
+    for path in corners.parent.glob("left*.jpg"):
+        shutil.copyfile(path, tmp_path / path.name)
+    for k, level in enumerate((40, 200, 90, 10)):
+        Image.new("L", (640, 480), level).save(tmp_path / f"a{k}.png")
+    states = list(run(Params(images=tmp_path, lens="k1 k2 p1 p2 k3")))
+    assert (
+        "No whole board was found in 4 pictures: a0.png, a1.png, a2.png …." in caption_of(lesson.draw(states[0])).text
+    )
+    last = states[-1]
+    assert len(last.subject.views) == 13
+    assert last.rms == pytest.approx(0.179, abs=0.001)
+    assert last.now.K is not None
+    assert last.now.K[0, 0] == pytest.approx(533.1, abs=0.1)
+    picture = lesson.draw(last)["picture"]
+    assert isinstance(picture, Picture)
+    assert picture.title == "View 0, left01.jpg"
+    turned = end(Params(images=tmp_path, board=(6, 9), lens="k1 k2 p1 p2 k3"))
+    assert turned.rms == pytest.approx(last.rms, abs=1e-3)
+    few = tmp_path / "few"
+    few.mkdir()
+    for name in ("left01.jpg", "left03.jpg"):
+        shutil.copyfile(tmp_path / name, few / name)
+    with pytest.raises(InputError, match="few: a whole board of 8 x 6 inner corners in 0 of 2 pictures"):
+        next(run(Params(images=few, board=(8, 6))))
+    with pytest.raises(InputError, match="in 1 of 1 pictures"):
+        next(run(Params(images=tmp_path / "left01.jpg")))
+    for k in range(30):
+        Image.new("L", (640, 480), k).save(tmp_path / f"b{k}.png")
+    with pytest.raises(InputError, match="47 pictures; up to 40"):
+        next(run(Params(images=tmp_path)))
+
+
 def test_pictures_are_recorded(corners, tmp_path):
     path = tmp_path / "own.rrd"
     record(lesson, path, params=Params(corners=corners, images=corners.parent, leave_out=1))

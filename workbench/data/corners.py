@@ -1,5 +1,6 @@
-"""Corners of a board that people found in their own pictures, read or refused in one clear line."""
+"""Corners of a board in people's own pictures: read or refused in one clear line, or found in the pictures themselves."""
 
+import functools
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -8,8 +9,18 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.data.arrays import read_arrays
+from workbench.data.board_corners import board_corners
+from workbench.data.boards import board_points
 from workbench.data.files import stamp, word_rows
-from workbench.data.pictures import Pictures, holds_many, matched, pictures_of
+from workbench.data.pictures import (
+    Pictures,
+    grey_picture,
+    holds_many,
+    matched,
+    names_in,
+    pictures_of,
+    stamp_of,
+)
 from workbench.errors import InputError
 
 MOST_VIEWS, MOST_POINTS = 40, 1000
@@ -96,6 +107,44 @@ def pictures_below(found: Corners, path: Path, only: int) -> Pictures:
     if stated is not None and abs(w * stated[1] / (h * stated[0]) - 1) > STRETCHED:
         raise InputError(f"{path.name or path}: pictures of {w} x {h} pixels, and corners of {stated[0]} x {stated[1]}")
     return pictures
+
+
+def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures, tuple[str, ...]]:
+    """Return the corners of a board that are found in a person's pictures, these pictures, and the names of the others.
+
+    Squares are as large as ours, since nobody can tell: it changes how far away boards are, and nothing else.
+
+    Args:
+        path: A folder or a zip of pictures.
+        columns: Inner corners of the board in a row.
+        rows: Its rows.
+
+    Raises:
+        InputError: If they are no pictures of one size, too many, or fewer than two show a whole board of that shape.
+    """
+    names = names_in(path) if holds_many(path) else (path.name,)
+    if len(names) > MOST_VIEWS:
+        raise InputError(f"{path.name or path}: {len(names)} pictures; up to {MOST_VIEWS} are calibrated from")
+    size = pictures_of(path, names).size
+    found = {name: _found(path, name, stamp_of(path, name), columns, rows) for name in names}
+    with_board = {name: uv for name, uv in found.items() if uv is not None}
+    if len(with_board) < 2:
+        raise InputError(
+            f"{path.name or path}: a whole board of {columns} x {rows} inner corners in {len(with_board)} of {len(names)}"
+            " pictures; two are needed, of the board that --board names"
+        )
+    corners = Corners(
+        p_board=board_points(columns, rows),
+        uv=np.stack(list(with_board.values())),
+        names=tuple(with_board),
+        stated=size,
+    )
+    return corners, Pictures(path, tuple(with_board), size), tuple(name for name in names if name not in with_board)
+
+
+@functools.lru_cache(maxsize=4 * MOST_VIEWS)
+def _found(path: Path, name: str, _stamp: tuple[int, int], columns: int, rows: int) -> np.ndarray | None:
+    return board_corners(grey_picture(path, name), columns, rows)
 
 
 def _from_arrays(path: Path, which: Which) -> Corners:

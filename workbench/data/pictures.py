@@ -38,7 +38,7 @@ class Pictures:
     names: tuple[str | None, ...]
     size: tuple[int, int]
 
-    def shown(self, view: int, most: int | None = None) -> UInt8[np.ndarray, "h w *channels"] | None:
+    def shown(self, view: int, most: int) -> UInt8[np.ndarray, "h w *channels"] | None:
         """Return the picture of a view, (h, w) grey or (h, w, 3) RGB, or None where it has none.
 
         Args:
@@ -49,10 +49,25 @@ class Pictures:
             InputError: If it cannot be read any more.
         """
         name = self.names[view]
-        if name is None:
-            return None
-        whole = self.path / name if self.path.is_dir() else self.path
-        return _decoded(self.path, name, stamp(whole), most)
+        return None if name is None else _decoded(self.path, name, stamp_of(self.path, name), most)
+
+
+def grey_picture(path: Path, name: str) -> UInt8[np.ndarray, "h w"]:
+    """Return a picture of a folder or zip by its name, in all its pixels, grey.
+
+    Raises:
+        InputError: If it cannot be read.
+    """
+    return _upright(path, name, kind="L")
+
+
+def stamp_of(path: Path, name: str) -> tuple[int, int]:
+    """Return when a picture of a folder or zip, or what holds it, was changed, and its size.
+
+    Raises:
+        InputError: If it is gone.
+    """
+    return stamp(path / name if path.is_dir() else path)
 
 
 def holds_many(path: Path) -> bool:
@@ -179,11 +194,15 @@ def _is_of_a_camera(image: "Image.Image") -> bool:
 
 
 @functools.lru_cache(maxsize=48)
-def _decoded(path: Path, name: str, _stamp: tuple[int, int], most: int | None) -> np.ndarray:
+def _decoded(path: Path, name: str, _stamp: tuple[int, int], most: int) -> np.ndarray:
+    return _upright(path, name, most)
+
+
+def _upright(path: Path, name: str, most: int | None = None, kind: str | None = None) -> np.ndarray:
     from PIL import ImageOps
 
     with opened_image(_source(path, name), PurePosixPath(name).name) as image:
-        kind = "L" if image.mode in ("1", "L", "LA") else "RGB"
+        kind = kind or ("L" if image.mode in ("1", "L", "LA") else "RGB")
         if most is not None:
             image.draft(kind, (most, most))  # a JPEG is decoded at half or quarter size where that is enough
         upright = (ImageOps.exif_transpose(image) if _is_of_a_camera(image) else image).convert(kind)
