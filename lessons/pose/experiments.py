@@ -24,7 +24,7 @@ FRONTAL = Params(target="marker", method="IPPE", noise=0.5, distance=0.5, tilt=1
 THIN = Params(method="DLT", thickness=0.1)
 SHEET = Params(method="DLT", thickness=0.01)
 SAFE = Params(method="SQPnP", thickness=0.01)
-FEW = Params(method="EPnP", points=4, refine=False, seed=8)
+FEW = Params(method="EPnP", points=4, refine=False, seed=9)
 PLANE = Params(method="DLT", thickness=0.0)
 MAP = Params(target="street", method="DLT", origin=10.0, centred=False)
 CENTRED = Params(target="street", method="DLT", origin=10.0)
