@@ -150,8 +150,9 @@ def _lit(body: Solid, shade: tuple[int, int, int]) -> Sequence[Item]:
 def _own(params: Params) -> Subject:
     assert params.sightings is not None
     given = read_sightings(params.sightings)
-    if not np.ptp(given.p_world, axis=0).max() > 0:
-        raise InputError(f"{params.sightings.name}: all its points lie at one place")
+    for what, at in (("points", given.p_world), ("pixels", given.uv)):
+        if not np.ptp(at, axis=0).max() > 0:
+            raise InputError(f"{params.sightings.name}: all its {what} lie at one place")
     blank = np.full((PHOTOGRAPH[1], PHOTOGRAPH[0], 3), 248, np.uint8)
     return Subject(
         given=given,

@@ -1,10 +1,9 @@
 """Pose from points as the lesson finds it, beside its peers: `python -m tests.benchmarks.bench_pose [--rounds 5]`.
 
-The same points for all contenders of a task, one thread, CPU time, the least of the rounds that take turns. P3P, SQPnP and
-EPnP are called as the lesson calls them in its 60 other pictures, for many problems side by side; one by one numpy's calls
-cost many times what they compute; that is shown too. RANSAC is the lesson's, step by step, to its end: it solves samples
-some dozens at once and judges them one by one. The planar pose is one call for one marker, of some dozen small products of
-matrices.
+The same points for all contenders of a task, one thread, CPU time, the least of the rounds that take turns. P3P, SQPnP,
+EPnP and IPPE are called as the lesson calls them in its 60 other pictures, for many problems side by side; one by one
+numpy's calls cost many times what they compute; that is shown too. RANSAC is the lesson's, step by step, to its end: it
+solves samples some dozens at once and judges them one by one.
 """
 # ruff: noqa: E402
 
@@ -108,7 +107,11 @@ def by_control_points(rounds: int, n: int, cv2) -> None:
 def planes(rounds: int, cv2) -> None:
     """Compare IPPE on 60 pictures of 20 points."""
     views = [view(seed, 20, sigma=PIXEL, flat=True) for seed in range(60)]
-    ways: dict[str, Contender] = {"ours": lambda: np.stack([planar_motions(p, xy)[0] for _, p, xy in views])}
+    p, xy = np.stack([one[1] for one in views]), np.stack([one[2] for one in views])
+    ways: dict[str, Contender] = {
+        "ours, side by side": lambda: planar_motions(p, xy)[:, 0],
+        "ours, one by one": lambda: np.stack([planar_motions(a, b)[0] for a, b in zip(p, xy, strict=True)]),
+    }
     if cv2:
         ways["cv2 IPPE"] = lambda: np.stack([by_cv2(cv2, p, xy, cv2.SOLVEPNP_IPPE) for _, p, xy in views])
     compare("IPPE, 60 pictures of 20 points of a plane; no column", rounds, ways, lambda Ts: 0.0, per=60)

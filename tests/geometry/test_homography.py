@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.homography import (
+    fit_homographies,
     fit_homography,
     four_in_general_position,
     homogeneous,
@@ -55,6 +56,12 @@ def test_weight_zero_is_absence_and_weight_two_is_twice():
         ours, repeated = fit(uv_a, uv_b, weights), fit(uv_a[rows], uv_b[rows])
         tolerance = 0.05 if fit is fit_homography else 1e-3  # the normalisation sees all pixels
         np.testing.assert_allclose(transform_pixels(ours, uv_a), transform_pixels(repeated, uv_a), atol=tolerance)
+
+
+def test_many_fitted_side_by_side_are_one_by_one():
+    uv_a, uv_b = np.random.default_rng(0).uniform(0, 100, (2, 5, 12, 2))
+    for H, a, b in zip(fit_homographies(uv_a, uv_b), uv_a, uv_b, strict=True):
+        np.testing.assert_allclose(H * np.sign(H[2, 2]), (one := fit_homography(a, b)) * np.sign(one[2, 2]), atol=1e-12)
 
 
 def test_it_agrees_with_skimage():

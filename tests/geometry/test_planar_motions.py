@@ -57,6 +57,16 @@ def test_the_two_are_opencvs():
             assert min(np.abs(ours - T).max() for T in theirs) < 1e-3
 
 
+def test_side_by_side_is_one_by_one():
+    views = [view(seed, 9, sigma=1e-3, flat=True) for seed in range(6)]
+    p, xy = np.stack([one[1] for one in views]), np.stack([one[2] for one in views])
+    for together, a, b in zip(planar_motions(p, xy), p, xy, strict=True):
+        np.testing.assert_allclose(together, planar_motions(a, b), atol=1e-9)
+    noisy = xy[0] + 1e-3 * np.random.default_rng(0).normal(size=(4, 9, 2))
+    for together, b in zip(planar_motions(p[0], noisy), noisy, strict=True):
+        np.testing.assert_allclose(together, planar_motions(p[0], b), atol=1e-9)
+
+
 def test_what_is_no_plane_is_refused():
     _, p_world, xy = view(0, 6)
     for p in (p_world, SQUARE[:3], np.linspace(0, 1, 6)[:, None] * [1.0, 2, 0]):

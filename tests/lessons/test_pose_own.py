@@ -52,7 +52,10 @@ def test_a_real_board_by_ippe(tmp_path, shared_data):
 
 
 def test_files_of_one_place_or_of_too_few_points_are_refused(tmp_path):
-    with pytest.raises(InputError, match="one place"):
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
+    with pytest.raises(InputError, match="pixels lie at one place"):
+        stop_of(Params(sightings=written(tmp_path, corners, np.ones((4, 2)))))
+    with pytest.raises(InputError, match="points lie at one place"):
         stop_of(Params(sightings=written(tmp_path, np.ones((5, 3)), np.ones((5, 2)))))
     with pytest.raises(InputError, match="3 points"):
         stop_of(Params(sightings=written(tmp_path, np.eye(3), np.eye(3)[:, :2])))

@@ -157,7 +157,7 @@ def planar_pairs(p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "k n 2
         xy: Where they were observed, picture by picture.
     """
     twice = np.repeat(xy, 2, axis=0)
-    both = refined(np.concatenate([planar_motions(p_world, one) for one in xy]), p_world, twice)
+    both = refined(planar_motions(p_world, xy).reshape(-1, 4, 4), p_world, twice)
     order = np.argsort(rms_reprojection(both, p_world, twice).reshape(-1, 2), axis=1)
     return both.reshape(-1, 2, 4, 4)[np.arange(len(xy))[:, None], order]
 

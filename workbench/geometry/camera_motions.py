@@ -227,15 +227,26 @@ def sqpnp(
 _STARTS, _PROGRAMS = 4, 15
 
 
-def _quadratic_form(q: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return omega (k, 9, 9), the cost being r' omega r of R's rows r, and (k, 3, 9) that takes r to t."""
-    n = q.shape[1]
+def ray_forms(xy: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray, "*k n 3 3"]:
+    """Return C with p' C p = (X - x Z)^2 + (Y - y Z)^2: how far each p = (X, Y, Z) is from its ray, times its depth.
+
+    Examples:
+        >>> p = np.array([0.5, 0.0, 2.0])
+        >>> float(p @ ray_forms(np.array([[0.0, 0.0]]))[0] @ p)
+        0.25
+    """
     x, y = xy[..., 0], xy[..., 1]
-    C = np.zeros((*x.shape, 3, 3))  # the sum over two equations X - x Z = 0, Y - y Z = 0 of their outer products
+    C = np.zeros((*x.shape, 3, 3))
     C[..., 0, 0] = C[..., 1, 1] = 1.0
     C[..., 0, 2] = C[..., 2, 0] = -x
     C[..., 1, 2] = C[..., 2, 1] = -y
     C[..., 2, 2] = x * x + y * y
+    return C
+
+
+def _quadratic_form(q: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return omega (k, 9, 9), the cost being r' omega r of R's rows r, and (k, 3, 9) that takes r to t."""
+    n, C = q.shape[1], ray_forms(xy)
     flat = C.reshape(len(q), n, 9)
     outer = (q[..., :, None] * q[..., None, :]).reshape(len(q), n, 9)
     omega = (np.swapaxes(flat, 1, 2) @ outer).reshape(-1, 3, 3, 3, 3).transpose(0, 1, 3, 2, 4).reshape(-1, 9, 9)

@@ -12,10 +12,10 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.geometry.alignment import nearest_rotation
-from workbench.geometry.camera_motions import rms_reprojection
+from workbench.geometry.camera_motions import ray_forms, rms_reprojection
 from workbench.geometry.planar_motions import FLAT
 
-_STEPS = 10
+_STEPS, _NUDGE = 10, 1e-12
 
 
 def epnp(p_world: Float[np.ndarray, "*k n 3"], xy: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray, "*k 4 4"]:
@@ -50,7 +50,8 @@ def epnp(p_world: Float[np.ndarray, "*k n 3"], xy: Float[np.ndarray, "*k n 2"]) 
     for rows, directions in ((flat, 2), (~flat, 3)):
         if rows.any():
             arms = (extents[rows, :directions, None] / np.sqrt(q.shape[1])) * axes[rows, :directions]
-            lean = np.power(q[rows] @ np.swapaxes(arms, 1, 2), 3).sum(axis=1)  # either end of an axis would do: its own
+            along = q[rows] @ np.swapaxes(arms, 1, 2)
+            lean = (along * along * along).sum(axis=1)  # either end of an axis would do: the heavier one
             T[rows] = _motions(q[rows], xy[rows], np.where(lean < 0.0, -1.0, 1.0)[..., None] * arms)
     T[:, :3, 3] -= (T[:, :3, :3] @ p_mean[..., None])[..., 0]
     return T.reshape(*batch, 4, 4)
@@ -66,27 +67,25 @@ def _motions(q: np.ndarray, xy: np.ndarray, arms: np.ndarray) -> np.ndarray:
     apart = vectors[:, :, first] - vectors[:, :, second]
     products = np.einsum("kaex,kbex->kabe", apart, apart)
     squared = np.square(controls[:, first] - controls[:, second]).sum(axis=-1)
-    found = []
-    for N in range(1, controls.shape[1] + 1):
-        weights = _downhill(_start(products, squared, N), products, squared)
-        p_camera = shares @ np.einsum("ka,kacx->kcx", weights, vectors)
-        p_camera *= np.where(p_camera[..., 2].sum(axis=1) < 0.0, -1.0, 1.0)[:, None, None]
-        T = np.tile(np.eye(4), (len(q), 1, 1))
-        T[:, :3, :3] = nearest_rotation(np.swapaxes(p_camera, 1, 2) @ q)
-        T[:, :3, 3] = p_camera.mean(axis=1)
-        found.append(T)
-    Ts = np.stack(found)
+    starts = np.stack([_start(products, squared, N) for N in range(1, controls.shape[1] + 1)])
+    mixes = _downhill(starts, products, squared)
+    p_camera = shares @ np.einsum("Nka,kacx->Nkcx", mixes, vectors)
+    p_camera *= np.where(p_camera[..., 2].sum(axis=-1) < 0.0, -1.0, 1.0)[..., None, None]
+    Ts = np.zeros((*p_camera.shape[:2], 4, 4))
+    Ts[..., :3, :3] = nearest_rotation(np.swapaxes(p_camera, -1, -2) @ q)
+    Ts[..., :3, 3], Ts[..., 3, 3] = p_camera.mean(axis=-2), 1.0
     return Ts[np.argmin(rms_reprojection(Ts, q, xy), axis=0), np.arange(len(q))]
 
 
 def _null_vectors(shares: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Return the lowest vectors of M' M, as many as control points (c), each as so many places: (k, c, c, 3)."""
     k, n, c = shares.shape
-    on_ray = np.zeros((k, n, 2, 3))  # X - x Z = 0 and Y - y Z = 0
-    on_ray[..., 0, 0] = on_ray[..., 1, 1] = 1.0
-    on_ray[..., 2] = -xy
-    M = (shares[:, :, None, :, None] * on_ray[:, :, :, None, :]).reshape(k, 2 * n, 3 * c)
-    return np.swapaxes(np.linalg.eigh(np.swapaxes(M, 1, 2) @ M)[1][..., :c], 1, 2).reshape(k, c, c, 3)
+    pairs = (shares[..., :, None] * shares[..., None, :]).reshape(k, n, c * c)
+    blocks = (np.swapaxes(pairs, 1, 2) @ ray_forms(xy).reshape(k, n, 9)).reshape(k, c, c, 3, 3)
+    MtM = blocks.transpose(0, 1, 3, 2, 4).reshape(k, 3 * c, 3 * c)
+    nudge = np.trace(MtM, axis1=1, axis2=2)[:, None] * _NUDGE * np.arange(3 * c)
+    MtM[:, range(3 * c), range(3 * c)] += nudge  # of four points any basis would do: not rounding shall choose it
+    return np.swapaxes(np.linalg.eigh(MtM)[1][..., :c], 1, 2).reshape(k, c, c, 3)
 
 
 def _start(products: np.ndarray, squared: np.ndarray, N: int) -> np.ndarray:
@@ -108,12 +107,13 @@ def _start(products: np.ndarray, squared: np.ndarray, N: int) -> np.ndarray:
 
 
 def _downhill(weights: np.ndarray, products: np.ndarray, squared: np.ndarray) -> np.ndarray:
-    """Take Gauss-Newton steps on the squared distances between the control points (3.5)."""
+    """Take Gauss-Newton steps on the squared distances between the control points, from several starts (3.5)."""
+    c, along = products.shape[1], np.moveaxis(products, 3, 1)
     for _ in range(_STEPS):
-        half = np.einsum("kabe,kb->kea", products, weights)
-        residuals = (half @ weights[..., None])[..., 0] - squared
+        half = (along @ weights[..., None, :, None])[..., 0]
+        left = (half @ weights[..., None])[..., 0] - squared
         J = 2.0 * half
-        A = np.swapaxes(J, 1, 2) @ J
-        A[:, range(A.shape[1]), range(A.shape[1])] += 1e-12 * np.trace(A, axis1=1, axis2=2)[:, None] + 1e-300
-        weights = weights - np.linalg.solve(A, np.swapaxes(J, 1, 2) @ residuals[..., None])[..., 0]
+        A = np.swapaxes(J, -1, -2) @ J
+        A[..., range(c), range(c)] += 1e-12 * np.trace(A, axis1=-2, axis2=-1)[..., None] + 1e-300
+        weights = weights - np.linalg.solve(A, np.swapaxes(J, -1, -2) @ left[..., None])[..., 0]
     return weights

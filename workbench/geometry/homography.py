@@ -161,20 +161,39 @@ def fit_homography(
     """
     if len(uv_a) < 4 or len(uv_a) != len(uv_b):
         raise ValueError(f"a homography needs at least 4 pairs of pixels, got {uv_a.shape} and {uv_b.shape}")
-    T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
-    x, y = homogeneous(uv_a) @ T_a.T, homogeneous(uv_b) @ T_b.T
-    root = np.ones(len(x)) if weights is None else np.sqrt(weights)
-    x, zero = x * root[:, None], np.zeros_like(x)
-    rows_v = np.concatenate([zero, -x, y[:, 1:2] * x], axis=1)
-    rows_u = np.concatenate([x, zero, -y[:, 0:1] * x], axis=1)
-    H = null_vector(np.concatenate([rows_v, rows_u])).reshape(3, 3)
-    H = np.linalg.inv(T_b) @ H @ T_a
+    H = _fitted(uv_a, uv_b, np.ones(len(uv_a)) if weights is None else np.sqrt(weights))
     return H / np.linalg.norm(H)
 
 
-def null_vector(A: Float[np.ndarray, "n c"]) -> Float[np.ndarray, " c"]:
+def fit_homographies(
+    uv_a: Float[np.ndarray, "*k n 2"], uv_b: Float[np.ndarray, "*k n 2"]
+) -> Float[np.ndarray, "*k 3 3"]:
+    """Return the homographies of many pairs of images side by side, each as `fit_homography` gives it.
+
+    Args:
+        uv_a: Four pixels or more of each image a.
+        uv_b: Their matches in each image b.
+
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., algorithm 4.2.
+    """
+    H = _fitted(uv_a, uv_b, np.ones(uv_a.shape[-2]))
+    return H / np.linalg.norm(H, axis=(-2, -1), keepdims=True)
+
+
+def _fitted(uv_a: np.ndarray, uv_b: np.ndarray, root: np.ndarray) -> np.ndarray:
+    """Return homographies, at any scale, from matches with the roots of their weights."""
+    T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
+    x, y = (homogeneous(uv) @ np.swapaxes(T, -1, -2) for uv, T in ((uv_a, T_a), (uv_b, T_b)))
+    x, zero = x * root[:, None], np.zeros_like(x)
+    rows_v = np.concatenate([zero, -x, y[..., 1:2] * x], axis=-1)
+    rows_u = np.concatenate([x, zero, -y[..., 0:1] * x], axis=-1)
+    H = null_vector(np.concatenate([rows_v, rows_u], axis=-2)).reshape(*x.shape[:-2], 3, 3)
+    return np.linalg.inv(T_b) @ H @ T_a
+
+
+def null_vector(A: Float[np.ndarray, "*k n c"]) -> Float[np.ndarray, "*k c"]:
     """Return the unit vector that A makes smallest: its last right singular vector."""
-    return np.linalg.svd(np.linalg.qr(A, mode="r"), full_matrices=True)[2][-1]
+    return np.linalg.svd(np.linalg.qr(A, mode="r"), full_matrices=True)[2][..., -1, :]
 
 
 def refine_homography(

@@ -7,32 +7,34 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.geometry.alignment import nearest_rotation
-from workbench.geometry.homography import fit_homography
-from workbench.geometry.motions import exp_so3, motion
+from workbench.geometry.homography import fit_homographies
 
 FLAT = 1e-3
 """Points count as flat below this ratio of their smallest to their second largest extent."""
 
 
-def is_flat(p_world: Float[np.ndarray, "n 3"]) -> bool:
-    """Return whether points lie in one plane (and not all on one line).
+def is_flat(p_world: Float[np.ndarray, "*k n 3"]) -> bool:
+    """Return whether points lie in one plane (and not all on one line), those of each problem of several.
 
     Examples:
         >>> square = np.array([[0.0, 0, 5], [1, 0, 5], [1, 1, 5], [0, 1, 5]])
         >>> is_flat(square), is_flat(square + [[0, 0, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]])
         (True, False)
     """
-    _, extents, _ = np.linalg.svd(p_world - p_world.mean(axis=0), full_matrices=False)
-    return bool(extents[2] <= FLAT * extents[1]) and bool(extents[1] > 1e-9 * extents[0])
+    a, b, c = np.moveaxis(np.linalg.svd(p_world - p_world.mean(axis=-2, keepdims=True), compute_uv=False), -1, 0)
+    return bool(((c <= FLAT * b) & (b > 1e-9 * a)).all())
 
 
-def planar_motions(p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2 4 4"]:
+def planar_motions(
+    p_world: Float[np.ndarray, "*j n 3"], xy: Float[np.ndarray, "*k n 2"]
+) -> Float[np.ndarray, "*k 2 4 4"]:
     """Return the two T_camera_world that a homography of a plane leaves at its middle, by IPPE, in no order.
 
-    To first order about the middle of the points the two project alike; what tells them apart is perspective.
+    To first order about the middle of the points the two project alike; what tells them apart is perspective. Leading
+    dimensions are pictures that are solved side by side.
 
     Args:
-        p_world: Four points or more of one plane, metres.
+        p_world: Four points or more of one plane, metres: the same in all pictures, or each picture's own.
         xy: Their normalised image coordinates.
 
     Raises:
@@ -43,42 +45,49 @@ def planar_motions(p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "n 2
 
     Reference: Collins and Bartoli 2014, eq. 8 to 13 (J, its singular value, both rotations).
     """
-    if len(p_world) < 4 or not is_flat(p_world):
-        raise ValueError(f"IPPE takes four points or more of one plane, not these {len(p_world)}")
-    p_mean = p_world.mean(axis=0)
-    _, _, axes = np.linalg.svd(p_world - p_mean, full_matrices=False)
-    axes[2] = np.cross(axes[0], axes[1])
-    q = (p_world - p_mean) @ axes.T
-    H = fit_homography(q[:, :2], xy)
-    H = H / H[2, 2]
-    x0, y0 = H[:2, 2]
-    J = H[:2, :2] - np.outer(H[:2, 2], H[2, :2])  # of the map from plane to picture, at the middle
-    R_ray = _turn_to(np.array([x0, y0, 1.0]))
-    B = (np.array([[1.0, 0.0, -x0], [0.0, 1.0, -y0]]) @ R_ray)[:, :2]
+    if p_world.shape[-2] < 4 or not is_flat(p_world):
+        raise ValueError(f"IPPE takes four points or more of one plane, not these {p_world.shape[-2]}")
+    p_mean = p_world.mean(axis=-2)
+    q = p_world - p_mean[..., None, :]
+    axes = np.linalg.svd(q, full_matrices=False)[2]
+    axes[..., 2, :] = np.cross(axes[..., 0, :], axes[..., 1, :])
+    H = fit_homographies(np.broadcast_to((q @ np.swapaxes(axes, -1, -2))[..., :2], xy.shape), xy)
+    H = H / H[..., 2:, 2:]
+    middle = H[..., :2, 2:]
+    J = H[..., :2, :2] - middle @ H[..., 2:, :2]  # of the map from plane to picture, at the middle
+    R_ray = _turns_to(middle[..., 0])
+    B = R_ray[..., :2, :2] - middle @ R_ray[..., 2:, :2]
     A = np.linalg.solve(B, J)
-    top = A / np.linalg.svd(A, compute_uv=False)[0]  # the upper left of the rotation, relative to the ray
-    rest = np.eye(2) - top.T @ top
-    b = np.sqrt(np.maximum(np.diag(rest), 0.0))
-    b[1] = -b[1] if rest[0, 1] < 0.0 else b[1]
-    found = []
-    for third in (b, -b):
-        columns = np.vstack([top, third])
-        R = nearest_rotation(R_ray @ np.column_stack([columns, np.cross(columns[:, 0], columns[:, 1])])) @ axes
-        found.append(motion(R, _translation(R, p_world - p_mean, xy) - R @ p_mean))
-    return np.stack(found)
+    top = A / np.linalg.svd(A, compute_uv=False)[..., :1, None]  # the upper left of the rotation, relative to the ray
+    rest = np.eye(2) - np.swapaxes(top, -1, -2) @ top
+    b = np.sqrt(np.maximum(np.stack([rest[..., 0, 0], rest[..., 1, 1]], axis=-1), 0.0))
+    b[..., 1] *= np.where(rest[..., 0, 1] < 0.0, -1.0, 1.0)
+    third = np.stack([b, -b], axis=-2)[..., None, :]
+    columns = np.concatenate([np.broadcast_to(top[..., None, :, :], (*third.shape[:-2], 2, 2)), third], axis=-2)
+    across = np.cross(columns[..., 0], columns[..., 1])
+    R = nearest_rotation(R_ray[..., None, :, :] @ np.concatenate([columns, across[..., None]], axis=-1))
+    T = np.zeros((*R.shape[:-2], 4, 4))
+    T[..., :3, :3] = R = R @ axes[..., None, :, :]
+    T[..., :3, 3] = _translations(R, q[..., None, :, :], xy[..., None, :, :]) - (R @ p_mean[..., None, :, None])[..., 0]
+    T[..., 3, 3] = 1.0
+    return T
 
 
-def _turn_to(v: np.ndarray) -> np.ndarray:
-    """Return the shortest rotation that takes the z axis to the direction of v, which is not behind."""
-    axis = np.array([-v[1], v[0], 0.0])
-    sine = np.linalg.norm(axis)
-    return np.eye(3) if sine == 0.0 else exp_so3(axis / sine * np.arctan2(sine, v[2]))
+def _turns_to(xy: np.ndarray) -> np.ndarray:
+    """Return the shortest rotations that take the z axis to rays (x, y, 1)."""
+    z = 1.0 / np.sqrt(1.0 + np.square(xy).sum(axis=-1))
+    n = xy * z[..., None]
+    R = np.zeros((*z.shape, 3, 3))
+    R[..., :2, :2] = np.eye(2) - n[..., :, None] * n[..., None, :] / (1.0 + z[..., None, None])
+    R[..., :2, 2], R[..., 2, :2], R[..., 2, 2] = n, -n, z
+    return R
 
 
-def _translation(R: np.ndarray, q: np.ndarray, xy: np.ndarray) -> np.ndarray:
-    """Return the translation that puts the turned points nearest to their rays, linearly."""
-    turned = q @ R.T
-    A, b = np.zeros((len(q), 2, 3)), xy * turned[:, 2:] - turned[:, :2]
-    A[:, 0, 0] = A[:, 1, 1] = 1.0
-    A[:, :, 2] = -xy
-    return np.linalg.lstsq(A.reshape(-1, 3), b.ravel(), rcond=None)[0]
+def _translations(R: np.ndarray, q: np.ndarray, xy: np.ndarray) -> np.ndarray:
+    """Return the translations that put the turned points nearest to their rays, linearly."""
+    turned = q @ np.swapaxes(R, -1, -2)
+    off = xy * turned[..., 2:] - turned[..., :2]  # t_x - x t_z and t_y - y t_z
+    mean = xy.mean(axis=-2)
+    apart = xy - mean[..., None, :]
+    t_z = -(apart * off).sum(axis=(-2, -1)) / np.square(apart).sum(axis=(-2, -1))
+    return np.concatenate([off.mean(axis=-2) + mean * t_z[..., None], t_z[..., None]], axis=-1)
