@@ -142,7 +142,7 @@ class Lesson(Generic[P, S]):
         draw: What one state looks like.
         order: The place in the course.
         view: How the scene is first seen.
-        view_for: The same for params that show something of another size or place, where there are such.
+        view_for: How runs of some params are first seen, where the presets' cameras do not say it.
         presets: Named runs worth seeing.
         questions: What a student predicts before looking.
         first_step: Where the default run opens (negative counts from the end).

@@ -174,9 +174,9 @@ def _repeated(state: State, now: Repeated) -> Caption:
     if now.anew is not None:
         far = [percent(share, 0) for share in now.far]
         text += (
-            f" Of {ANEW} random cameras with as many random points EPnP turns {far[0]} over {angle(FAR_DEGREES)} away,"
+            f" Of {ANEW} random cameras with as many random points EPnP is over {angle(FAR_DEGREES)} off in {far[0]},"
         )
-        text += f" and SQPnP {far[1]}."
+        text += f" SQPnP in {far[1]}."
     text += f" {right} of {n} are right." if right < n else f" All {n} are right."
     return Caption(text, "good" if right == n else "wrong" if right < 0.9 * n else "info")
 

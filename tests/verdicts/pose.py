@@ -94,7 +94,7 @@ def turned_far(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 CAPTIONS = (
-    Claim(rf"EPnP turns ({NUMBER}) % over 5° away, and SQPnP ({NUMBER}) %\.", turned_far),
+    Claim(rf"EPnP is over 5° off in ({NUMBER}) %, SQPnP in ({NUMBER}) %\.", turned_far),
     Claim(r"sees the three points exactly where they were seen", exactly),
     Claim(rf"The pose is ({NUMBER})° and ({LENGTH}) from the truth\.", told),
     Claim(r"The better one is taken", better),

@@ -55,6 +55,26 @@ def test_a_knob_that_leads_to_something_of_another_size_turns_the_camera_and_no_
         np.testing.assert_allclose(camera.position, eye_of(view, 860 / 530))
 
 
+@pytest.mark.parametrize(
+    ("name", "choice", "value"),
+    [
+        ("features", "part", "pictures"),
+        ("learning", "task", "mesh"),
+        ("distances", "stage", "surface"),
+        ("fitting", "shape", "sphere"),
+        ("ransac", "model", "line"),
+    ],
+)
+def test_a_choice_that_leads_to_other_things_brings_the_camera_of_their_presets(name, choice, value):
+    lesson = catalog()[name]
+    params = replace(lesson.params(), **{choice: value}, seed=lesson.params().seed + 1)
+    theirs = [preset.view for preset in lesson.presets if getattr(preset.params, choice) == value]
+    assert lesson.preset_of(params) is None
+    assert lesson.view_of(params) in theirs
+    assert lesson.view_of(params) != lesson.view
+    assert lesson.view_of(replace(lesson.params(), seed=lesson.params().seed + 1)) == lesson.view
+
+
 DOWN = View(eye=(0.0, 0.0, 4.0))
 
 
