@@ -16,6 +16,7 @@ VASE = Params(shape="vase")
 PATCHES = Params(part="pictures", turn=0.0)
 TILTED = Params(part="pictures", turn=10.0)
 TURNED = Params(part="pictures", turn=30.0)
+SIFT = Params(part="pictures", turn=30.0, describe="SIFT")
 OUTLINE = Params(part="outlines", turn=45.0)
 OUTLINE_X = Params(part="outlines", turn=45.0, angles="from the x axis")
 VIEW = View(eye=(0.75, -2.35, 0.85), target=(0.48, 0.0, 0.08), grid=None, axes=False)
@@ -71,6 +72,11 @@ PRESETS: tuple[Preset[Params], ...] = (
         "turned", "The right photograph turned by 30°",
         "The same corners, a larger turn: look at the two patches that match most clearly.",
         TURNED, 4, FLAT, breaks=True,
+    ),
+    Preset(
+        "sift", "The same turn, with SIFT",
+        "Every keypoint has a size and a direction of its own, and is described along it: over 75 % are green.",
+        SIFT, 1, FLAT,
     ),
     Preset(
         "outline", "A horse turned by 45°",

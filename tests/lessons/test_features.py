@@ -77,6 +77,15 @@ def test_patches_forgive_small_turns_only():
     assert kept_share(states(TURNED)) == pytest.approx(100 * green(TURNED))
 
 
+def test_sift_forgives_the_turn_and_is_no_better_without_one():
+    patches, turned = lesson.preset("patches").params, lesson.preset("sift").params
+    assert replace(turned, describe="patches") == TURNED
+    assert green(turned) > 0.75
+    assert caption_of(finished("features", turned)[-1].scene).tone == "good"
+    assert green(patches) == pytest.approx(0.90, abs=0.005)
+    assert green(replace(patches, describe="SIFT")) == pytest.approx(0.84, abs=0.005)
+
+
 def test_outlines_need_angles_along_them():
     assert green(lesson.preset("outline").params) > 0.95
     assert green(OUTLINE_X) < 0.25

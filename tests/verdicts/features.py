@@ -103,6 +103,7 @@ LINES = {
     "patches": (Claim(r"Over 80 % are green", _green(0.8)),),
     "tilted": (Claim(r"The right photograph", None), Claim(r"over 75 % are green", _green(0.75))),
     "turned": (Claim(r"The right photograph", None),),
+    "sift": (Claim(r"over 75 % are green", _green(0.75)),),
     "outline-x": (Claim(r"less than a quarter of the lines are green", _green(below=0.25)),),
 }
 
