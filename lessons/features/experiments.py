@@ -12,6 +12,7 @@ SMALL = Params(radius=0.07)
 WIDE = Params(radius=0.25)
 ROOT = Params(compare="square root")
 FLIPPED = Params(normals="source flipped")
+RANDOM_ONE, RANDOM = Params(normals="random in source"), Params(normals="random in both")
 VASE = Params(shape="vase")
 PATCHES = Params(part="pictures", turn=0.0)
 TILTED = Params(part="pictures", turn=10.0)
@@ -52,6 +53,17 @@ PRESETS: tuple[Preset[Params], ...] = (
         "flipped", "One scan's normals face inwards",
         "The same points, the same lines, the other side: look at the bars, and at how many matches pass the filter.",
         FLIPPED, 3, breaks=True,
+    ),
+    Preset(
+        "random-one", "One scan's normals face either side by chance",
+        "The target's still face outwards: its histograms and the source's are no longer made in the same way.",
+        RANDOM_ONE, 6, breaks=True,
+    ),
+    Preset(
+        "random", "Both scans' normals by chance",
+        "Less than a quarter of the kept matches are green and RANSAC draws over 1,000 samples, but it comes home: both"
+        " scans' histograms are blurred alike.",
+        RANDOM, 6,
     ),
     Preset(
         "vase", "A vase",

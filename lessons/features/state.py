@@ -15,7 +15,7 @@ from workbench.knobs import Knob, Pick
 
 Part = Literal["scans", "pictures", "outlines"]
 Shape = Literal["rabbit", "vase", "corner"]
-Facing = Literal["outwards", "source flipped", "random signs"]
+Facing = Literal["outwards", "source flipped", "random in source", "random in both"]
 Compare = Literal["plain", "square root"]
 Where = Literal["every point", "ISS keypoints"]
 Angles = Literal["along the outline", "from the x axis"]
@@ -45,9 +45,7 @@ class Params:
     noise: Annotated[float, Knob("Noise of each coordinate", 0, 0.01, unit="m", step=0.001, needs=SCANS)] = 0.002
     points: Annotated[int, Knob("Points of each built-in scan", 400, 4000, step=100, needs=SCANS)] = 2000
     radius: Annotated[float, Knob("Of a neighbourhood", 0.04, 0.4, unit="m", step=0.01, needs=SCANS)] = 0.15
-    normals: Annotated[Facing, Knob("Which side normals face; random signs are those of both scans", needs=SCANS)] = (
-        "outwards"
-    )
+    normals: Annotated[Facing, Knob("Which side normals face", needs=SCANS)] = "outwards"
     where: Annotated[Where, Knob("Which points are matched", needs=SCANS)] = "every point"
     compare: Annotated[Compare, Knob("Histograms as they are, or the square root of every bar", needs=SCANS)] = "plain"
     keep: Annotated[

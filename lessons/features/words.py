@@ -45,7 +45,8 @@ def _scanned(state: State, now: Scanned) -> Caption:
             side = {
                 "outwards": "they face away from the middle",
                 "source flipped": "those of the source were turned inside out",
-                "random signs": "each faces either side by chance",
+                "random in source": "each of the source faces either side by chance",
+                "random in both": "each of both scans faces either side by chance",
             }[params.normals]
             return Caption(f"Each point gets a normal from its 16 nearest points; {side}.")
         case "pairs":

@@ -53,6 +53,17 @@ def test_flipped_normals_leave_few_matches():
     assert "nothing is found" in caption_of(finished("features", FLIPPED)[-1].scene).text
 
 
+def test_random_signs_in_one_scan_are_worse_than_in_both():
+    one, both = lesson.preset("random-one").params, lesson.preset("random").params
+    assert kept_count(states(one)) < 20
+    assert states(one)[-1].now.T_target_source is None
+    assert kept_count(states(both)) > 190
+    assert 0.1 < green(both) < 0.2 < green(HOME)
+    assert home(states(both)[-1].now)
+    drawn = [max(s.now.iteration for s in states(params) if s.now.phase == "refit") for params in (HOME, both)]
+    assert drawn[1] > 3 * drawn[0]
+
+
 def test_a_filter_raises_the_share_of_right_matches():
     nearest = share(next(s.now for s in states(HOME) if s.now.phase == "nearest"))
     assert nearest is not None
