@@ -5,10 +5,12 @@ import numpy as np
 from lessons.features.state import Outlined, Pictured, State
 from workbench.geometry.polylines import between, circle, segments
 from workbench.geometry.shape_context import EDGES, SECTORS, tangent_angles
+from workbench.geometry.sift import Sift
 from workbench.scene import Chart, Field, Picture, Points, Primitive, Role, Segments
 
 WIDTH, NEARER, SIZE = 1.2, 0.01, 0.006  # metres
 MANY = 60  # lines
+ROUND = 1.5  # radius of the circle round a keypoint, in its sizes
 PLACES = np.array([-0.63, 0.0, 0.0]), np.array([0.63, 0.0, 0.0])
 NAMES = "first", "second"
 BARS = Chart("Shape context", "bin: 5 rings of 12 sectors", "%")
@@ -20,13 +22,18 @@ def pictured(now: Pictured) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = dict(zip(NAMES, shown, strict=True))
     if now.uv_first is not None and now.uv_second is not None:
         for name, picture, uv in zip(NAMES, shown, (now.uv_first, now.uv_second), strict=True):
-            if len(uv):
+            if len(uv) and not now.sifts:
                 p = picture.places(uv.astype(float), NEARER)
                 scene[f"{name} corners"] = Points(p, "highlight", SIZE, name="corners")
         if now.pairs is not None and len(now.pairs):
             a = shown[0].places(now.uv_first[now.pairs[:, 0]].astype(float), 2 * NEARER)
             b = shown[1].places(now.uv_second[now.pairs[:, 1]].astype(float), 2 * NEARER)
             scene |= lines_between(a, b, now.right, now.known)
+    if now.sifts and now.phase in ("corners", "patch"):
+        for k, (name, picture, found) in enumerate(zip(NAMES, shown, now.sifts, strict=True)):
+            ends = _marks(found, slice(None) if now.pairs is None else now.pairs[:, k])
+            ends = picture.places(ends.reshape(-1, 2), NEARER).reshape(-1, 2, 3)
+            scene[f"{name} keypoints"] = Segments(ends, "highlight", 1.5, name="keypoints: size and direction")
     if now.phase == "patch" and now.windows is not None:
         scene["patches"] = Picture(now.windows, "Two patches that match")
     return scene
@@ -45,6 +52,14 @@ def _picture(now: Pictured, k: int) -> Picture:
         shown = Field(root, -top, top, "signed root of the response", map="diverging")
     width = WIDTH * image.shape[1] / max(now.first.shape[1], now.second.shape[1])
     return Picture(shown, NAMES[k], width, pose)
+
+
+def _marks(found: Sift, some: slice | np.ndarray) -> np.ndarray:
+    """Return circles as wide as some keypoints and lines along their directions, pixels, (k, 2, 2)."""
+    uv, angle, radius = found.uv[some], found.angle[some], ROUND * found.sigma[some, None]
+    rims = uv[:, None] + radius[:, None] * circle(24)
+    tips = uv + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+    return np.concatenate([*(segments(rim, closed=True) for rim in rims), between(uv, tips)])
 
 
 def outlined(state: State, now: Outlined) -> dict[str, Primitive]:

@@ -1,4 +1,4 @@
-"""Finding corners of a picture in another: gradient, structure tensor, corners, patches, matches."""
+"""Finding places of a picture in another: gradient, structure tensor, corners and patches, or SIFT; then matches."""
 
 import functools
 from collections.abc import Callable, Iterator
@@ -14,9 +14,11 @@ from workbench.data.turned_pictures import motorcycle_levels, places_in_turned, 
 from workbench.errors import InputError
 from workbench.geometry.keypoints import gradient, patches, strongest
 from workbench.geometry.matching import nearest_both_ways
+from workbench.geometry.sift import Sift, sift, turned_patch
 
 Response = Callable[[np.ndarray], np.ndarray]
 BORDER = 16  # no corner is nearer to the border, whatever the patch
+SEEN, SIDE = 6.0, 25  # of the square that SIFT describes: half its side, in sizes of the keypoint; pixels shown
 
 
 def picture_steps(params: Params, harris_response: Response, mutual_matches: Matcher) -> Iterator[Pictured]:
@@ -24,29 +26,50 @@ def picture_steps(params: Params, harris_response: Response, mutual_matches: Mat
     first, second, disparity = pictures_of(params)
     now = Pictured(phase="pictures", first=first, second=second)
     yield now
-    strength = np.hypot(*gradient(first)), np.hypot(*gradient(second))
-    yield replace(now, phase="gradient", strength=strength)
-    response = checked(harris_response, first), checked(harris_response, second)
-    now = replace(now, phase="response", response=response)
-    yield now
-    uv_first, uv_second = (strongest(r, params.corners, border=BORDER) for r in response)
+    if params.describe == "SIFT":
+        sifts = _sift(first.tobytes(), first.shape), _sift(second.tobytes(), second.shape)
+        uv_first, uv_second = (found.uv for found in sifts)
+        now = replace(now, sifts=sifts)
+    else:
+        strength = np.hypot(*gradient(first)), np.hypot(*gradient(second))
+        yield replace(now, phase="gradient", strength=strength)
+        response = checked(harris_response, first), checked(harris_response, second)
+        yield replace(now, phase="response", response=response)
+        uv_first, uv_second = (strongest(r, params.corners, border=BORDER) for r in response)
+    now = replace(now, phase="corners", uv_first=uv_first, uv_second=uv_second)
     if len(uv_first) < 2 or len(uv_second) < 2:
-        yield replace(now, phase="corners", uv_first=uv_first, uv_second=uv_second)
+        yield now
         return
-    uv_truth = None if disparity is None else places_in_turned(uv_first, disparity, np.radians(params.turn))
-    now = replace(now, phase="corners", uv_first=uv_first, uv_second=uv_second, uv_truth=uv_truth)
+    if disparity is not None:
+        now = replace(now, uv_truth=places_in_turned(uv_first, disparity, np.radians(params.turn)))
     yield now
-    a, b = patches(first, uv_first, params.patch), patches(second, uv_second, params.patch)
+    if now.sifts:
+        a, b = (found.descriptors for found in now.sifts)
+    else:
+        a, b = (patches(image, uv, params.patch) for image, uv in ((first, uv_first), (second, uv_second)))
     found = nearest_both_ways(a, b)
     pairs = np.column_stack([np.arange(len(a)), found.index])
     best = int(np.argmin(found.distance / np.maximum(found.second, 1e-12)))
-    side = params.patch
-    windows = np.hstack([_shown(a[best], side), np.full((side, 2), 255, np.uint8), _shown(b[found.index[best]], side)])
-    now = replace(now, windows=windows)
+    if now.sifts:
+        seen = [_turned(image, by, k) for image, by, k in zip((first, second), now.sifts, pairs[best], strict=True)]
+    else:
+        seen = [_shown(of[k].reshape(params.patch, params.patch)) for of, k in zip((a, b), pairs[best], strict=True)]
+    now = replace(now, windows=np.hstack([seen[0], np.full((len(seen[0]), 2), 255, np.uint8), seen[1]]))
     yield replace(now, phase="patch", **judged(now, pairs[[best]]))
     yield replace(now, phase="nearest", **judged(now, pairs))
     pairs = chosen(params, found, a, b, mutual_matches)
     yield replace(now, phase="kept", **judged(now, pairs))
+
+
+@functools.lru_cache(maxsize=8)
+def _sift(levels: bytes, shape: tuple[int, int]) -> Sift:
+    """Return the keypoints of a picture, found once: they cost more than all else."""
+    return sift(np.frombuffer(levels).reshape(shape))
+
+
+def _turned(image: np.ndarray, by: Sift, k: int) -> np.ndarray:
+    patch = turned_patch(image, by.uv[k], float(by.angle[k]), SEEN * float(by.sigma[k]), SIDE)
+    return _shown(patch - patch.mean())
 
 
 def judged(now: Pictured, pairs: np.ndarray) -> dict[str, np.ndarray | None]:
@@ -86,6 +109,5 @@ def _own(file: Path, _stamp: tuple) -> np.ndarray:
     return read_levels(file)
 
 
-def _shown(patch: np.ndarray, side: int) -> np.ndarray:
-    top = max(float(np.abs(patch).max()), 1e-9)
-    return np.rint(127.5 + 127.5 * patch / top).astype(np.uint8).reshape(side, side)
+def _shown(patch: np.ndarray) -> np.ndarray:
+    return np.rint(127.5 + 127.5 * patch / max(float(np.abs(patch).max()), 1e-9)).astype(np.uint8)

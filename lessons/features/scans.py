@@ -160,9 +160,11 @@ def normals_of(params: Params, scans: Scans) -> tuple[np.ndarray, np.ndarray]:
     n_target, n_source = point_normals(scans.p_target), point_normals(scans.p_source)
     if params.normals == "source flipped":
         n_source = -n_source
-    elif params.normals == "random signs":
+    elif params.normals != "outwards":
         rng = np.random.default_rng(params.seed)
-        n_target, n_source = (n * rng.choice([-1.0, 1.0], len(n))[:, None] for n in (n_target, n_source))
+        n_source = n_source * rng.choice([-1.0, 1.0], (len(n_source), 1))
+        if params.normals == "random in both":
+            n_target = n_target * rng.choice([-1.0, 1.0], (len(n_target), 1))
     return n_target, n_source
 
 

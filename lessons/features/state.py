@@ -10,15 +10,18 @@ from workbench.data.framing import Up
 from workbench.data.scan_pairs import Scans
 from workbench.geometry.alignment import MotionError
 from workbench.geometry.matching import Filter
+from workbench.geometry.sift import Sift
 from workbench.knobs import Knob, Pick
 
 Part = Literal["scans", "pictures", "outlines"]
 Shape = Literal["rabbit", "vase", "corner"]
-Facing = Literal["outwards", "source flipped", "random signs"]
+Facing = Literal["outwards", "source flipped", "random in source", "random in both"]
 Compare = Literal["plain", "square root"]
 Where = Literal["every point", "ISS keypoints"]
 Angles = Literal["along the outline", "from the x axis"]
+Describe = Literal["patches", "SIFT"]
 SCANS, PICTURES, OUTLINES = ({"part": (part,)} for part in ("scans", "pictures", "outlines"))
+PATCHES = PICTURES | {"describe": ("patches",)}
 RIGHT, INLIER, HOME_DEGREES = 0.05, 0.04, 4.0  # metres, metres, degrees
 PIXELS = 3.0  # within which a match of pictures is right
 STEPS_ALONG = 2  # within which a match of outlines is right
@@ -42,9 +45,7 @@ class Params:
     noise: Annotated[float, Knob("Noise of each coordinate", 0, 0.01, unit="m", step=0.001, needs=SCANS)] = 0.002
     points: Annotated[int, Knob("Points of each built-in scan", 400, 4000, step=100, needs=SCANS)] = 2000
     radius: Annotated[float, Knob("Of a neighbourhood", 0.04, 0.4, unit="m", step=0.01, needs=SCANS)] = 0.15
-    normals: Annotated[Facing, Knob("Which side normals face; random signs are those of both scans", needs=SCANS)] = (
-        "outwards"
-    )
+    normals: Annotated[Facing, Knob("Which side normals face", needs=SCANS)] = "outwards"
     where: Annotated[Where, Knob("Which points are matched", needs=SCANS)] = "every point"
     compare: Annotated[Compare, Knob("Histograms as they are, or the square root of every bar", needs=SCANS)] = "plain"
     keep: Annotated[
@@ -61,8 +62,11 @@ class Params:
         int, Knob("The source point whose descriptor is shown: click one; -1 takes ours", -1, 4000, by=Pick("source"),
                   needs=SCANS)
     ] = -1  # fmt: skip
-    corners: Annotated[int, Knob("Corners of each picture", 50, 600, step=50, needs=PICTURES)] = 300
-    patch: Annotated[int, Knob("Side of a patch, odd", 7, 31, unit="px", step=2, needs=PICTURES)] = 15
+    describe: Annotated[
+        Describe, Knob("What is found and compared: corners with the pixels around them, or SIFT", needs=PICTURES)
+    ] = "patches"
+    corners: Annotated[int, Knob("Corners of each picture", 50, 600, step=50, needs=PATCHES)] = 300
+    patch: Annotated[int, Knob("Side of a patch, odd", 7, 31, unit="px", step=2, needs=PATCHES)] = 15
     angles: Annotated[Angles, Knob("Where the angles of an outline's bins begin", needs=OUTLINES)] = "along the outline"
     target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz")] = None
     source: Annotated[Path | None, Knob("Own source scan, found in the target")] = None
@@ -150,6 +154,7 @@ class Pictured:
         second: Of the right one, turned.
         strength: Length of the gradient, both pictures.
         response: The corner response, both pictures.
+        sifts: The keypoints of both pictures, where SIFT describes them.
         uv_first: Corners (u, v).
         uv_second: Of the second picture.
         uv_truth: Where the corners of the first lie in the second, NaN where nobody knows.
@@ -164,6 +169,7 @@ class Pictured:
     second: np.ndarray
     strength: tuple[np.ndarray, np.ndarray] | None = None
     response: tuple[np.ndarray, np.ndarray] | None = None
+    sifts: tuple[Sift, Sift] | None = None
     uv_first: np.ndarray | None = None
     uv_second: np.ndarray | None = None
     uv_truth: np.ndarray | None = None

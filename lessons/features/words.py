@@ -7,6 +7,7 @@ from workbench.numerals import angle, counted, fixed_row, length, percent
 from workbench.scene import Caption
 
 HALF = 0.5
+SIFT = "SIFT's keypoints are where the picture differs most from a smoother one, across places and sizes:"
 FILTERS = {
     "nearest": "every nearest one",
     "ratio": "those much nearer than the second nearest",
@@ -44,7 +45,8 @@ def _scanned(state: State, now: Scanned) -> Caption:
             side = {
                 "outwards": "they face away from the middle",
                 "source flipped": "those of the source were turned inside out",
-                "random signs": "each faces either side by chance",
+                "random in source": "each of the source faces either side by chance",
+                "random in both": "each of both scans faces either side by chance",
             }[params.normals]
             return Caption(f"Each point gets a normal from its 16 nearest points; {side}.")
         case "pairs":
@@ -141,17 +143,28 @@ def _pictured(state: State, now: Pictured) -> Caption:
         case "corners":
             assert now.uv_first is not None
             assert now.uv_second is not None
-            text = f"The strongest local maxima are corners: {len(now.uv_first)} left and {len(now.uv_second)} right."
+            count = f"{len(now.uv_first)} left and {len(now.uv_second)} right."
+            text = f"The strongest local maxima are corners: {count}"
+            if now.sifts:
+                text = f"{SIFT} {count} A circle is its size, the line in it its main direction."
             if min(len(now.uv_first), len(now.uv_second)) < 2:
                 return Caption(f"{text} That is too few to match.")
             return Caption(text)
         case "patch":
+            if now.sifts:
+                return Caption(
+                    "A keypoint is described by 128 numbers: how steep the grey levels are in 8 directions, in 4 × 4 cells,"
+                    " counted from its own direction. These two are the clearest match, both turned to it."
+                )
             return Caption(
                 f"A corner is described by the {params.patch} × {params.patch} pixels around it, less their mean and of"
                 " length 1. These two are the clearest match."
             )
         case "nearest":
-            return Caption(f"Every left corner takes the right one with the nearest patch.{_known(state, now)}")
+            which = ("keypoint", "descriptor") if now.sifts else ("corner", "patch")
+            return Caption(
+                f"Every left {which[0]} takes the right one with the nearest {which[1]}.{_known(state, now)}"
+            )
         case "kept":
             return _kept_pictures(state, now)
 

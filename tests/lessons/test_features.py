@@ -53,6 +53,17 @@ def test_flipped_normals_leave_few_matches():
     assert "nothing is found" in caption_of(finished("features", FLIPPED)[-1].scene).text
 
 
+def test_random_signs_in_one_scan_are_worse_than_in_both():
+    one, both = lesson.preset("random-one").params, lesson.preset("random").params
+    assert kept_count(states(one)) < 20
+    assert states(one)[-1].now.T_target_source is None
+    assert kept_count(states(both)) > 190
+    assert 0.1 < green(both) < 0.2 < green(HOME)
+    assert home(states(both)[-1].now)
+    drawn = [max(s.now.iteration for s in states(params) if s.now.phase == "refit") for params in (HOME, both)]
+    assert drawn[1] > 3 * drawn[0]
+
+
 def test_a_filter_raises_the_share_of_right_matches():
     nearest = share(next(s.now for s in states(HOME) if s.now.phase == "nearest"))
     assert nearest is not None
@@ -75,6 +86,15 @@ def test_patches_forgive_small_turns_only():
     assert green(lesson.preset("tilted").params) > 0.75
     assert green(TURNED) < 0.1
     assert kept_share(states(TURNED)) == pytest.approx(100 * green(TURNED))
+
+
+def test_sift_forgives_the_turn_and_is_no_better_without_one():
+    patches, turned = lesson.preset("patches").params, lesson.preset("sift").params
+    assert replace(turned, describe="patches") == TURNED
+    assert green(turned) > 0.75
+    assert caption_of(finished("features", turned)[-1].scene).tone == "good"
+    assert green(patches) == pytest.approx(0.90, abs=0.005)
+    assert green(replace(patches, describe="SIFT")) == pytest.approx(0.84, abs=0.005)
 
 
 def test_outlines_need_angles_along_them():

@@ -17,6 +17,7 @@ from workbench.errors import InputError
 from workbench.geometry.keypoints import harris_response, patches, strongest
 from workbench.geometry.matching import filtered, nearest_both_ways
 from workbench.geometry.motions import exp_so3, inverse, motion
+from workbench.geometry.sift import sift
 
 
 def final(params: Params) -> Any:
@@ -76,6 +77,12 @@ def test_own_pictures_are_matched_and_refused(tmp_path):
     assert last.first.shape == (100, 300)
     off = last.uv_first[last.pairs[:, 0]] - last.uv_second[last.pairs[:, 1]]
     assert np.mean(np.abs(off - [5, 2]).max(axis=1) <= 1) > 0.9
+    last = final(replace(pictures, describe="SIFT"))
+    off = last.uv_first[last.pairs[:, 0]] - last.uv_second[last.pairs[:, 1]]
+    assert len(off) > 20
+    assert np.mean(np.abs(off - [5, 2]).max(axis=1) <= 1) > 0.9
+    Image.new("L", (200, 100)).save(tmp_path / "flat.png")
+    assert final(replace(pictures, second_image=tmp_path / "flat.png", describe="SIFT")).phase == "corners"
     with pytest.raises(InputError, match="80 at least"):
         final(replace(pictures, second_image=tmp_path / "tiny.png"))
     with pytest.raises(InputError, match="pairs"):
@@ -112,17 +119,29 @@ def test_a_car_finds_its_lidar_scans(shared_data):
     assert last.error.rotation < 0.2
 
 
-def test_corners_of_the_fountain_lie_on_each_others_lines(shared_data):
+def kept_near_lines(F, uv, descriptors, ratio):
+    """How many matches each filter keeps of two pictures, and the share of them within 2 px of their true line."""
+    near, found = nearest_both_ways(*descriptors), {}
+    for how in ("nearest", "ratio", "mutual", "both"):
+        first, second = filtered(near, how, ratio).T
+        a, b = (np.column_stack([at, np.ones(len(at))]) for at in (uv[0][first], uv[1][second]))
+        n = a @ F.T
+        found[how] = np.mean(np.abs((n * b).sum(axis=1)) < 2 * np.hypot(n[:, 0], n[:, 1])), len(first)
+    return found
+
+
+def test_corners_of_the_fountain_lie_on_each_others_lines_and_sift_is_no_better(shared_data):
     folder = shared_data / "ransac" / "fountain-P11"
     F = np.load(folder / "gt_and_matches.npz")["F"]
     images = [grey(read_image(folder / f"000{k}_third.jpg")) for k in (4, 5)]
     uv = [strongest(harris_response(image), 1000, border=16) for image in images]
-    near = nearest_both_ways(*(patches(image, at, 15) for image, at in zip(images, uv, strict=True)))
-    shares = {}
-    for how in ("nearest", "ratio", "mutual", "both"):
-        first, second = filtered(near, how, 0.9).T
-        a, b = (np.column_stack([at, np.ones(len(at))]) for at in (uv[0][first], uv[1][second]))
-        n = a @ F.T
-        shares[how] = np.mean(np.abs((n * b).sum(axis=1)) < 2 * np.hypot(n[:, 0], n[:, 1]))
-    assert shares["both"] > 0.9 > shares["ratio"] > shares["nearest"] + 0.1
-    assert shares["both"] > shares["mutual"] > shares["nearest"] + 0.1
+    described = [patches(image, at, 15) for image, at in zip(images, uv, strict=True)]
+    of = kept_near_lines(F, uv, described, 0.9)
+    assert of["both"][0] > 0.9 > of["ratio"][0] > of["nearest"][0] + 0.1
+    assert of["both"][0] > of["mutual"][0] > of["nearest"][0] + 0.1
+    patch_share, patch_count = kept_near_lines(F, uv, described, 0.8)["both"]
+    found = [sift(image) for image in images]
+    sift_share, sift_count = kept_near_lines(F, [s.uv for s in found], [s.descriptors for s in found], 0.8)["both"]
+    assert patch_share == pytest.approx(0.97, abs=0.005)
+    assert sift_share == pytest.approx(0.96, abs=0.005)
+    assert patch_count > 500 > 400 > sift_count > 300

@@ -99,10 +99,19 @@ CAPTIONS = (
 )  # fmt: skip
 
 LINES = {
+    "random": (
+        Claim(r"Less than a quarter of the kept matches are green", _green(below=0.25)),
+        Claim(
+            r"RANSAC draws over 1,000 samples",
+            lambda run, k, m: max(s.now.iteration for s in run.states if s.now.phase == "refit") > 1000,
+        ),
+        Claim(r"it comes home", lambda run, k, m: home(run.states[-1].now)),
+    ),
     "wide": (Claim(r"over 40 % of the kept matches are green", _green(0.4)),),
     "patches": (Claim(r"Over 80 % are green", _green(0.8)),),
     "tilted": (Claim(r"The right photograph", None), Claim(r"over 75 % are green", _green(0.75))),
     "turned": (Claim(r"The right photograph", None),),
+    "sift": (Claim(r"over 75 % are green", _green(0.75)),),
     "outline-x": (Claim(r"less than a quarter of the lines are green", _green(below=0.25)),),
 }
 

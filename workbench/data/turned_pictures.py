@@ -52,15 +52,18 @@ def turned(image: Image, angle: float) -> Image:
     return scipy.ndimage.affine_transform(image, R, middle - R @ middle, order=1, cval=128.0)
 
 
-def places_in_turned(uv: Int[np.ndarray, "n 2"], disparity: Image, angle: float) -> Float[np.ndarray, "n 2"]:
-    """Return where pixels (u, v) of the left picture lie in the turned right one; NaN where the disparity is.
+def places_in_turned(
+    uv: Int[np.ndarray, "n 2"] | Float[np.ndarray, "n 2"], disparity: Image, angle: float
+) -> Float[np.ndarray, "n 2"]:
+    """Return where places (u, v) of the left picture lie in the turned right one; NaN where the disparity is.
 
     Args:
-        uv: Pixels of the left picture.
-        disparity: How far to the left the right picture has each, pixels.
+        uv: Places in the left picture, pixels.
+        disparity: How far to the left the right picture has each pixel, pixels; a place has that of the nearest.
         angle: How far the right picture is turned, radians.
     """
-    d = disparity[uv[:, 1], uv[:, 0]]
+    u, v = np.rint(uv).astype(int).T
+    d = disparity[v, u]
     middle = (np.array(disparity.shape[::-1]) - 1) / 2
     return (uv - np.column_stack([d, np.zeros_like(d)]) - middle) @ _turn(angle).T + middle
 

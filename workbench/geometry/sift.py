@@ -1,0 +1,69 @@
+"""SIFT's keypoints of a picture, by scikit-image: places with a size and a direction of their own, described along it.
+
+References: Lowe, Distinctive Image Features from Scale-Invariant Keypoints, 2004, sections 3 to 6; Otero and Delbracio,
+Anatomy of the SIFT Method, IPOL 2014, which scikit-image follows.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy
+from jaxtyping import Float
+
+Image = Float[np.ndarray, "h w"]
+
+
+@dataclass(frozen=True, eq=False)
+class Sift:
+    """The keypoints of one picture.
+
+    Attributes:
+        uv: Their places, pixels.
+        sigma: Their sizes: the standard deviation of the Gaussian that they stand out from, pixels.
+        angle: Their main directions, radians from u towards v.
+        descriptors: What is around them, counted along that direction.
+    """
+
+    uv: Float[np.ndarray, "n 2"]
+    sigma: Float[np.ndarray, " n"]
+    angle: Float[np.ndarray, " n"]
+    descriptors: Float[np.ndarray, "n 128"]
+
+
+def sift(image: Image) -> Sift:
+    """Return the keypoints of a picture; none where no place stands out. The picture is not doubled first, as Lowe's is.
+
+    Args:
+        image: Grey levels, 12 pixels wide and high at least.
+
+    Reference: Otero and Delbracio 2014, without the oversampling of their section 2.2.
+    """
+    from skimage.feature import SIFT
+
+    found: Any = SIFT(upsampling=1)  # what it holds is None until it has looked
+    try:
+        found.detect_and_extract(image / 255.0)
+    except RuntimeError:  # it found nothing, and says so in this way
+        return Sift(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros((0, 128)))
+    # theirs are rows and columns, and an angle from down to the right
+    uv = found.positions[:, ::-1].astype(float)
+    return Sift(uv, found.sigmas.astype(float), np.pi / 2 - found.orientations, found.descriptors.astype(float))
+
+
+def turned_patch(
+    image: Image, uv: Float[np.ndarray, "2"], angle: float, half: float, side: int
+) -> Float[np.ndarray, "side side"]:
+    """Return the grey levels of a square around a place, turned so that a direction points to the right.
+
+    Args:
+        image: Grey levels; beyond its border the last pixel goes on.
+        uv: The square's middle, pixels.
+        angle: The direction, radians from u towards v.
+        half: Half the square's side in the picture, pixels.
+        side: How many grey levels along each of its sides.
+    """
+    across, down = np.meshgrid(np.linspace(-half, half, side), np.linspace(-half, half, side))
+    c, s = np.cos(angle), np.sin(angle)
+    places = [uv[1] + s * across + c * down, uv[0] + c * across - s * down]
+    return scipy.ndimage.map_coordinates(image, places, order=1, mode="nearest")
