@@ -62,7 +62,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "rotation", "Rotations by two columns",
-        "Six numbers, made orthonormal: every rotation is reached, and nowhere is a jump. Worst error below 15°.",
+        "Six numbers, made orthonormal: every rotation is reached, and nowhere is a jump. Worst error below 5°.",
         ROTATION, -1, BALL,
     ),
     Preset(
@@ -72,12 +72,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "euler", "Rotations by Euler angles",
-        "Three numbers: the mean error is several times that of six numbers, and some are wrong by more than 120°.",
+        "Three numbers: the mean error is over six times that of six numbers, and some are wrong by more than 120°.",
         EULER, -1, BALL, breaks=True,
     ),
     Preset(
         "nine", "Rotations by all nine entries",
-        "The nearest rotation to any 3×3, by its SVD: as good as six numbers, or better.",
+        "The nearest rotation to any 3×3, by its SVD: a little better than six numbers.",
         NINE, -1, BALL,
     ),
     Preset(
@@ -102,7 +102,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "pooled", "PointNet and the order of points",
-        "The largest of each feature over all points: it is the same, to the last bit, in whatever order they are listed.",
+        "The largest of each feature over all points: it is the same, but for rounding, in whatever order they are listed.",
         POOLED, -1, ROW,
     ),
     Preset(
@@ -217,7 +217,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "predict-views",
-        "A field learns from 2 photographs, another from 24. The first matches the 2 it was shown with 36 dB or so. How does"
+        "A field learns from 2 photographs, another from 24. The first matches the 2 it was shown with 37 dB or so. How does"
         " the second match its 24?",
         answer=lambda states: 0.0 if _signals(states).trained < 32 else 1.0 if _signals(states).trained < 40 else 2.0,
         why=lambda states: (

@@ -23,10 +23,10 @@ from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, Decode, rand
 from workbench.geometry.sampling import points_on_faces
 from workbench.geometry.volume_rendering import RayWeights, samples_on
 
-UPDATES: Mapping[Task, int] = {"angle": 600, "rotation": 600, "sets": 150, "mesh": 80, "classify": 300, "field": 120}
+UPDATES: Mapping[Task, int] = {"angle": 600, "rotation": 1500, "sets": 150, "mesh": 80, "classify": 300, "field": 225}
 STEPS = 16
-WIDTHS = {"angle": 32, "rotation": 64}
-TURNS, SET, CLOUD, TESTS, PIXELS = 181, 48, 32, 20, 40
+NETWORKS = {"angle": (32, 4e-3), "rotation": (64, 1.2e-2)}  # numbers in a hidden layer, first step of Adam
+TURNS, SET, CLOUD, TESTS, PIXELS = 181, 48, 32, 20, 64
 RADII = (0.5, 1.5)  # of the circles that a set of points is shown, m
 VERTICES, GIVEN, TRUE, START = 642, 1200, 3000, 0.6  # of meshes: vertices, points given and of the truth, radius (m)
 MOST_OWN, OWN_SIZE = 200_000, 1.2
@@ -69,12 +69,14 @@ def _turns(params: Params, functions: Functions, rng: np.random.Generator) -> It
             representation = replace(representation, decode=functions.rotation_from_six)
         R_test, w = random_rotations(3 * TURNS, 3, largest, np.random.default_rng(1000 + params.seed))
         about = Turns(w / np.pi, np.degrees(np.linalg.norm(w, axis=1)))
+    width, rate = NETWORKS[params.task]
     for now in regress(
         representation,
         R_test,
         largest=largest,
         compared=params.loss,
-        width=WIDTHS[params.task],
+        width=width,
+        rate=rate,
         counts=counts_of(params),
         rng=rng,
     ):

@@ -25,6 +25,7 @@ def test_gradients_are_those_of_differences(monkeypatch, name, d, compared):
             largest=2.0,
             compared=compared,
             width=5,
+            rate=4e-3,
             counts=(0, 1),
             rng=rng,
         ),
@@ -43,6 +44,7 @@ def test_small_turns_are_learned_and_states_stay_as_they_were(compared):
             largest=1.0,
             compared=compared,
             width=16,
+            rate=4e-3,
             counts=(0, 50, 200),
             rng=np.random.default_rng(4),
         )

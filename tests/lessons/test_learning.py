@@ -70,12 +70,13 @@ def test_more_updates_make_the_cut_narrower_not_lower():
 
 def test_rotations_by_six_and_nine_numbers_have_no_cut():
     six, nine, four, three = (wrong_by(end(name)) for name in ("rotation", "nine", "quaternion", "euler"))
-    assert six.max() < 15
-    assert nine.max() < 15
-    assert nine.mean() < 1.2 * six.mean()
+    assert six.mean() < 1.4
+    assert six.max() < 5
+    assert nine.max() < 3.5
+    assert 0.75 * six.mean() < nine.mean() < 0.95 * six.mean()
     assert four.max() > 90
     assert three.max() > 120
-    assert three.mean() > 4 * six.mean()
+    assert three.mean() > 6 * six.mean()
 
 
 def test_quaternions_are_not_worse_where_turns_stay_small():
@@ -144,11 +145,12 @@ def test_invariance_to_order_is_none_to_rotation():
 
 def test_two_photographs_are_matched_better_than_many_and_show_less():
     two, many = end("two"), end("many")
+    assert two.about.trained == pytest.approx(37, abs=0.5)
     assert two.about.trained > many.about.trained + 5
     assert two.about.unseen < 10
-    assert many.about.unseen > 20
+    assert many.about.unseen > 25
     assert overlap(two) < 0.4
-    assert overlap(many) > 0.8
+    assert overlap(many) > 0.9
     assert (tone(two), tone(many)) == ("wrong", "good")
 
 

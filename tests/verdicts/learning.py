@@ -80,12 +80,13 @@ CAPTIONS = [
 ]
 
 LINES = {
-    "rotation": [Claim(r"Worst error below 15°", lambda run, k, m: wrong_by(end(run)).max() < 15)],
+    "rotation": [Claim(r"Worst error below 5°", lambda run, k, m: wrong_by(end(run)).max() < 5)],
     "euler": [
         Claim(r"some are wrong by more than 120°", lambda run, k, m: wrong_by(end(run)).max() > 120),
-        Claim(r"the mean error is several times that of six numbers", lambda run, k, m: wrong_by(end(run)).mean() > 12),
+        Claim(r"the mean error is over six times that of six numbers", lambda run, k, m:
+              wrong_by(end(run)).mean() > 6 * 1.4),
     ],
-    "nine": [Claim(r"as good as six numbers, or better", lambda run, k, m: wrong_by(end(run)).mean() < 3.6)],
+    "nine": [Claim(r"a little better than six numbers", lambda run, k, m: wrong_by(end(run)).mean() < 1.19)],
     "spikes": [Claim(r"over a quarter of all edges fold over", lambda run, k, m: folded(end(run)) > 0.25)],
     "smooth": [Claim(r"Farther from the noisy points, nearer to the rabbit: the second curve knows the truth", None)],
 }

@@ -16,7 +16,7 @@ from workbench.tracing import traced
 
 Compared = Literal["numbers", "matrix"]
 
-BATCH, RATE = 64, 4e-3
+BATCH = 64
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -46,6 +46,7 @@ def regress(
     largest: float,
     compared: Compared,
     width: int,
+    rate: float,
     counts: Sequence[int],
     rng: np.random.Generator,
 ) -> Iterator[Regressed]:
@@ -57,6 +58,7 @@ def regress(
         largest: The largest turn of those it is trained on, radians.
         compared: What the loss compares: the numbers with those asked for, or the matrices.
         width: Numbers in each of two hidden layers.
+        rate: The step size of Adam at the start.
         counts: After how many updates.
         rng: Draws the first weights and all batches.
     """
@@ -80,7 +82,7 @@ def regress(
         backward(layers, outputs, slope, "relu", into)
         return float((off * off).sum() / BATCH), slopes
 
-    for updates, loss in descend(values, gradient, counts, RATE):
+    for updates, loss in descend(values, gradient, counts, rate):
         y = forward(layers, _inputs(R_test), "relu")[-1]
         R = np.asarray(representation.decode(y), float)
         yield Regressed(updates=updates, loss=loss, outputs=y, R=R, errors=degrees_apart(R, R_test))
