@@ -12,6 +12,8 @@ import scipy
 from jaxtyping import Float
 
 Image = Float[np.ndarray, "h w"]
+BINS = 36
+"""Of the histogram of directions, after Lowe's section 5."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,14 +43,15 @@ def sift(image: Image) -> Sift:
     """
     from skimage.feature import SIFT
 
-    found: Any = SIFT(upsampling=1)  # what it holds is None until it has looked
+    found: Any = SIFT(upsampling=1, n_bins=BINS)  # what it holds is None until it has looked
     try:
         found.detect_and_extract(image / 255.0)
     except RuntimeError:  # it found nothing, and says so in this way
         return Sift(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros((0, 128)))
-    # theirs are rows and columns, and an angle from down to the right
+    # theirs are rows and columns, and an angle from down to the right; their bins are told half a bin too far
     uv = found.positions[:, ::-1].astype(float)
-    return Sift(uv, found.sigmas.astype(float), np.pi / 2 - found.orientations, found.descriptors.astype(float))
+    angle = np.pi / 2 - (found.orientations - np.pi / BINS)
+    return Sift(uv, found.sigmas.astype(float), angle, found.descriptors.astype(float))
 
 
 def turned_patch(
