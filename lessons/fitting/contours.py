@@ -22,10 +22,12 @@ def on_contours(p: np.ndarray, walked: Walked) -> dict[str, Primitive]:
     now, kept = walked.now, walked.kept[:, :2]
     scene: dict[str, Primitive] = {
         "valley": _contours(p.tobytes()),
-        "way": Segments(_cut(segments(kept)), "source", 3.0, name="way of the centre"),
         "way/centres": Points(_near(kept), "source", DOT),
         "way/start": Points(_near(kept[:1]), "other", 1.4 * DOT, name="its start"),
     }
+    way = _cut(segments(kept))
+    if len(way):
+        scene["way"] = Segments(way, "source", 3.0, name="way of the centre")
     if len(walked.taken_back):
         scene["way/taken back"] = Points(_near(walked.taken_back[:, :2]), "wrong", DOT, name="taken back")
     if now.trial is not None and now.phase in ("tried", "rejected"):
