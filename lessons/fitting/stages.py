@@ -67,10 +67,10 @@ def walk(
         iterations=ITERATIONS,
         tolerance=RESTS[params.rest],
     )
-    for walked in with_its_way(moments, lambda c: kind.linearise(c, p), kind.retract, np.linspace(0.0, 1.5, 31)):
+    shown = (m for m in moments if m.iteration <= SHOWN_IN_PARTS or m.phase not in ("linearised", "tried"))
+    for walked in with_its_way(shown, lambda c: kind.linearise(c, p), kind.retract, np.linspace(0.0, 1.5, 31)):
         now = walked.now
-        if now.iteration <= SHOWN_IN_PARTS or now.phase not in ("linearised", "tried"):
-            yield walked
+        yield walked
     assert now is not None
     if now.stop is not Stop.CONVERGED or abs(now.unknown[-1]) > LARGEST:
         return

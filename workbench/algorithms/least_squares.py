@@ -209,7 +209,7 @@ def with_its_way(
     """Yield the moments of a descent, each with the way that led there.
 
     Args:
-        moments: As `descend` yields them.
+        moments: As `descend` yields them; those that only linearise or try may be left out.
         linearise: As of `along_step`.
         retract: Likewise.
         shares: Likewise.

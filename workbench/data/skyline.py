@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.data.solids import box
-from workbench.data.street import Solid, lit
+from workbench.data.street import Solid, chequered, lit
 from workbench.geometry.raster import MeshItem, SegmentItem
 
 VALLEY = -83.0  # metres, +Z up: its ground; the camera stands at about 0 and looks along +Y
@@ -16,6 +16,7 @@ BLOCKS = (270.0, 330.0, 400.0, 490.0, 600.0, 740.0, 920.0)  # how far rows of to
 STOREYS = 6.0  # metres from line to line on a wall
 WALLS = ((216, 202, 178), (200, 198, 206), (232, 222, 204), (186, 196, 208), (206, 186, 176))
 LINE_COLOR = (150, 150, 156)
+GREENS = (202, 208, 200), (212, 218, 210)
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +45,8 @@ def skyline() -> Skyline:
             size = *rng.uniform(14.0, 30.0, 2), 15.0 + 85.0 * rng.random() ** 2
             if np.hypot(foot[0] - LANDMARK[0][0], foot[1] - LANDMARK[0][1]) > 50.0:
                 towers.append((foot, size))
-    solids, edges, storeys = [_valley(), _mountains()], [], []
+    valley = chequered(np.arange(-14, 15), np.arange(1, 17), 100.0, VALLEY, GREENS)
+    solids, edges, storeys = [valley, _mountains()], [], []
     for k, ((x, y), size) in enumerate(towers):
         tower, foot = box(size), np.array([x, y, VALLEY])
         solids.append(lit((tower.p + foot, tower.faces), WALLS[k % len(WALLS)]))
@@ -60,18 +62,6 @@ def skyline_items() -> tuple[MeshItem | SegmentItem, ...]:
     scene = skyline()
     meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids]
     return (*meshes, SegmentItem(scene.storeys, np.tile(np.array(LINE_COLOR, np.uint8), (len(scene.storeys), 1))))
-
-
-def _valley(tile: float = 100.0) -> Solid:
-    """Return a chequered plain, two greens of grey."""
-    x, y = np.meshgrid(np.arange(-14, 15), np.arange(1, 17), indexing="ij")
-    corner = np.stack([x.ravel(), y.ravel()], axis=1)
-    p = (corner[:, None] + [[0, 0], [1, 0], [1, 1], [0, 1]]).reshape(-1, 2) * tile
-    first = 4 * np.arange(len(corner))[:, None]
-    faces = np.concatenate([first + np.array(corners) for corners in ((0, 1, 2), (0, 2, 3))])
-    shade = np.where(corner.sum(axis=1) % 2 == 0, 208, 218)
-    colors = np.stack([shade - 6, shade, shade - 8], axis=1).astype(np.uint8)
-    return Solid(np.column_stack([p, np.full(len(p), VALLEY)]), faces, np.concatenate([colors, colors]))
 
 
 def _mountains() -> Solid:

@@ -54,7 +54,7 @@ def street() -> Street:
     crate, tower = _box((-1.9, 6.0, 0.0), (1.0, 1.0, 1.0)), _box((-4.5, 14.0, 0.0), (1.6, 1.6, 5.0))
     sleepers = [_box((0.0, y, -0.02), (2.2, 0.25, 0.06)) for y in np.arange(1.0, 40.0, 1.5)]
     solids = {
-        "ground": _ground(),
+        "ground": chequered(np.arange(-5, 5), np.arange(-2, 30), 2.0, -0.03, ((214, 214, 214), (226, 226, 226))),
         "sleepers": lit(_merge(sleepers), (164, 154, 146)),
         "crate": lit(crate, (216, 202, 178)),
         "tower": lit(tower, (200, 198, 206)),
@@ -144,17 +144,28 @@ def _ball(center: np.ndarray, radius: float, rings: int = 16) -> Mesh:
     return center + radius * p, np.concatenate(faces)
 
 
-def _ground(tile: float = 2.0) -> Solid:
-    """Return a chequered ground, two greys, slightly below everything that stands on it."""
-    x, y = np.arange(-10.0, 10.0, tile), np.arange(-4.0, RAIL_END, tile)
+def chequered(
+    x: Int[np.ndarray, " n"],
+    y: Int[np.ndarray, " m"],
+    tile: float,
+    height: float,
+    colors: tuple[tuple[int, int, int], tuple[int, int, int]],
+) -> Solid:
+    """Return level ground of square tiles, two colours by turns.
+
+    Args:
+        x: Where tiles begin along x, in tiles.
+        y: Likewise along y.
+        tile: How long a side is, metres.
+        height: Of the ground, metres.
+        colors: Of the tile at the origin, and of those beside it.
+    """
     corner = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
-    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * tile
-    p = (corner[:, None] + square).reshape(-1, 2)
+    p = tile * (corner[:, None] + [[0, 0], [1, 0], [1, 1], [0, 1]]).reshape(-1, 2)
     first = 4 * np.arange(len(corner))[:, None]
     faces = np.concatenate([first + np.array(corners) for corners in ((0, 1, 2), (0, 2, 3))])
-    grey = np.where((corner / tile).sum(axis=1) % 2 == 0, 214, 226).astype(np.uint8)
-    colors = np.stack([grey, grey, grey], axis=1)
-    return Solid(np.column_stack([p, np.full(len(p), -0.03)]), faces, np.concatenate([colors, colors]))
+    shown = np.array(colors, np.uint8)[corner.sum(axis=1) % 2]
+    return Solid(np.column_stack([p, np.full(len(p), height)]), faces, np.concatenate([shown, shown]))
 
 
 def _merge(meshes: list[Mesh]) -> Mesh:

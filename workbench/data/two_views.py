@@ -111,7 +111,7 @@ def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.nd
     T_second_world = T_second_first @ T_first_world
     w, h = SIZE
     K = intrinsics(FOCAL, (w - 1) / 2, (h - 1) / 2)
-    first, second = _photograph(T_first_world.tobytes(), what), _photograph(T_second_world.tobytes(), what)
+    first, second = (_photograph(T.tobytes(), what == "far") for T in (T_first_world, T_second_world))
     uv = np.random.default_rng(0).integers(0, SIZE, (CANDIDATES, 2))
     z = first.depth[uv[:, 1], uv[:, 0]]
     between = np.flatnonzero((z > NEAREST) & (z < (np.inf if what == "far" else FARTHEST)))
@@ -138,11 +138,11 @@ def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.nd
 
 
 @functools.lru_cache(maxsize=16)
-def _photograph(T_camera_world: bytes, what: What) -> Image:
+def _photograph(T_camera_world: bytes, far: bool) -> Image:
     w, h = SIZE
     K = intrinsics(FOCAL, (w - 1) / 2, (h - 1) / 2)
     T = np.frombuffer(T_camera_world).reshape(4, 4)
-    return render(skyline_items() if what == "far" else street_items(), T, K, w, h, background=(238, 243, 248))
+    return render(skyline_items() if far else street_items(), T, K, w, h, background=(238, 243, 248))
 
 
 def own_views(
