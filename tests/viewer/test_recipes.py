@@ -251,6 +251,10 @@ def test_the_container_s_recipe_agrees_with_the_project():
     copied = [word for kind, words in steps if kind == "COPY" for word in words.split()[:-1]]
     assert all((ROOT / name).exists() for name in copied)
     assert {"workbench", "lessons", "pyproject.toml", project["readme"], "LICENSE"} <= set(copied)
+    sent = {
+        line.removeprefix("!") for line in (ROOT / ".dockerignore").read_text().splitlines() if line.startswith("!")
+    }
+    assert sent == set(copied)
     kinds = [kind for kind, _ in steps]
     user = dict(steps)["USER"]
     assert int(user) > 0, "not root, and a number, which a cluster can check"

@@ -1,5 +1,6 @@
 """`workbench` and `show` as a shell sees them: the address, one port, a clean end."""
 
+import gc
 import signal
 import socket
 import subprocess
@@ -82,10 +83,26 @@ def test_a_browser_is_opened_at_the_address_unless_told_otherwise(monkeypatch, c
         raise KeyboardInterrupt
 
     monkeypatch.setattr("workbench.viewer.serving.until_interrupted", interrupt)
+    monkeypatch.setattr("workbench.viewer.serving.settle", lambda: None)  # this process goes on
     serve(port=0)
     assert opened == capsys.readouterr().out.split()
     assert main(["--port", "0", "--no-browser"]) == 0
     assert len(opened) == 1
+
+
+def test_no_collection_of_garbage_looks_at_what_a_server_is_made_of(monkeypatch):
+    left: list[int] = []
+
+    def interrupt() -> None:
+        left.append(len(gc.get_objects()))
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("workbench.viewer.serving.until_interrupted", interrupt)
+    try:
+        serve(port=0, browser=False)
+        assert gc.get_freeze_count() > 50_000 > 5 * left[0]
+    finally:
+        gc.unfreeze()
 
 
 def test_a_taken_port_is_told_before_anything_is_started():

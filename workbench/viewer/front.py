@@ -6,7 +6,6 @@ is the connection itself. A process that dies is replaced; its pages' connection
 """
 
 import contextlib
-import gc
 import heapq
 import os
 import re
@@ -22,6 +21,7 @@ from dataclasses import dataclass, field
 
 from workbench.errors import InputError
 from workbench.viewer.patience import PATIENCE
+from workbench.viewer.runs import settle
 from workbench.viewer.share import Share
 
 LONGEST = 4096
@@ -82,8 +82,7 @@ class Front:
         self._turn, self._starting = 0, True
         self._missing = dict.fromkeys(range(servers), 0.0)
         try:
-            gc.collect()
-            gc.freeze()  # what is there now is shared by all, as long as nobody writes into it
+            settle()  # what is there now is shared by all, as long as nobody writes into it
             self._start_missing(0.0)
             until = time.monotonic() + START
             while not all(server.ready for server in self._servers.values()):

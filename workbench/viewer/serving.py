@@ -16,7 +16,7 @@ from workbench.viewer.addresses import Doors, listening
 from workbench.viewer.front import Front
 from workbench.viewer.patience import more_files
 from workbench.viewer.rules import Rules
-from workbench.viewer.runs import MOST_BYTES
+from workbench.viewer.runs import MOST_BYTES, settle
 from workbench.viewer.server import Server
 from workbench.viewer.share import Share
 
@@ -52,6 +52,7 @@ def serve(
         server = Server(
             start, host=host, port=port, open_to_all=open_to_all, behind=behind, watched=watched, edited=edited
         )
+        settle()
         try:
             _announce(server.doors, browser)
             until_interrupted()
@@ -71,6 +72,7 @@ def _serve_by_several(
 
     def work(share: Share) -> None:
         server = Server(start, host=host, open_to_all=open_to_all, behind=behind, most_bytes=most_bytes, share=share)
+        settle()
         share.ended.wait()
         server.stop()
 
