@@ -9,6 +9,8 @@ import scipy
 from lessons.alignment.scans import box_sides, scans_of, second_scan
 from lessons.alignment.state import AxesState, Outcome, Params, Scans, Turns
 from workbench.algorithms.jacobi import jacobi
+from workbench.certain import sure
+from workbench.data.thinning import every
 from workbench.geometry.alignment import degrees_between, nearest_rotation
 from workbench.geometry.motions import apply, motion
 from workbench.geometry.principal_axes import (
@@ -88,9 +90,7 @@ def signed(state: AxesState, sign: Sign) -> AxesState:
 
 def signed_axes(state: AxesState) -> tuple[np.ndarray, np.ndarray]:
     """Return both frames of a state that has them."""
-    assert state.axes is not None
-    assert state.axes_target is not None
-    return state.axes, state.axes_target
+    return sure(state.axes), sure(state.axes_target)
 
 
 def outcome_of(state: AxesState) -> Outcome:
@@ -112,7 +112,7 @@ def outcome_of(state: AxesState) -> Outcome:
 
 def gap(T_target_source: np.ndarray, scans: Scans) -> float:
     """Return the root mean square distance from the moved source to the nearest points of the target, metres."""
-    p = scans.p_source[:: max(1, -(-len(scans.p_source) // MOST_ASKED))]
+    p = scans.p_source[every(len(scans.p_source), MOST_ASKED)]
     distances = scipy.spatial.KDTree(scans.p_target).query(apply(T_target_source, p))[0]
     return float(np.sqrt(np.mean(np.square(distances))))
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.alignment.state import AxesState, PairsState, Params, State, Turns
+from workbench.certain import as_a, sure
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import counted, fixed, length, percent
 
@@ -141,29 +142,22 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 def of_axes(states: Sequence[State]) -> AxesState:
     """Return the last step of a run by axes."""
-    last = states[-1]
-    assert isinstance(last, AxesState)
-    return last
+    return as_a(AxesState, states[-1])
 
 
 def of_pairs(states: Sequence[State]) -> PairsState:
     """Return the last step of a run by pairs."""
-    last = states[-1]
-    assert isinstance(last, PairsState)
-    return last
+    return as_a(PairsState, states[-1])
 
 
 def turns_of(states: Sequence[State]) -> Turns:
     """Return what became of the many turns."""
-    turns = of_axes(states).turns
-    assert turns is not None
-    return turns
+    return sure(of_axes(states).turns)
 
 
 def after_flip(states: Sequence[State]) -> float:
     """Return the RMSE once a direction is turned round, before any scale."""
-    state = states[FLIP]
-    assert isinstance(state, PairsState)
+    state = as_a(PairsState, states[FLIP])
     return state.now.rmse
 
 

@@ -19,18 +19,19 @@ NEARER = 0.03  # metres towards the viewer, at which source points are drawn
 VIEW = View(eye=(0.0, -4.75, -0.5), target=(0.0, 0.0, -0.5), grid=None, axes=False)
 P_TITLE = np.array([0.0, 0.0, 1.12])
 MOST_SERVED = 10  # the last bar of the histogram holds all counts from here on
+SERVED = Chart("Nearest of how many target points", f"target points, {MOST_SERVED} or more at the end", "points")
 
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
     left, right = state.left, state.right
-    scene: dict[str, Primitive] = {
+    return {
         "caption": caption(state),
         "left/title": Label(left_label(state), P_TITLE, "source", T_WORLD_LEFT),
         "right/title": Label(right_label(state), P_TITLE, "source", T_WORLD_RIGHT),
         **_clouds(state),
         **_left_edges(state),
-        "right/pairs": _pairs(right, T_WORLD_RIGHT),
+        "right/pairs": Segments(_matched(right), "correspondence", 1.5, T_WORLD_RIGHT),
         **_owed(state),
         **{f"left/{path}": one for path, one in unrolled(state, left, T_WORLD_LEFT, nearest=True).items()},
         **{f"right/{path}": one for path, one in unrolled(state, right, T_WORLD_RIGHT, nearest=False).items()},
@@ -39,11 +40,6 @@ def draw(state: State) -> Scene:
         "numbers": _numbers_table(state),
         "yardsticks": _yardstick_table(state),
     }
-    return scene
-
-
-def _pairs(side: Side, T_world_side: np.ndarray) -> Segments:
-    return Segments(_matched(side), "correspondence", 1.5, T_world_side)
 
 
 def _matched(side: Side) -> np.ndarray:
@@ -139,10 +135,9 @@ def _curves(state: State) -> dict[str, Primitive]:
 
 def _served(side: Side, name: str, color: Role) -> Curve:
     """Return how many points of the cloud are the nearest of 0, 1, 2, ... target points: all at 1 where it is one to one."""
-    counts = np.bincount(np.minimum(side.served, MOST_SERVED), minlength=MOST_SERVED + 1)
-    chart, x_label = "Nearest of how many target points", f"target points, {MOST_SERVED} or more at the end"
-    kind = "bars" if name == "left" else "dots"
-    return Curve(np.arange(MOST_SERVED + 1.0), counts.astype(float), name, chart, x_label, "points", color, kind)
+    counts = np.bincount(np.minimum(side.served, MOST_SERVED), minlength=MOST_SERVED + 1).astype(float)
+    draw = SERVED.bars if name == "left" else SERVED.dots
+    return draw(np.arange(MOST_SERVED + 1.0), counts, name, color)
 
 
 def _numbers_table(state: State) -> Table:

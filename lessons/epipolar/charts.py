@@ -4,6 +4,7 @@ import numpy as np
 
 from lessons.epipolar.state import State
 from workbench.algorithms.two_views import Followed, Related
+from workbench.certain import sure
 from workbench.geometry.cameras import camera_center
 from workbench.geometry.motions import rotation_angle
 from workbench.geometry.triangulation import camera_matrix, triangulation_covariances
@@ -73,9 +74,7 @@ def _motions(now: Related) -> Table:
 
 def _depths(state: State, now: Related) -> dict[str, Primitive]:
     """Return how far the depths of the points are off, and how far noise alone would put them."""
-    true, T = state.views.p_first, state.T_true
-    assert true is not None
-    assert T is not None
+    true, T = sure(state.views.p_first), sure(state.T_true)
     assert now.p_first is not None
     order = np.argsort(true[:, 2])
     z, off = true[order, 2], (state.length * now.p_first[:, 2] - true[:, 2])[order]

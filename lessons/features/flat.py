@@ -3,7 +3,8 @@
 import numpy as np
 
 from lessons.features.state import Outlined, Pictured, State
-from workbench.geometry.polylines import between, circle, segments
+from workbench.geometry.motions import R_ROWS_DOWN, motion
+from workbench.geometry.polylines import at_height, between, circle, segments
 from workbench.geometry.shape_context import EDGES, SECTORS, tangent_angles
 from workbench.geometry.sift import Sift
 from workbench.scene import Chart, Field, Picture, Points, Primitive, Role, Segments
@@ -31,8 +32,7 @@ def pictured(now: Pictured) -> dict[str, Primitive]:
             scene |= lines_between(a, b, now.right, now.known)
     if now.sifts and now.phase in ("corners", "patch"):
         for k, (name, picture, found) in enumerate(zip(NAMES, shown, now.sifts, strict=True)):
-            ends = _marks(found, slice(None) if now.pairs is None else now.pairs[:, k])
-            ends = picture.places(ends.reshape(-1, 2), NEARER).reshape(-1, 2, 3)
+            ends = picture.places(_marks(found, slice(None) if now.pairs is None else now.pairs[:, k]), NEARER)
             scene[f"{name} keypoints"] = Segments(ends, "highlight", 1.5, name="keypoints: size and direction")
     if now.phase == "patch" and now.windows is not None:
         scene["patches"] = Picture(now.windows, "Two patches that match")
@@ -40,8 +40,7 @@ def pictured(now: Pictured) -> dict[str, Primitive]:
 
 
 def _picture(now: Pictured, k: int) -> Picture:
-    image, pose = (now.first, now.second)[k], np.diag([1.0, -1.0, -1.0, 1.0])
-    pose[:3, 3] = PLACES[k]
+    image = (now.first, now.second)[k]
     shown: np.ndarray | Field = np.clip(np.rint(image), 0, 255).astype(np.uint8)
     if now.phase == "gradient" and now.strength is not None:
         top = max(float(np.percentile(now.strength[0], 99)), 1e-6)
@@ -51,7 +50,7 @@ def _picture(now: Pictured, k: int) -> Picture:
         top = max(float(np.percentile(np.sqrt(np.abs(now.response[0])), 99.5)), 1e-6)
         shown = Field(root, -top, top, "signed root of the response", map="diverging")
     width = WIDTH * image.shape[1] / max(now.first.shape[1], now.second.shape[1])
-    return Picture(shown, NAMES[k], width, pose)
+    return Picture(shown, NAMES[k], width, motion(R_ROWS_DOWN, PLACES[k]))
 
 
 def _marks(found: Sift, some: slice | np.ndarray) -> np.ndarray:
@@ -64,9 +63,7 @@ def _marks(found: Sift, some: slice | np.ndarray) -> np.ndarray:
 
 def outlined(state: State, now: Outlined) -> dict[str, Primitive]:
     """Return two outlines, the bins of a point, its histograms, and lines between matches."""
-    first, second = (
-        np.column_stack([p, np.zeros(len(p))]) + place for p, place in zip((now.first, now.second), PLACES, strict=True)
-    )
+    first, second = (at_height(p) + place for p, place in zip((now.first, now.second), PLACES, strict=True))
     scene: dict[str, Primitive] = {
         "first": Segments(segments(first, closed=True), "target", 3, name="first outline"),
         "second": Segments(segments(second, closed=True), "source", 3, name="second outline"),
@@ -96,8 +93,7 @@ def _bins(state: State, now: Outlined) -> np.ndarray:
     rings = [segments(p + unit * edge * circle(48), closed=True) for edge in EDGES]
     at = start + 2 * np.pi * np.arange(SECTORS) / SECTORS
     way = unit * np.column_stack([np.cos(at), np.sin(at)])
-    flat = np.concatenate([*rings, between(p + EDGES[0] * way, p + EDGES[-1] * way)])
-    return np.concatenate([flat, np.zeros((*flat.shape[:-1], 1))], axis=-1)
+    return at_height(np.concatenate([*rings, between(p + EDGES[0] * way, p + EDGES[-1] * way)]))
 
 
 def lines_between(

@@ -7,6 +7,7 @@ import numpy as np
 from lessons.graphs.measures import right, volume_share
 from lessons.graphs.state import Grown, Params, State
 from workbench.algorithms.diffusion import Heat, Smoothed
+from workbench.certain import as_a, sure
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import counted, fixed_or_power, percent
 
@@ -144,21 +145,17 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 
 def _components(states: Sequence[State]) -> int:
-    now = states[-1].now
-    assert isinstance(now, Grown)
+    now = as_a(Grown, states[-1].now)
     return now.count
 
 
 def _hottest(states: Sequence[State]) -> float:
-    now = states[-1].now
-    assert isinstance(now, Heat)
+    now = as_a(Heat, states[-1].now)
     return float(np.abs(now.u).max())
 
 
 def _right(states: Sequence[State], step: int = -1) -> int:
-    correct = right(states[step])
-    assert correct is not None
-    return correct
+    return sure(right(states[step]))
 
 
 def _volume(states: Sequence[State]) -> float:

@@ -68,7 +68,6 @@ def _shot(
         picture=picture,
         uv=project(points, T_camera_world, K, lens),
         xy=normalize(project(points, T_camera_world, K), K),
-        subject_depth=distance * factor,
         crate=_height(CRATE_EDGE, T_camera_world, K, lens),
         tower=_height(TOWER_EDGE, T_camera_world, K, lens),
         crate_before=_height(CRATE_EDGE, T_near, K_before, lens),

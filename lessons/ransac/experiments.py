@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 
 from lessons.ransac.state import Params, State
 from workbench.algorithms.ransac import iterations_needed
+from workbench.certain import sure
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import length, percent
 
@@ -115,9 +116,7 @@ def first(states: Iterable[State], phase: str) -> State:
 
 def share_reached(state: State) -> float:
     """Return the share of the true inliers that the model under test reaches."""
-    known, trial = state.subject.is_inlier, state.now.trial
-    assert known is not None
-    assert trial is not None
+    known, trial = sure(state.subject.is_inlier), sure(state.now.trial)
     return float(trial.inliers[known].mean())
 
 

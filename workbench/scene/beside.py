@@ -76,9 +76,15 @@ class Chart:
         """Return y over x as a line."""
         return Curve(x, y, name, self.title, self.x_label, self.unit, color, "line", marks)
 
-    def dots(self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "source") -> Curve:
+    def dots(
+        self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "source", *, marks: tuple[float, ...] = ()
+    ) -> Curve:
         """Return y over x as dots."""
-        return Curve(x, y, name, self.title, self.x_label, self.unit, color, "dots")
+        return Curve(x, y, name, self.title, self.x_label, self.unit, color, "dots", marks)
+
+    def bars(self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "source") -> Curve:
+        """Return y over x as bars."""
+        return Curve(x, y, name, self.title, self.x_label, self.unit, color, "bars")
 
     def histogram(
         self,
