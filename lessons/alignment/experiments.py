@@ -12,22 +12,11 @@ from workbench.numerals import counted, fixed, length, percent
 
 HOME = Params()
 LARGEST = Params(signs="largest-entry")
-FRESH = Params(fresh=True)
-BOX = Params(shape="box", fresh=True)
-NEARLY = Params(shape="box", fresh=True, side=0.99)
-VASE = Params(shape="vase", fresh=True)
-CUBE = Params(shape="cube", fresh=True)
-DENSE = Params(density=2)
-PART = Params(seen=0.8)
-STRAY = Params(stray=(0.0, 2.0, 0.0))
 FAR = Params(stray=(0.0, 10.0, 0.0))
 PAIRS = Params(stage="pairs", noise=0.01)
 MIRRORED = Params(stage="pairs", mirrored=True)
-WRONG_FLIP = replace(MIRRORED, flip="largest")
 NEGATED = replace(MIRRORED, flip="whole")
-FLAT = Params(stage="pairs", shape="plate", points=200, noise=0.02)
 SCALE = Params(stage="pairs", scale=1.5, noise=0.05)
-SCALE_CLEAN = replace(SCALE, noisy="target")
 
 VIEW = View(eye=(-0.75, -2.55, 1.1), target=(-0.62, 0.0, 0.12), grid=None, axes=False)
 TOGETHER = View(eye=(-0.95, -2.3, 1.1), target=(-1.1, 0.0, 0.2), grid=None, axes=False)
@@ -54,45 +43,45 @@ PRESETS: tuple[Preset[Params], ...] = (
         "fresh", "Two scans, no point in common",
         "Third moments turn with the shape. Other points of the same rabbit have other moments: one of them is small, and"
         " its sign at stake.",
-        FRESH, TURNS, TOGETHER, breaks=True,
+        Params(fresh=True), TURNS, TOGETHER, breaks=True,
     ),
     Preset(
         "box", "A box has no front",
         "Half a turn takes a box to itself, so its third moments are 0 and chance gives them a sign. Compare what the"
         " points say with the truth.",
-        BOX, POSE, TOGETHER, breaks=True,
+        Params(shape="box", fresh=True), POSE, TOGETHER, breaks=True,
     ),
     Preset(
         "vase", "A vase, turned",
         "Two of its variances are equal, so every direction across its own axis is a principal one. Axis 1 stays; see"
         " where axis 2 goes.",
-        VASE, TURNS, TOGETHER, breaks=True,
+        Params(shape="vase", fresh=True), TURNS, TOGETHER, breaks=True,
     ),
     Preset(
         "nearly", "Nearly equal sides",
         "Sides of 1 m and 0.99 m: their variances differ by less than sampling does. Look at the axes in the table.",
-        NEARLY, POSE, TOGETHER, breaks=True,
+        Params(shape="box", fresh=True, side=0.99), POSE, TOGETHER, breaks=True,
     ),
     Preset(
         "cube", "The box of a cube",
         "All variances are equal. The box along principal axes is often taken for the smallest: compare its volume with the"
         " cube's.",
-        CUBE, POSE, APART, breaks=True,
+        Params(shape="cube", fresh=True), POSE, APART, breaks=True,
     ),
     Preset(
         "density", "The upper half twice as dense",
         "Principal axes are those of the points, not of the surface: no point of the second scan lies off the rabbit.",
-        DENSE, POSE, TOGETHER, breaks=True,
+        Params(density=2), POSE, TOGETHER, breaks=True,
     ),
     Preset(
         "part", "A fifth is missing",
         "The second scan saw 80 % of the rabbit. Centroid and axes are those of that part.",
-        PART, POSE, TOGETHER, breaks=True,
+        Params(seen=0.8), POSE, TOGETHER, breaks=True,
     ),
     Preset(
         "stray", "One stray point",
         "One point of 1,501 lies 2 m away: drag it. The axes hardly move, but the signs are made of cubes.",
-        STRAY, POSE, breaks=True,
+        Params(stray=(0.0, 2.0, 0.0)), POSE, breaks=True,
     ),
     Preset(
         "far", "The same point, 10 m away",
@@ -113,7 +102,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "wrong-flip", "The wrong direction turned round",
         "“Flip any column”: with the largest singular value the determinant is +1 as well. Compare the RMSE.",
-        WRONG_FLIP, FLIP, TOGETHER, breaks=True,
+        replace(MIRRORED, flip="largest"), FLIP, TOGETHER, breaks=True,
     ),
     Preset(
         "negated", "All of R negated",
@@ -124,7 +113,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "flat", "A plate with noise",
         "Nothing is mirrored here, but nothing but noise tells a plate from its mirror image: see the determinant, and"
         " other seeds.",
-        FLAT, 4, ABOVE, breaks=True,
+        Params(stage="pairs", shape="plate", points=200, noise=0.02), 4, ABOVE, breaks=True,
     ),
     Preset(
         "scale", "Noise in both scans",
@@ -135,7 +124,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "scale-clean", "Noise in the first scan only",
         "Now the noise is where least squares expects it: the scale is 1.5 again, to 1 %. The ratio of sizes is not.",
-        SCALE_CLEAN, -1, LARGE,
+        replace(SCALE, noisy="target"), -1, LARGE,
     ),
 )  # fmt: skip
 

@@ -13,12 +13,7 @@ from workbench.numerals import fixed, percent, pixels
 POSES = 9  # the step of the default run that places the boards
 FLAT = Params(tilt=2.0, seed=3)
 FEW = Params(views=3)
-PINHOLE = Params(lens="none")
-MIDDLE = Params(lens="k1 k2 p1 p2 k3", spread=0.1, distance=0.8)
 BAD = Params(bad_corners=3, seed=1)
-DROPPED = replace(BAD, leave_out=1)
-CAUCHY = replace(BAD, loss="Cauchy")
-STRETCHED = Params(fault="stretched 2 %")
 BENT = Params(fault="bent 1 mm")
 LARGER = Params(fault="2 % larger")
 TWO = Params(views=4)
@@ -36,13 +31,13 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "pinhole", "No lens in the model",
         "K and poses have to take up what the lens does: f goes astray, and arrows in the picture show a pattern.",
-        PINHOLE, -1, breaks=True,
+        Params(lens="none"), -1, breaks=True,
     ),
     Preset(
         "middle", "Corners in the middle only",
         "Far boards, five terms of the lens: corners fit as well as ever. Towards the border the map is off by thousands"
         " of pixels.",
-        MIDDLE, -1, breaks=True,
+        Params(lens="k1 k2 p1 p2 k3", spread=0.1, distance=0.8), -1, breaks=True,
     ),
     Preset(
         "bad", "Three bad corners",
@@ -51,18 +46,18 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "dropped", "The bad view left out", "The same pictures without view 1. Compare f and its ± with before.",
-        DROPPED, -1,
+        replace(BAD, leave_out=1), -1,
     ),
     Preset(
         "cauchy", "The bad corners hardly pull",
         "Cauchy's loss instead: view 1 stays, and its good corners count.",
-        CAUCHY, -1,
+        replace(BAD, loss="Cauchy"), -1,
     ),
     Preset(
         "stretched", "A stretched print",
         "The printer made x 2 % longer and nobody knows: fx and fy come out over half a per cent apart, though pixels"
         " are square.",
-        STRETCHED, -1, breaks=True,
+        Params(fault="stretched 2 %"), -1, breaks=True,
     ),
     Preset(
         "bent", "A bowed board",

@@ -11,17 +11,8 @@ from workbench.numerals import percent
 
 CLUMP = Params()
 FLIP = Params(start="bunched", amount=0.8, points=140)
-LARGER = Params(start="larger", amount=0.05, points=140)
-BUMP = Params(start="bump", amount=0.147, points=140)
-MISSING = Params(start="part missing", amount=0.5)
 ONE_WAY = Params(start="part missing", amount=0.5, lowers="source to target")
 OUTLIER = Params(start="one outlier", amount=1.0)
-SHUFFLED = Params(start="shuffled rows", amount=1.0)
-DOUBLED = Params(start="doubled points", amount=0.5)
-IDLE = Params(lowers="target to source")
-BLURRED = Params(blur=0.5)
-UNEQUAL = Params(source_points=40)
-SPHERE = Params(shape="sphere", points=140)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
@@ -37,17 +28,17 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "larger", "5 % larger", "Every point is 5 cm off: 2 × 0.05² = 0.0050 m² by Chamfer, 0.05 m by EMD. Squares make"
         " small distances look tiny.",
-        LARGER, 0,
+        Params(start="larger", amount=0.05, points=140), 0,
     ),
     Preset(
         "bump", "Equal Chamfer, another shape", "A bump of 14.7 cm on an eighth of the ring has the Chamfer distance of the"
         " ring 5 % larger, 0.0050 m²; but EMD 0.019 against 0.05 m, Hausdorff 0.147 against 0.05 m.",
-        BUMP, 0,
+        Params(start="bump", amount=0.147, points=140), 0,
     ),
     Preset(
         "missing", "A part is missing", "The source has only the left half of the target, twice. Set “Left flow lowers” to"
         " each side of Chamfer in turn: which of them sees what is missing?",
-        MISSING, 4,
+        Params(start="part missing", amount=0.5), 4,
     ),
     Preset(
         "outlier", "One far outlier", "One point of 80 is 1 m off, the others are at home. Compare each number with what it"
@@ -57,32 +48,32 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "shuffled", "Rows in another order", "The same points: all distances are 0 except the mean square of index pairs,"
         " over 1.5 m². It measures the order of a file.",
-        SHUFFLED, 0,
+        Params(start="shuffled rows", amount=1.0), 0,
     ),
     Preset(
         "doubled", "Chamfer 0, clouds different", "The left half of the points counts twice. Chamfer and Hausdorff are 0,"
         " EMD is 0.21 m: a distance that is 0 between different clouds is no metric.",
-        DOUBLED, 0,
+        Params(start="doubled points", amount=0.5), 0,
     ),
     Preset(
         "idle", "Nobody's nearest never moves", "The left flow lowers only target to source: 70 points or more of"
         " 80 (vermillion) end as nearest to no target point, and nothing pulls them; the others serve all 80.",
-        IDLE, -1,
+        Params(lowers="target to source"), -1,
     ),
     Preset(
         "blurred", "Fast EMD is not exact", "Sinkhorn with a blur of 0.5 m says nearly 1 m where EMD is 0.8 m, and at the"
         " end of the right flow 0.54 m where EMD is under 1 cm: its zero is not zero.",
-        BLURRED, 0,
+        Params(blur=0.5), 0,
     ),
     Preset(
         "unequal", "40 points against 80", "Exact EMD splits masses: nearly every source point ends midway between the two"
         " target points it serves, 0.04 m from both. One-to-one pairs would leave 40 points out.",
-        UNEQUAL, -1,
+        Params(source_points=40), -1,
     ),
     Preset(
         "sphere", "The same on a sphere", "On a surface too: compare the mass that each flow leaves astray, and turn the"
         " spheres to see where it is missing.",
-        SPHERE, -1,
+        Params(shape="sphere", points=140), -1,
     ),
 )  # fmt: skip
 

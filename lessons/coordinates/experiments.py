@@ -12,7 +12,6 @@ from workbench.numerals import fixed, percent
 
 HOME = Params()
 POLES = Params(stage="sphere")
-TOKYO = Params(stage="globe", route="Tokyo – London")
 DATELINE = Params(stage="globe", route="Suva – Apia")
 ZENITH = Params(stage="mount")
 CELL = 10  # the step of the default run that draws a cell
@@ -168,7 +167,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f" {kilometres(last(states).circle_length)}. A degree of longitude is short in the north, and the great circle"
             " goes there."
         ),
-        params=TOKYO,
+        params=Params(stage="globe", route="Tokyo – London"),
         unit="%",
         tolerance=5.0,
         step=-2,

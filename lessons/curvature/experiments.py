@@ -18,28 +18,18 @@ TWICE = View(eye=(4.1, -4.8, 3.8), target=(0.0, 0.0, -0.1), grid=None, axes=Fals
 CLOSE = View(eye=(1.75, -2.35, 2.0), target=(0.52, -0.6, 0.8), grid=None, axes=False)
 SIDE = View(eye=(2.95, 1.65, 1.4), target=(0.0, -0.1, -0.05), grid=None, axes=False)
 
-UNFOLD = Params(surface="sphere", vertices=60)
 CYLINDER = Params(surface="cylinder", vertices=800)
-CATENOID = Params(surface="catenoid", vertices=800)
 DOUBLE = Params(size=2.0)
 INSIDE_OUT = Params(inside_out=True)
-NO_AREA = Params(vertices=1600, mistake="defect taken for K")
-NO_HALF = Params(surface="sphere", mistake="H without the half")
-BORDER = Params(surface="saddle", vertex=260)
-BORDER_2_PI = Params(surface="plane", vertex=260, mistake="2 pi on the border")
-COARSE = Params(vertices=60)
-FINE = Params(vertices=6000)
-NOISE = Params(vertices=1600, noise=0.003)
 IRREGULAR = Params(vertices=6000, jitter=0.2)
 SPHERE_SUM = Params(surface="sphere", vertices=1000, jitter=0.25, noise=0.01)
-TORUS_SUM = Params(vertices=1000, jitter=0.25, noise=0.01)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "unfold", "The gap, from close by",
         "One ring of a coarse ball is cut along an edge and laid flat. Every triangle keeps its shape: what the angles lack"
         " stays open.",
-        UNFOLD, 1, CLOSE,
+        Params(surface="sphere", vertices=60), 1, CLOSE,
     ),
     Preset(
         "cylinder", "A rolled sheet",
@@ -50,7 +40,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "catenoid", "Catenoid: H = 0, K < 0",
         "It bends as much to one side as to the other: the two cancel in H = (k₁ + k₂)/2 and not in K = k₁ k₂, negative"
         " everywhere.",
-        CATENOID, PRINCIPAL, SIDE,
+        Params(surface="catenoid", vertices=800), PRINCIPAL, SIDE,
     ),
     Preset(
         "double", "Twice as large",
@@ -66,40 +56,40 @@ PRESETS: tuple[Preset[Params], ...] = (
         "no-area", "A defect is no curvature",
         "Taken for K, the defect is over 50 times too small here, and about four times smaller still on a mesh four times"
         " as fine.",
-        NO_AREA, GAUSSIAN, breaks=True,
+        Params(vertices=1600, mistake="defect taken for K"), GAUSSIAN, breaks=True,
     ),
     Preset(
         "no-half", "The forgotten half",
         "The cotangent sum over area gives 2 H n. Without the half the unit sphere has H = 2 m⁻¹, and H² − K = 3 tears k₁"
         " and k₂ apart.",
-        NO_HALF, MEAN, breaks=True,
+        Params(surface="sphere", mistake="H without the half"), MEAN, breaks=True,
     ),
     Preset(
         "border", "A vertex on the border",
         "Its angles are taken from π: what is missing says how the border turns, so K and H are left open (grey) there.",
-        BORDER, DEFECT,
+        Params(surface="saddle", vertex=260), DEFECT,
     ),
     Preset(
         "border-2pi", "2π on the border",
         "A flat square should add up to 2π. Taken from 2π, each border vertex adds π that is not there, and the sum is"
         " far off.",
-        BORDER_2_PI, TOTAL, breaks=True,
+        Params(surface="plane", vertex=260, mistake="2 pi on the border"), TOTAL, breaks=True,
     ),
     Preset(
         "coarse", "Coarse", "With 60 vertices the relative error of K is about 10 % (RMS): few triangles have to tell how"
         " the tube bends.",
-        COARSE, GAUSSIAN,
+        Params(vertices=60), GAUSSIAN,
     ),
     Preset(
         "fine", "Fine", "With 6,000 well-spread vertices the relative error of K is under 0.2 % (RMS): on a regular mesh it"
         " falls with the square of the edges.",
-        FINE, GAUSSIAN,
+        Params(vertices=6000), GAUSSIAN,
     ),
     Preset(
         "noise", "Noise, amplified",
         "3 mm (sigma) off a tube of 40 cm, hardly visible, and K is off by more than its own size (RMS). A finer mesh makes"
         " it worse: last step.",
-        NOISE, GAUSSIAN, breaks=True,
+        Params(vertices=1600, noise=0.003), GAUSSIAN, breaks=True,
     ),
     Preset(
         "irregular", "Irregular triangles",
@@ -115,7 +105,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "torus-sum", "A bumpy torus",
         "The same noise and jitter on a surface with a handle: gaps and overlaps cancel to the last digit.",
-        TORUS_SUM, TOTAL, breaks=True,
+        Params(vertices=1000, jitter=0.25, noise=0.01), TOTAL, breaks=True,
     ),
 )  # fmt: skip
 

@@ -15,24 +15,15 @@ from workbench.numerals import length, percent
 
 HOME = Params()
 BARE = Params(scene="plain wall", smoothness=0.0, pixel=(62, 60))
-BARE_SMOOTH = Params(scene="plain wall", smoothness=4.0, pixel=(62, 60))
 STRIPES = Params(scene="repeated pattern", smoothness=0.0, pixel=(80, 60))
-STRIPES_PATHS = Params(scene="repeated pattern", pixel=(80, 60))
 POSTS = Params(scene="posts", pixel=(73, 60))
-SMALL = Params(smoothness=0.0, noise=8.0)
 LARGE = Params(smoothness=0.0, noise=8.0, window=21, pixel=(120, 20))
 HALF = Params(scene="planes", baseline=0.05, pixel=(80, 50))
 PLANES = Params(scene="planes", pixel=(80, 50))
 DOUBLE = Params(scene="planes", baseline=0.2, pixel=(80, 50))
 BOARDS = Params(scene="boards at three depths", focal_length=640.0, baseline=0.125, max_disparity=84, pixel=(118, 30))
 ONE_PIXEL = replace(BOARDS, disparity_error=1.0)
-SKY = replace(BOARDS, pixel=(80, 5))
-DARK = Params(mistake="right picture darker")
-DARK_CENSUS = Params(mistake="right picture darker", cost="census")
-EXCHANGED = Params(mistake="pictures exchanged")
-ROWS = Params(mistake="rows off by 2 px")
 MOTORCYCLE = Params(scene="Motorcycle", cost="census", max_disparity=20, pixel=(104, 58))
-WRONG_F = Params(scene="Motorcycle", cost="census", max_disparity=20, pixel=(104, 58), mistake="f not rescaled")
 
 LAST_CHOICE, CHECKED, SMOOTHED, DEPTH, LAST = -6, -5, -3, -2, -1
 """Where the last choice, the check, the last map, the depths and their error are, from the end of every run."""
@@ -54,7 +45,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "textureless-smooth", "The same, jumps forbidden",
         "With a high P2 the paths carry the disparity in from where there is texture. The bare wall is right, though its"
         " own costs still know nothing.",
-        BARE_SMOOTH, LAST_CHOICE,
+        Params(scene="plain wall", smoothness=4.0, pixel=(62, 60)), LAST_CHOICE,
     ),
     Preset(
         "repeated", "A pattern that repeats",
@@ -65,7 +56,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "repeated-paths", "The same with paths",
         "Around the pattern the disparity is clear. The paths bring it in, and hardly a stripe stays wrong: the context"
         " decides, not the curve.",
-        STRIPES_PATHS, LAST_CHOICE,
+        Params(scene="repeated pattern", pixel=(80, 60)), LAST_CHOICE,
     ),
     Preset(
         "occlusion", "Hidden from one camera",
@@ -76,7 +67,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "window-3", "Window 3: noise",
         "Nine pixels are too few against this noise: about a third of the map is wrong, scattered everywhere.",
-        SMALL, LAST_CHOICE,
+        Params(smoothness=0.0, noise=8.0), LAST_CHOICE,
     ),
     Preset(
         "window-21", "Window 21",
@@ -103,29 +94,29 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "sky", "d = 0 is an answer",
         "The sky does not shift between the pictures: d = 0 means infinitely far. What is missing is NaN, and drawn grey.",
-        SKY, DEPTH,
+        replace(BOARDS, pixel=(80, 5)), DEPTH,
     ),
     Preset(
         "darker", "The right picture is darker",
         "Another exposure changes every grey value by 30 %. SAD compares grey values, and over 90 % of the map is wrong.",
-        DARK, LAST_CHOICE,
+        Params(mistake="right picture darker"), LAST_CHOICE,
     ),
     Preset(
         "darker-census", "The same with census",
         "Census only asks which neighbours are darker than the middle, and a darker picture does not change that: about"
         " 2 % are wrong.",
-        DARK_CENSUS, LAST_CHOICE,
+        Params(mistake="right picture darker", cost="census"), LAST_CHOICE,
     ),
     Preset(
         "exchanged", "The sign: pictures exchanged",
         "With left and right exchanged the partner lies at u + |d|, and the search runs the other way: over 90 % of the"
         " map is wrong.",
-        EXCHANGED, LAST_CHOICE,
+        Params(mistake="pictures exchanged"), LAST_CHOICE,
     ),
     Preset(
         "rows-off", "Rows that do not correspond",
         "The right picture is 2 rows too low. Matching only looks along the row, where the partner is not: most is wrong.",
-        ROWS, LAST_CHOICE,
+        Params(mistake="rows off by 2 px"), LAST_CHOICE,
     ),
     Preset(
         "motorcycle", "A real motorcycle",
@@ -137,7 +128,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "f-not-rescaled", "f of the large pictures",
         "The same disparities with the f of the full-size pictures: the cloud looks fine, and everything is 4 times too"
         " far.",
-        WRONG_F, DEPTH,
+        Params(scene="Motorcycle", cost="census", max_disparity=20, pixel=(104, 58), mistake="f not rescaled"), DEPTH,
     ),
 )  # fmt: skip
 

@@ -20,27 +20,12 @@ ROLL = View(eye=(0.9, -2.4, 2.4), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 
 TOLD = 4  # the step of a scatter that tells who lies far out
 ERRORS = 11  # the step of ways along edges that holds them against the truth
-TAXI = Params(stage="balls", metric="manhattan")
-UNITS = Params(stage="balls", stretch=1000)
-SQUARED = Params(stage="axioms", metric="squared")
-WEDGE = Params(stage="axioms", metric="cosine")
 HALF = Params(stage="axioms", metric="p")
 WHITEN = Params(stage="whiten", points=400)
 MASKING = Params(stage="whiten", points=200, outliers=40)
-ROBUST = replace(MASKING, estimate="robust")
-TWENTY = Params(stage="whiten", points=19, outliers=1, away=100.0, correlation=0.0)
-STEREO = Params(stage="stereo")
-STAIRCASE = Params(neighbours="4", grid=31)
-MARCHING = Params(neighbours="march")
-DISC = Params(neighbours="march", wall=0.0, disc=0.1)
 SPHERE = Params(stage="surface", points=1000)
-JITTER = replace(SPHERE, jitter=0.2)
-POINTS = Params(stage="surface", points=1000, extra=3)
 HEAT = Params(stage="surface", shape="rabbit", method="heat")
-EARLY = Params(stage="surface", shape="rabbit", method="heat", time=-2.0)
 LATE = Params(stage="surface", shape="rabbit", method="heat", time=2.0)
-FLATTERED = Params(stage="surface", method="heat", time=2.0)
-ROLLED = Params(stage="roll", points=2000)
 SHORTCUT = Params(stage="roll", points=2000, k=20)
 
 PRESETS: tuple[Preset[Params], ...] = (
@@ -48,17 +33,17 @@ PRESETS: tuple[Preset[Params], ...] = (
         "taxi", "Along streets only",
         "Manhattan's ball is a square on its corner. Go to the end: red queries have another nearest point than by"
         " Euclid's.",
-        TAXI, 4, PLANE,
+        Params(stage="balls", metric="manhattan"), 4, PLANE,
     ),
     Preset(
         "units", "x in metres, y in millimetres",
         "Euclid's distance adds what has different units: now y alone decides. Go to the end and count the red queries.",
-        UNITS, 4, PLANE,
+        Params(stage="balls", stretch=1000), 4, PLANE,
     ),
     Preset(
         "cosine-axioms", "One minus the cosine",
         "Points on one ray are at distance 0, and many triples have a shorter way over b.",
-        WEDGE, -1, PLANE, breaks=True,
+        Params(stage="axioms", metric="cosine"), -1, PLANE, breaks=True,
     ),
     Preset(
         "half", "An exponent below one",
@@ -78,27 +63,27 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "robust", "The half that lies closest",
         "The covariance of the half with the smallest determinant: the second cluster lies far out.",
-        ROBUST, TOLD, CLOUD,
+        replace(MASKING, estimate="robust"), TOLD, CLOUD,
     ),
     Preset(
         "stereo", "Which landmark was it?",
         "A stereo camera, 4 to 6 m away, measures depth far worse than what lies across.",
-        STEREO, -1, AHEAD,
+        Params(stage="stereo"), -1, AHEAD,
     ),
     Preset(
         "staircase", "Up and across only",
         "Four neighbours: every way is as long as along streets, and the front a square on its corner.",
-        STAIRCASE, 6, breaks=True,
+        Params(neighbours="4", grid=31), 6, breaks=True,
     ),
     Preset(
         "marching", "Fast marching",
         "Each node takes its distance from two neighbours at once, as if a straight front came by: the front is round.",
-        MARCHING, 6,
+        Params(neighbours="march"), 6,
     ),
     Preset(
         "disc", "Exact near the source",
         "The front is most curved at the source. Exact distances in a small disc mend the rest too.",
-        DISC, 6,
+        Params(neighbours="march", wall=0.0, disc=0.1), 6,
     ),
     Preset(
         "sphere", "Along the edges of a sphere",
@@ -108,12 +93,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "jitter", "A less regular mesh",
         "Every vertex of the sphere is moved a little, edges point everywhere: ways along them are almost as much too long.",
-        JITTER, -1, BALL, breaks=True,
+        replace(SPHERE, jitter=0.2), -1, BALL, breaks=True,
     ),
     Preset(
         "points", "Points on the edges",
         "With three points on every edge ways may cross the faces: the same Dijkstra, and errors of about one per cent.",
-        POINTS, ERRORS, BALL,
+        Params(stage="surface", points=1000, extra=3), ERRORS, BALL,
     ),
     Preset(
         "heat", "Distance by heat",
@@ -128,18 +113,18 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "early", "Heat for too short a time",
         "A hundredth of the time: heat counts edges instead of lengths, and distances come out far too short.",
-        EARLY, 3, RABBIT, breaks=True,
+        Params(stage="surface", shape="rabbit", method="heat", time=-2.0), 3, RABBIT, breaks=True,
     ),
     Preset(
         "flattered", "A sphere flatters",
         "Heat for a hundred times as long, on a sphere: here it is no worse. Never choose the time on a sphere.",
-        FLATTERED, -1, BALL,
+        Params(stage="surface", method="heat", time=2.0), -1, BALL,
     ),
     Preset(
         "roll", "Along a roll",
         "Joined to its 15 nearest, a point has its neighbours on the sheet. The way round is more than three times the"
         " straight one.",
-        ROLLED, ERRORS, ROLL,
+        Params(stage="roll", points=2000), ERRORS, ROLL,
     ),
 )  # fmt: skip
 
@@ -227,7 +212,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f"{fixed(float(scatter(states, TOLD).d.max()), 2)}. However far it is, it stretches the covariance with it: no"
             " point of n can be farther than (n − 1)/√n."
         ),
-        params=TWENTY,
+        params=Params(stage="whiten", points=19, outliers=1, away=100.0, correlation=0.0),
         step=TOLD,
         unit="σ",
         tolerance=0.3,
@@ -241,7 +226,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f"{percent(broken(states), 0)}: wherever the angle at b is obtuse, by the law of cosines. Taxi rides of"
             " squared distances reward every stop on the way."
         ),
-        params=SQUARED,
+        params=Params(stage="axioms", metric="squared"),
         unit="%",
         tolerance=8.0,
     ),

@@ -12,12 +12,7 @@ from workbench.lesson import Preset, Question
 from workbench.numerals import angle, fixed, pixels
 
 HOME = Params()
-RAW = Params(normalise=False, route="eight-point")
 PLANE = Params(scene="plane", route="eight-point")
-TURNED = Params(baseline=0.0)
-SHORT = Params(baseline=0.05)
-FAR = Params(scene="far")
-HALF = Params(baseline=0.5, heading=0.0)
 WRONG_F = Params(heading=0.0, f_error=20.0)
 PENCIL, EQUATIONS, RANK_TWO, POINTS = 7, 8, 10, 16
 DEPTH = 8.0  # metres, of the point whose uncertainty is asked for
@@ -36,7 +31,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "raw", "Raw pixels",
         "The same matches, equations in pixels: products of coordinates weigh 100,000 times as much as 1. See the lines.",
-        RAW, RANK_TWO, breaks=True,
+        Params(normalise=False, route="eight-point"), RANK_TWO, breaks=True,
     ),
     Preset(
         "rank-three", "Lines that do not meet",
@@ -51,18 +46,18 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "turned", "Only turned",
         "No baseline, no lines; the rotation can be had all the same. A direction comes out too: of nothing.",
-        TURNED, 5, breaks=True,
+        Params(baseline=0.0), 5, breaks=True,
     ),
     Preset(
         "short", "Five centimetres",
         "A twentieth of the baseline: lines as near, rotation as good. Direction and depths pay.",
-        SHORT, -1, breaks=True,
+        Params(baseline=0.05), -1, breaks=True,
     ),
     Preset(
         "far", "Everything far away",
         "A city from a hill, nothing nearer than 180 baselines: parallax is hardly more than noise. The rotation is as good"
         " as ever; see the pointers, the needles, and what is behind.",
-        FAR, POINTS, breaks=True,
+        Params(scene="far"), POINTS, breaks=True,
     ),
     Preset(
         "forward", "Straight ahead",
@@ -143,7 +138,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f"{fixed(100 * depth_sigma(states[-1]), 0)} cm. The rays meet at half the angle: σ = Z² σ_d / (f b) goes with"
             " one over the baseline, and with the square of the depth."
         ),
-        params=HALF,
+        params=Params(baseline=0.5, heading=0.0),
         unit="cm",
         tolerance=3.0,
     ),

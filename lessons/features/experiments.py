@@ -8,18 +8,14 @@ from workbench.lesson import Preset, Question, View
 from workbench.numerals import angle, counted, percent
 
 HOME = Params()
-NOISY = Params(noise=0.01)
 SMALL = Params(radius=0.07)
-WIDE = Params(radius=0.25)
 ROOT = Params(compare="square root")
 FLIPPED = Params(normals="source flipped")
 RANDOM_ONE, RANDOM = Params(normals="random in source"), Params(normals="random in both")
 VASE = Params(shape="vase")
 PATCHES = Params(part="pictures", turn=0.0)
-TILTED = Params(part="pictures", turn=10.0)
 TURNED = Params(part="pictures", turn=30.0)
 SIFT = Params(part="pictures", turn=30.0, describe="SIFT")
-OUTLINE = Params(part="outlines", turn=45.0)
 OUTLINE_X = Params(part="outlines", turn=45.0, angles="from the x axis")
 VIEW = View(eye=(0.75, -2.35, 0.85), target=(0.48, 0.0, 0.08), grid=None, axes=False)
 FLAT = View(eye=(0.0, -0.01, 2.25), target=(0.0, 0.0, 0.0), grid=None, axes=False)
@@ -33,7 +29,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "noisy", "With 1 cm of noise",
         "Normals shake, and with them all histograms: fewer matches are green, and RANSAC needs more samples.",
-        NOISY, 6,
+        Params(noise=0.01), 6,
     ),
     Preset(
         "small", "A smaller neighbourhood",
@@ -43,7 +39,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "wide", "A larger neighbourhood",
         "25 cm around each point: places differ more from each other, and over 40 % of the kept matches are green.",
-        WIDE, 6,
+        Params(radius=0.25), 6,
     ),
     Preset(
         "root", "The square root of every bar",
@@ -79,7 +75,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "tilted", "The right photograph turned by 10°",
         "A patch is a square of pixels that stands upright. A small turn is still forgiven: over 75 % are green.",
-        TILTED, -1, FLAT,
+        Params(part="pictures", turn=10.0), -1, FLAT,
     ),
     Preset(
         "turned", "The right photograph turned by 30°",
@@ -94,7 +90,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "outline", "A horse turned by 45°",
         "Angles are counted from the outline's own direction at each point, so the turn does not matter.",
-        OUTLINE, -1, FLAT,
+        Params(part="outlines", turn=45.0), -1, FLAT,
     ),
     Preset(
         "outline-x", "The horse, angles from the x axis",

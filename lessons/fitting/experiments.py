@@ -14,15 +14,10 @@ from workbench.numerals import angle, fixed, length
 
 HOME = Params()
 ESCAPE = Params(start=(2.5, 0.0, 0.0), start_radius=1.0)
-JUMPS = Params(start=(2.5, 0.0, 0.0), start_radius=1.0, method="Gauss-Newton")
-SHORT = Params(arc=20.0)
 ALIKE = Params(errors="alike in neighbours")
-KASA = Params(stage="algebraic", arc=45.0)
 STEEP = Params(stage="line", noise=0.1)
 EDGE = Params(stage="robust", loss="squares", points=300, noise=0.01, outliers=0.3, reach=2.0, side="both")
-DRIFT = Params(stage="robust", points=300, noise=0.01, outliers=0.5)
 TUKEY = Params(stage="robust", points=300, noise=0.01, outliers=0.5, loss="Tukey")
-CASCADE = Params(stage="robust", points=300, noise=0.01, outliers=0.5, loss="Huber then Tukey")
 LARGE = Params(arc=360.0, noise=0.3, method="Gauss-Newton", rest="a trillionth")
 SMALL = Params(arc=360.0, method="Gauss-Newton", rest="a trillionth")
 
@@ -44,7 +39,7 @@ PRESETS: tuple[Preset[Params], ...] = (
            Params(start_radius=0.8), -1, CENTER),
     Preset("twenty", "Twenty degrees",
            "On so short an arc the radius is nearly free. Compare the histogram with the bell of the covariance.",
-           SHORT, -1, WIDE, breaks=True),
+           Params(arc=20.0), -1, WIDE, breaks=True),
     Preset("alike", "Neighbours err alike",
            "Errors of the same size, but ten neighbours share theirs. The covariance takes them as independent.",
            ALIKE, 10, HALF, breaks=True),
@@ -53,7 +48,7 @@ PRESETS: tuple[Preset[Params], ...] = (
            ESCAPE, 5, WIDE, breaks=True),
     Preset("jumps", "Every step taken",
            "The same start without damping: Gauss-Newton takes each step, whatever becomes of the sum of squares.",
-           JUMPS, 1, WIDE, breaks=True),
+           Params(start=(2.5, 0.0, 0.0), start_radius=1.0, method="Gauss-Newton"), 1, WIDE, breaks=True),
     Preset("basin", "Where one may start",
            "A grid of centres to start from, and points on a quarter of the circle. Green ones come home.",
            Params(stage="basin", start_radius=1.0), -1, BROAD),
@@ -86,14 +81,14 @@ PRESETS: tuple[Preset[Params], ...] = (
            EDGE, 0, TABLE, breaks=True),
     Preset("drift", "Huber lets them pull",
            "Half the points lie above the plane. Huber bounds how hard each of them pulls, and there are many.",
-           DRIFT, -1, TABLE, breaks=True),
+           Params(stage="robust", points=300, noise=0.01, outliers=0.5), -1, TABLE, breaks=True),
     Preset("tukey", "Tukey from a bad start",
            "Beyond Tukey's corner a point does not pull at all. From least squares on, the wrong points are beyond it.",
            TUKEY, 0, TABLE, breaks=True),
     Preset("cascade", "Huber, then Tukey",
            "Huber's plane is near enough for Tukey to tell the points apart, and then those off the plane weigh"
            " nothing.",
-           CASCADE, -1, TABLE),
+           Params(stage="robust", points=300, noise=0.01, outliers=0.5, loss="Huber then Tukey"), -1, TABLE),
     Preset("sphere", "A cap of a sphere",
            "Four unknowns, and the same three lines of mathematics.",
            Params(shape="sphere", points=200, arc=120.0), 0, ROUND),
@@ -143,7 +138,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f"{fixed(last(states).medians[-1][0], 2)}; Taubin's is {fixed(last(states).medians[-1][2], 2)}. d² − R²"
             " is about 2 R times the distance, so a small circle makes it cheap to be off."
         ),
-        params=KASA,
+        params=Params(stage="algebraic", arc=45.0),
         tolerance=0.12,
         step=-1,
     ),

@@ -17,59 +17,43 @@ EAR = View(eye=(0.6, 0.95, 0.8), target=(0.17, 0.08, 0.48), grid=None, axes=Fals
 BALL = View(eye=(1.9, -2.2, 1.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 
 SIGN = 2  # the step of a cut that cuts by sign
-ONE_WAY = Params(graph="rabbit", stage="graph", points=1500)
-MUTUAL = Params(graph="rabbit", stage="graph", points=1500, k=3, join="mutual")
-MATRIX = Params(graph="karate", stage="matrix")
-NECK = Params(graph="rabbit mesh")
-UNBALANCED = Params(share=0.9)
-SPLIT = Params(points=200, bridge=0, numbering=4)
-SQUARE = Params(graph="grid", columns=10, numbering=2)
 CLUB = Params(graph="karate")
-PLAIN_SPHERE = Params(graph="sphere", points=1000, stage="spectrum", modes=16)
-COTANGENT_SPHERE = Params(graph="sphere", points=1000, stage="spectrum", modes=16, laplacian="cotangent")
-UNEVEN = Params(graph="uneven sphere", points=1500, k=10, stage="spectrum", modes=16)
-TWINS = Params(graph="star and square", stage="spectrum", modes=2)
-WARM = Params(graph="rabbit mesh", stage="heat", steps=100)
 BLOW_UP = Params(graph="rabbit mesh", stage="heat", steps=100, step_size=2.5)
 SHRINK = Params(graph="rabbit mesh", stage="smooth")
 TAUBIN = Params(graph="rabbit mesh", stage="smooth", filter="taubin")
-LAYER = Params(graph="karate", stage="network")
 DEEP = Params(graph="karate", stage="network", layers=64)
-TRAINED = Params(graph="karate", stage="training")
-DEEPER = Params(graph="karate", stage="training", layers=8, seed=4)
-SAME = Params(graph="hexagon and triangles", stage="network", layers=3)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "one-way", "Neighbour is not mutual",
         "The nearest neighbour of 1,500 points often has another one nearer to itself: orange edges are named from one end.",
-        ONE_WAY, 0, RABBIT,
+        Params(graph="rabbit", stage="graph", points=1500), 0, RABBIT,
     ),
     Preset(
         "matrix", "A club as a matrix",
         "34 members, 78 friendships. Go to the last step: the same matrix, numbered by the second eigenvector of L.",
-        MATRIX, 2,
+        Params(graph="karate", stage="matrix"), 2,
     ),
     Preset(
         "neck", "Where is a rabbit thin?",
         "The second eigenvector of its mesh runs along its longest way. The best cut along it is where few edges hold.",
-        NECK, -1, RABBIT,
+        Params(graph="rabbit mesh"), -1, RABBIT,
     ),
     Preset(
         "unbalanced", "The sign is not the best cut",
         "Nine in ten points are on the left. The vector's sign cuts through the big half; its best cut finds the bridge.",
-        UNBALANCED, SIGN, breaks=True,
+        Params(share=0.9), SIGN, breaks=True,
     ),
     Preset(
         "split", "Two pieces, no cut",
         "Without a bridge 0 is an eigenvalue twice. Any mixture of the two constants is a second eigenvector: turn"
         " `numbering`.",
-        SPLIT, SIGN, breaks=True,
+        Params(points=200, bridge=0, numbering=4), SIGN, breaks=True,
     ),
     Preset(
         "square", "Equal eigenvalues",
         "On a square grid two eigenvectors share λ₂, and any mixture is one too: turn `numbering`, and the cut turns.",
-        SQUARE, SIGN, breaks=True,
+        Params(graph="grid", columns=10, numbering=2), SIGN, breaks=True,
     ),
     Preset(
         "club", "Zachary's karate club",
@@ -79,27 +63,27 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "sphere", "A graph is not the surface",
         "L = D − A knows edges, not lengths. Where a sphere has λ = 12 seven times, this graph has 11 to 12.6: two groups.",
-        PLAIN_SPHERE, 9, BALL, breaks=True,
+        Params(graph="sphere", points=1000, stage="spectrum", modes=16), 9, BALL, breaks=True,
     ),
     Preset(
         "cotangent", "Cotangents know the surface",
         "The same sphere with weights from its angles: all seven are within 1.5 % of 12, and a vertex may stray.",
-        COTANGENT_SPHERE, 9, BALL,
+        Params(graph="sphere", points=1000, stage="spectrum", modes=16, laplacian="cotangent"), 9, BALL,
     ),
     Preset(
         "uneven", "Where the points are dense",
         "Four times as many points on the upper half: the three slowest should be alike and are not. A graph sees samples.",
-        UNEVEN, 3, BALL, breaks=True,
+        Params(graph="uneven sphere", points=1500, k=10, stage="spectrum", modes=16), 3, BALL, breaks=True,
     ),
     Preset(
         "twins", "Two graphs, one spectrum",
         "A star, and a square with a lone node: both adjacency matrices have the same eigenvalues. L tells them apart.",
-        TWINS, 0, breaks=True,
+        Params(graph="star and square", stage="spectrum", modes=2), 0, breaks=True,
     ),
     Preset(
         "warm", "Heat from an ear",
         "Each step is u ← u − dt L u. The error to the exact heat falls as the fast parts die out.",
-        WARM, 30, RABBIT,
+        Params(graph="rabbit mesh", stage="heat", steps=100), 30, RABBIT,
     ),
     Preset(
         "blow-up", "A longer step",
@@ -119,7 +103,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "layer", "One layer, in parts",
         "Two members of the karate club have a label. See in the table what the one you click gathers from its friends.",
-        LAYER, 3,
+        Params(graph="karate", stage="network"), 3,
     ),
     Preset(
         "deep", "Sixty-four layers",
@@ -129,17 +113,17 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "trained", "Two labels, trained",
         "Two layers, eight hidden features, 200 steps of Adam on two labelled nodes: most of the others follow.",
-        TRAINED, 0,
+        Params(graph="karate", stage="training"), 0,
     ),
     Preset(
         "deeper", "Eight layers, trained",
         "The same with eight layers, by other first weights. The loss is what training lowers: watch what is right.",
-        DEEPER, 0, breaks=True,
+        Params(graph="karate", stage="training", layers=8, seed=4), 0, breaks=True,
     ),
     Preset(
         "same", "A hexagon or two triangles?",
         "Every node has two neighbours and the same features, so every message is the same too, whatever the weights.",
-        SAME, 0, breaks=True,
+        Params(graph="hexagon and triangles", stage="network", layers=3), 0, breaks=True,
     ),
 )  # fmt: skip
 
@@ -173,7 +157,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f"{counted(_components(states), 'component')}: a quarter of the namings are not returned, and a point on its own"
             " needs only three that are not."
         ),
-        MUTUAL,
+        Params(graph="rabbit", stage="graph", points=1500, k=3, join="mutual"),
         choices=("They still do", "They fall into a few dozen components", "They fall into hundreds"),
     ),
     Question(

@@ -14,20 +14,14 @@ from workbench.numerals import length, percent
 HOME = Params()
 FAR = Params(start_angle=120.0)
 VASE = Params(shape="vase", start_angle=90.0, gate="all")
-CORNER = Params(shape="corner", start_angle=10.0, start_shift=0.3, fit="point-to-plane", keep=0.5)
 PLANE = Params(fit="point-to-plane")
 OVERLAP = Params(start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="max-distance")
 OVERLAP_TIGHT = Params(
     start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="max-distance", max_distance=0.02
 )
-OVERLAP_ADAPTIVE = Params(start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="3-medians")
-OUTLIERS = Params(outliers=0.3, gate="all")
-OUTLIERS_TRIMMED = Params(outliers=0.3, keep=0.65)
 RINGS = Params(
     shape="lidar", start_angle=0.7, start_shift=0.5, fit="point-to-plane", noise=0.02, thinning="chance", planes="all"
 )
-RINGS_VOXEL = replace(RINGS, thinning="voxel", voxel=1.0)
-RINGS_SPREAD = replace(RINGS, thinning="voxel", planes="spread")
 VIEW = View(eye=(1.6, -0.85, 1.0), target=(0.05, 0.02, 0.0), grid=None, axes=False)
 WALL = View(eye=(1.9, -1.9, 1.3), target=(0.0, -0.1, 0.0), grid=None, axes=False)
 STREET = View(eye=(0.55, -0.95, 1.0), target=(0.0, 0.0, -0.05), grid=None, axes=False)
@@ -60,7 +54,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "slide", "Two planes slide",
         "A floor and a wall hold everything but the slide along their common line: the rotation is found, and of the"
         " 0.3 m of shift at least 0.2 m stay.",
-        CORNER, 0, WALL, breaks=True,
+        Params(shape="corner", start_angle=10.0, start_shift=0.3, fit="point-to-plane", keep=0.5), 0, WALL, breaks=True,
     ),
     Preset(
         "overlap-fixed", "Part seen by one scan only",
@@ -72,7 +66,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "overlap-adaptive", "The same with d < 3 medians",
         "A gate that shrinks with the distances drops such false partners as the rest closes in: less than half of the"
         " fixed gate's rotation error is left.",
-        OVERLAP_ADAPTIVE, 0,
+        Params(start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="3-medians"), 0,
     ),
     Preset(
         "overlap-tight", "The same with a 0.02 m gate",
@@ -84,12 +78,12 @@ PRESETS: tuple[Preset[Params], ...] = (
         "outliers", "Three in ten are outliers",
         "Squared distances listen most to the farthest points: with every match in use the outliers pull the source over"
         " 4° astray.",
-        OUTLIERS, 0, breaks=True,
+        Params(outliers=0.3, gate="all"), 0, breaks=True,
     ),
     Preset(
         "outliers-trimmed", "Outliers, trimmed to 65 %",
         "Keep only the closest 65 % of the matches at each fit: nearly all outliers fall out, and ICP comes home.",
-        OUTLIERS_TRIMMED, 0,
+        Params(outliers=0.3, keep=0.65), 0,
     ),
     Preset(
         "rings-chance", "A lidar's rings, thinned by chance",
@@ -101,12 +95,12 @@ PRESETS: tuple[Preset[Params], ...] = (
         "rings-voxel", "The rings, thinned by voxels",
         "The means of the points in each voxel, 1 % of the width: dense rings and sparse walls count alike, and less than"
         " 10 cm stay.",
-        RINGS_VOXEL, 0, STREET, breaks=True,
+        replace(RINGS, thinning="voxel", voxel=1.0), 0, STREET, breaks=True,
     ),
     Preset(
         "rings-spread", "The rings, and no plane through a line",
         "Finer voxels of 0.2 %, and a point whose neighbours lie along a line does not pull: no more than 2 cm stay.",
-        RINGS_SPREAD, 0, STREET,
+        replace(RINGS, thinning="voxel", planes="spread"), 0, STREET,
     ),
 )  # fmt: skip
 

@@ -21,23 +21,10 @@ FLAT = View(eye=(0.0, -0.7, 5.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 ROW = View(eye=(0.0, -11.4, 2.7), target=(0.3, 0.0, 0.75), grid=None, axes=False)
 
 CUT = Params(angle="one number")
-SHORT = Params(angle="one number", largest=90.0)
-HALF = Params(angle="half the angle")
-PERIODIC = Params(angle="one number", loss="matrix")
-ROTATION = Params(task="rotation", loss="matrix")
-QUATERNION = Params(task="rotation", rotation="quaternion", loss="matrix")
-EULER = Params(task="rotation", rotation="Euler", loss="matrix")
-NINE = Params(task="rotation", rotation="9D", loss="matrix")
 SMEARED = Params(task="sets")
 CIRCLE = Params(task="sets", set_loss="earth mover's")
-SPIKES = Params(task="mesh", laplacian=0.0)
 SMOOTH = Params(task="mesh")
-POOLED = Params(task="classify", shuffled=True)
-LISTED = Params(task="classify", pool="none", shuffled=True)
 STRAY = Params(task="classify", stray=(3.0, 3.0, 3.0))
-MEAN = Params(task="classify", pool="mean", stray=(3.0, 3.0, 3.0))
-TURNED = Params(task="classify", turned="freely")
-TWO = Params(task="field", views=2)
 MANY = Params(task="field", views=24)
 
 PRESETS: tuple[Preset[Params], ...] = (
@@ -49,37 +36,37 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "short", "The same, up to quarter turns",
         "The circle is not closed: nothing is cut, and one number per angle is enough.",
-        SHORT, -1, VIEW,
+        Params(angle="one number", largest=90.0), -1, VIEW,
     ),
     Preset(
         "half", "Half the angle",
         "Cosine and sine of half the angle, as a quaternion has them: both signs mean one rotation, and one is asked for.",
-        HALF, 0, VIEW, breaks=True,
+        Params(angle="half the angle"), 0, VIEW, breaks=True,
     ),
     Preset(
         "periodic", "A loss that knows of full turns",
         "The loss compares rotations, so it does not mind 360°. The output is still one number: look where its jump goes.",
-        PERIODIC, 0, VIEW, breaks=True,
+        Params(angle="one number", loss="matrix"), 0, VIEW, breaks=True,
     ),
     Preset(
         "rotation", "Rotations by two columns",
         "Six numbers, made orthonormal: every rotation is reached, and nowhere is a jump. Worst error below 5°.",
-        ROTATION, -1, BALL,
+        Params(task="rotation", loss="matrix"), -1, BALL,
     ),
     Preset(
         "quaternion", "Rotations by quaternions",
         "Four numbers, normalised. The ball holds all rotation vectors; opposite points of its border are one rotation.",
-        QUATERNION, -1, BALL, breaks=True,
+        Params(task="rotation", rotation="quaternion", loss="matrix"), -1, BALL, breaks=True,
     ),
     Preset(
         "euler", "Rotations by Euler angles",
         "Three numbers: the mean error is over six times that of six numbers, and some are wrong by more than 120°.",
-        EULER, -1, BALL, breaks=True,
+        Params(task="rotation", rotation="Euler", loss="matrix"), -1, BALL, breaks=True,
     ),
     Preset(
         "nine", "Rotations by all nine entries",
         "The nearest rotation to any 3×3, by its SVD: a little better than six numbers.",
-        NINE, -1, BALL,
+        Params(task="rotation", rotation="9D", loss="matrix"), -1, BALL,
     ),
     Preset(
         "smeared", "Chamfer and the unknown radius",
@@ -94,7 +81,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "spikes", "A mesh without a regulariser",
         "Nothing but the distance to noisy points: it falls, while over a quarter of all edges fold over.",
-        SPIKES, -1, RABBIT, breaks=True,
+        Params(task="mesh", laplacian=0.0), -1, RABBIT, breaks=True,
     ),
     Preset(
         "smooth", "A mesh with a Laplacian",
@@ -104,12 +91,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "pooled", "PointNet and the order of points",
         "The largest of each feature over all points: it is the same, but for rounding, in whatever order they are listed.",
-        POOLED, -1, ROW,
+        Params(task="classify", shuffled=True), -1, ROW,
     ),
     Preset(
         "listed", "A network on the list of points",
         "Coordinates in a row, from the lowest point to the highest. Shuffled, the same clouds mean nothing to it.",
-        LISTED, -1, ROW, breaks=True,
+        Params(task="classify", pool="none", shuffled=True), -1, ROW, breaks=True,
     ),
     Preset(
         "stray", "One stray point",
@@ -119,17 +106,17 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "mean", "One stray point and the mean",
         "The mean gives every point the same small vote: it knows less, and loses less to one point.",
-        MEAN, -1, ROW, breaks=True,
+        Params(task="classify", pool="mean", stray=(3.0, 3.0, 3.0)), -1, ROW, breaks=True,
     ),
     Preset(
         "turned", "Turned as never before",
         "Trained on shapes turned about z, tested on shapes turned freely: nothing in the network knows of rotations.",
-        TURNED, -1, ROW, breaks=True,
+        Params(task="classify", turned="freely"), -1, ROW, breaks=True,
     ),
     Preset(
         "two", "Two photographs",
         "A field that explains what it was shown. Look at the new view, and at the green discs.",
-        TWO, 0, FLAT, breaks=True,
+        Params(task="field", views=2), 0, FLAT, breaks=True,
     ),
     Preset(
         "many", "Twenty-four photographs",

@@ -17,29 +17,18 @@ WIDE = View(eye=(2.6, -4.7, 2.1), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 BEHIND = View(eye=(1.1, -4.0, 1.6), target=(0.3, 0.3, 0.0), grid=None, axes=False)
 FRONT = View(eye=(0.0, -3.9, 0.25), target=(0.0, 0.0, 0.2), grid=None, axes=False)
 
-FAR = Params(origin=(-12.0, -16.0, -8.0))
 HOLE = Params(origin=(1.0, 2.7, -0.6), hole=0.01)
-FLIPPED = Params(flipped=0.05)
-OVERLAP = Params(shape="two spheres", origin=(0.0, -2.0, -0.6))
-UNION = Params(method="voxels", shape="two spheres")
 INSCRIBED = Params(shape="sphere")
 STAIRCASE = Params(method="voxels", shape="sphere", cells=64)
 LANTERN = Params(shape="lantern")
 THROWS = Params(method="chance", shape="sphere", throws=100_000)
-STRATIFIED = Params(method="chance", shape="sphere", throws=100_000, draw="stratified")
-SOBOL = Params(method="chance", shape="sphere", throws=100_000, draw="Sobol")
-DIMENSIONS = Params(method="dimensions", throws=100_000)
-TEN = Params(method="dimensions", throws=100_000, dimension=10)
-ALIKE = Params(method="samples", throws=5000, pick="all alike")
-NO_ROOT = Params(method="samples", throws=5000, place="without the root")
-NORMALISED = Params(method="samples", throws=5000, place="normalised")
 LINES = Params(method="lines", throws=4000)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "origin", "The origin far away",
         "The origin is seven diagonals away: all plus together are 12 times the rabbit, all minus 11 times. What is left?",
-        FAR, 15, MIDDLE,
+        Params(origin=(-12.0, -16.0, -8.0)), 15, MIDDLE,
     ),
     Preset(
         "hole", "A hole",
@@ -51,17 +40,17 @@ PRESETS: tuple[Preset[Params], ...] = (
         "flipped", "Faces turned round",
         "5 % of the triangles are turned round, and each counts with the other sign: 6 to 13 % of the volume are gone, by"
         " the luck of the draw, and of the area nothing.",
-        FLIPPED, -1, breaks=True,
+        Params(flipped=0.05), -1, breaks=True,
     ),
     Preset(
         "overlap", "Two spheres that overlap",
         "Two closed meshes as one: every tetrahedron is right, and what lies in both spheres is counted twice.",
-        OVERLAP, 12, WIDE, breaks=True,
+        Params(shape="two spheres", origin=(0.0, -2.0, -0.6)), 12, WIDE, breaks=True,
     ),
     Preset(
         "union", "The same in voxels",
         "A cell is full when its middle lies in either sphere, so nothing is counted twice: within 1 % from 23 cells on.",
-        UNION, -3, WIDE,
+        Params(method="voxels", shape="two spheres"), -3, WIDE,
     ),
     Preset(
         "inscribed", "A sphere of triangles",
@@ -90,35 +79,35 @@ PRESETS: tuple[Preset[Params], ...] = (
         "stratified", "One throw in each small cube",
         "The same, but the box is cut into equal cubes with one throw in each: no clumps, no gaps, and an error that falls"
         " faster.",
-        STRATIFIED, 12, WIDE,
+        Params(method="chance", shape="sphere", throws=100_000, draw="stratified"), 12, WIDE,
     ),
     Preset(
         "sobol", "Sobol's sequence",
         "Every power of two of these points is spread evenly however the box is halved. Compare the error with that of"
         " random throws.",
-        SOBOL, 6, WIDE,
+        Params(method="chance", shape="sphere", throws=100_000, draw="Sobol"), 6, WIDE,
     ),
     Preset(
         "dimensions", "The ball in many dimensions",
         "100,000 throws into a cube of 2 to 20 dimensions. The picture has the first three coordinates: look for what still"
         " hits.",
-        DIMENSIONS, 1, WIDE, breaks=True,
+        Params(method="dimensions", throws=100_000), 1, WIDE, breaks=True,
     ),
     Preset(
         "alike", "Every face as likely",
         "The faces of one half were cut in four. Whoever picks all faces alike puts over 80 % of the points there, for"
         " 60 % of the area.",
-        ALIKE, -1, MIDDLE, breaks=True,
+        Params(method="samples", throws=5000, pick="all alike"), -1, MIDDLE, breaks=True,
     ),
     Preset(
         "no-root", "The forgotten root",
         "Two random numbers make a point of a triangle. Without the square root half of all points crowd at corner a.",
-        NO_ROOT, 3, FRONT, breaks=True,
+        Params(method="samples", throws=5000, place="without the root"), 3, FRONT, breaks=True,
     ),
     Preset(
         "normalised", "Three numbers, normalised",
         "Three random weights divided by their sum: half of all points crowd in the middle quarter, and the corners starve.",
-        NORMALISED, 3, FRONT, breaks=True,
+        Params(method="samples", throws=5000, place="normalised"), 3, FRONT, breaks=True,
     ),
     Preset(
         "lines", "An area from lines alone",
@@ -211,7 +200,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f"{_hits(states):,}. The corners take over: at ten dimensions the ball fills a quarter of a per cent of its"
             " cube, and at twenty no throw finds it."
         ),
-        params=TEN,
+        params=Params(method="dimensions", throws=100_000, dimension=10),
         choices=("some 25,000", "some 2,500", "some 250", "two or three"),
     ),
     Question(

@@ -16,23 +16,15 @@ DIVIDE, DISTORT, PIXELS, BACK = 2, 3, 4, 5
 PLAIN = Params(k1=0.0, k2=0.0)
 CRATE = replace(PLAIN, camera=(-0.6, 2.2, 1.3), target=(-1.4, 5.5, 0.5), f=200.0, point=1)
 DOLLY = replace(CRATE, dolly=3.0)
-ORTHOGRAPHIC = replace(PLAIN, dolly=50.0)
 ZOOM = replace(CRATE, f=400.0)
 RAILS = replace(PLAIN, camera=(0.0, -3.0, 1.7), target=(0.0, 30.0, 0.5), point=4)
 BALL = replace(PLAIN, camera=(0.2, 2.8, 1.2), target=(0.2, 12.0, 1.0), f=110.0)
 BARREL = Params(k1=-0.4, k2=0.1)
 PINCUSHION = Params(k1=0.4, k2=0.0)
-TANGENTIAL = Params(k1=0.0, k2=0.0, p1=0.06, p2=-0.05)
-FOLD = Params(camera=(0.5, 2.5, 1.2), k1=-0.6, k2=0.0, f=200.0)
 BEHIND = Params(mistake="divides behind too", point=5)
 INVERTED = Params(mistake="pose inverted")
-OPENGL = Params(mistake="OpenGL axes")
-ROWS = Params(mistake="row before column")
 LENS_ON_PIXELS = Params(mistake="lens on pixels")
-ELSEWHERE = Params(camera=(2.0, -4.0, 2.5), target=(0.0, 8.0, 1.0))
-T_FOR_CENTRE = Params(mistake="t for the centre")
 RAY_LENGTH = Params(mistake="ray length for depth")
-CROP_WRONG = Params(edit="cropped, then half size", k_follows=False)
 CROP_RIGHT = Params(edit="cropped, then half size")
 
 PRESETS: tuple[Preset[Params], ...] = (
@@ -52,7 +44,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "orthographic", "Orthographic: far away, long lens",
         "At fifty times the distance the rays are nearly parallel and depth hardly shows; the gap shrinks as one over"
         " the distance.",
-        ORTHOGRAPHIC, PIXELS,
+        replace(PLAIN, dolly=50.0), PIXELS,
     ),
     Preset(
         "rails", "The rails' vanishing point",
@@ -81,13 +73,13 @@ PRESETS: tuple[Preset[Params], ...] = (
         "tangential", "A lens off centre: p₁, p₂",
         "Tangential terms push every point to within 30° of one direction, more so away from the middle: the shift is not"
         " along the radius.",
-        TANGENTIAL, DISTORT,
+        Params(k1=0.0, k2=0.0, p1=0.06, p2=-0.05), DISTORT,
     ),
     Preset(
         "fold", "Where a lens model ends",
         "k₁ = −0.6 turns round at radius 0.745. Beyond it the polynomial would fold points back into the picture, so"
         " they get no pixel.",
-        FOLD, DISTORT,
+        Params(camera=(0.5, 2.5, 1.2), k1=-0.6, k2=0.0, f=200.0), DISTORT,
     ),
     Preset(
         "behind", "A lamp behind the camera",
@@ -105,12 +97,12 @@ PRESETS: tuple[Preset[Params], ...] = (
         "opengl", "OpenGL axes",
         "A pose for y up and z backwards gives all that is in front a negative depth; dividing anyway gives a picture"
         " mirrored left to right.",
-        OPENGL, PIXELS,
+        Params(mistake="OpenGL axes"), PIXELS,
     ),
     Preset(
         "rows", "Row before column",
         "(u, v) is (column, row), arrays are indexed [row, column]: mixed up, the picture is flipped about its diagonal.",
-        ROWS, PIXELS,
+        Params(mistake="row before column"), PIXELS,
     ),
     Preset(
         "lens-on-pixels", "The lens after K",
@@ -122,7 +114,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "crop-wrong", "Cropped, halved, K forgotten",
         "The picture lost its left and top and half its size, K knows of neither: the calculation is shifted and twice"
         " as large as it should be.",
-        CROP_WRONG, PIXELS,
+        Params(edit="cropped, then half size", k_follows=False), PIXELS,
     ),
     Preset(
         "crop-right", "Cropped, halved, K too",
@@ -134,7 +126,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "centre", "t is not the camera",
         "t is the world's origin seen from the camera. Rays that start there miss every point by the distance from t"
         " to C = −Rᵀt.",
-        T_FOR_CENTRE, BACK,
+        Params(mistake="t for the centre"), BACK,
     ),
     Preset(
         "ray-length", "Depth is not ray length",
@@ -245,7 +237,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "T_camera_world of another camera has t = (−1.32, 1.96, 4.55) m. Where in the world is that camera?",
         answer=_centre_answer,
         why=_centre_why,
-        params=ELSEWHERE,
+        params=Params(camera=(2.0, -4.0, 2.5), target=(0.0, 8.0, 1.0)),
         choices=("At t", "At −t", "At neither of the two"),
         step=BACK,
     ),

@@ -16,22 +16,11 @@ from workbench.numerals import angle, fixed, percent
 __all__ = ["PRESETS", "QUESTIONS", "VIEW"]
 
 FOUR = Params(target="triangle", camera=(0.1, 0.05, 2.0), noise=0.0, refine=False)
-CYLINDER = Params(target="triangle", camera=(1.0, 0.0, 4.0), noise=0.5, refine=False, seed=1)
-OUTSIDE = Params(target="triangle", camera=(2.0, 0.0, 4.0), noise=0.5, refine=False)
 MARKER = Params(target="marker", method="IPPE", noise=0.5)
-TINY = Params(target="marker", method="IPPE", noise=0.5, distance=4.0, seed=9)
 TILTED = Params(target="marker", method="IPPE", noise=0.5, distance=4.0, tilt=60.0, seed=9)
-FRONTAL = Params(target="marker", method="IPPE", noise=0.5, distance=0.5, tilt=10.0)
-THIN = Params(method="DLT", thickness=0.1)
-SHEET = Params(method="DLT", thickness=0.01)
-SAFE = Params(method="SQPnP", thickness=0.01)
 FEW = Params(method="EPnP", points=4, refine=False, seed=18)
 PLANE = Params(method="DLT", thickness=0.0)
-MAP = Params(target="street", method="DLT", origin=10.0, centred=False)
-CENTRED = Params(target="street", method="DLT", origin=10.0)
-SEVENTY = Params(target="street", method="RANSAC", points=100, outliers=0.7)
 HALF = Params(method="RANSAC", points=100, outliers=0.5)
-BELIEVED = Params(method="SQPnP", outliers=0.1)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
@@ -44,12 +33,12 @@ PRESETS: tuple[Preset[Params], ...] = (
         "cylinder", "On the danger cylinder",
         "The camera is straight above the circle through the three points. Here two solutions run into one: half a"
         " pixel of noise moves the answer far, or loses it.",
-        CYLINDER, -1, breaks=True,
+        Params(target="triangle", camera=(1.0, 0.0, 4.0), noise=0.5, refine=False, seed=1), -1, breaks=True,
     ),
     Preset(
         "outside", "Off the danger cylinder",
         "The same triangle from twice as far beside its middle: the same noise moves the camera by centimetres.",
-        OUTSIDE, -1,
+        Params(target="triangle", camera=(2.0, 0.0, 4.0), noise=0.5, refine=False), -1,
     ),
     Preset(
         "marker", "A square marker",
@@ -61,31 +50,31 @@ PRESETS: tuple[Preset[Params], ...] = (
         "tiny", "The same marker, four times as far",
         "20 pixels wide. Both poses fit to within the noise, and which of them fits better is left to chance: look at"
         " the normals in other pictures.",
-        TINY, -1, breaks=True,
+        Params(target="marker", method="IPPE", noise=0.5, distance=4.0, seed=9), -1, breaks=True,
     ),
     Preset(
         "frontal", "A large marker, nearly frontal",
         "160 pixels wide and hardly turned: IPPE's two poses are two, but both refine to one. Looking straight at it"
         " is no ambiguity in itself.",
-        FRONTAL, 2,
+        Params(target="marker", method="IPPE", noise=0.5, distance=0.5, tilt=10.0), 2,
     ),
     Preset(
         "thin", "A thin box, by the linear transform",
         "A box of a tenth of the thickness. The linear transform lives on depth: see how far it is off, and what"
         " Gauss-Newton makes of that.",
-        THIN, 1, breaks=True,
+        Params(method="DLT", thickness=0.1), 1, breaks=True,
     ),
     Preset(
         "sheet", "A sheet",
         "6 mm thick: what the linear transform gives is no place to go down from. Look where the cameras of other"
         " pictures are.",
-        SHEET, -1, breaks=True,
+        Params(method="DLT", thickness=0.01), -1, breaks=True,
     ),
     Preset(
         "safe", "The same sheet, by SQPnP",
         "SQPnP looks for a rotation from the start, so it needs no depth: the same points, the same noise, and it"
         " ends right.",
-        SAFE, -1,
+        Params(method="SQPnP", thickness=0.01), -1,
     ),
     Preset(
         "few", "EPnP on four points",
@@ -97,25 +86,25 @@ PRESETS: tuple[Preset[Params], ...] = (
         "map", "Coordinates of a map",
         "A street whose points are known from a map, its origin 10 km off, and the linear transform takes them as they"
         " are: many metres of error out of nothing but large numbers.",
-        MAP, 1, breaks=True,
+        Params(target="street", method="DLT", origin=10.0, centred=False), 1, breaks=True,
     ),
     Preset(
         "centred", "The same map, minus the mean",
         "Points are taken relative to their mean, and the motion is moved back at the end. Now the origin may be"
         " anywhere.",
-        CENTRED, -1,
+        Params(target="street", method="DLT", origin=10.0), -1,
     ),
     Preset(
         "believed", "Two wrong points of twenty",
         "Two points are seen somewhere else, and least squares believes them. The error in the picture is large for all"
         " points, so it does not tell whom to blame.",
-        BELIEVED, -1, breaks=True,
+        Params(method="SQPnP", outliers=0.1), -1, breaks=True,
     ),
     Preset(
         "seventy", "70 % outliers",
         "Of 100 points of the street's map 70 are seen somewhere else. Only one sample of three in 37 is clean, and yet"
         " RANSAC needs few hundred of them: that is what P3P is for.",
-        SEVENTY, -1,
+        Params(target="street", method="RANSAC", points=100, outliers=0.7), -1,
     ),
 )  # fmt: skip
 

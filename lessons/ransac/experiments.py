@@ -11,8 +11,6 @@ from workbench.numerals import length, percent
 VIEW = View(eye=(0.8, -3.4, 1.6), target=(0.0, 0.0, 0.33), grid=None, axes=False)
 FLAT = View(eye=(0.0, -3.0, 0.7), target=(0.0, 0.0, 0.7), grid=None, axes=False)
 IMAGES = View(eye=(0.0, -2.6, 0.25), target=(0.0, 0.0, 0.25), grid=None, axes=False)
-HALF = Params()
-LINE = Params(model="line", points=150, noise=0.025, inlier_distance=0.05, seed=6)
 THIRTY = Params(outliers=0.3, seed=2)
 SEVENTY = Params(outliers=0.7, seed=2)
 TIGHT = Params(inlier_distance=0.004, steps="improvements")
@@ -30,7 +28,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         "line", "A line, seen flat",
         "Two points determine a line. Whoever lies in the band around it votes for it: the band reaches the inlier distance"
         " to either side.",
-        LINE, 1, FLAT,
+        Params(model="line", points=150, noise=0.025, inlier_distance=0.05, seed=6), 1, FLAT,
     ),
     Preset(
         "thirty", "30 % outliers: a dozen or two",
@@ -211,7 +209,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         " them is free of outliers?",
         answer=lambda states: needed(end(states), 3),
         why=_needed_why,
-        params=HALF,
+        params=Params(),
         unit="samples",
         tolerance=5.0,
     ),

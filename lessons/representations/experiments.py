@@ -18,21 +18,11 @@ NEAR = View(eye=(1.7, -3.8, 1.6), target=(0.1, -0.2, 0.0), grid=None, axes=False
 WIDE = View(eye=(2.1, -4.2, 2.2), target=(0.0, 0.0, -0.05), grid=None, axes=False)
 
 BINARY = Params(form="voxels", resolution=64)
-EDGES = Params(shape="box")
-THIN = Params(shape="plate")
 UNION = Params(shape="two boxes")
-CLOUD = Params(form="cloud", points=100_000)
-TRIANGLES = Params(form="mesh")
 OCTREE = Params(form="octree", depth=7)
-NEIGHBOURS = Params(form="neighbours", shape="rabbit", points=600, neighbours=10)
 SEARCH = Params(form="k-d tree", points=1000)
-TWENTY = Params(form="k-d tree", dimensions=20)
-CUBIC = Params(form="patches")
 RATIONAL = Params(form="patches", rational=True)
 NEURAL = Params(form="neural", iterations=1000)
-PLAIN = Params(form="neural", features=0)
-CLAMP = Params(form="neural", shape="box", target="clamped", seed=1)
-RABBIT = Params(form="neural", shape="rabbit", features=3)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
@@ -43,12 +33,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "edges", "Sharp edges",
         "A box from its distances: marching cubes bevels every edge. Watch the worst error beside the edge of a cell.",
-        EDGES, 5, breaks=True,
+        Params(shape="box"), 5, breaks=True,
     ),
     Preset(
         "thin", "Thinner than a cell",
         "A plate half a cell thick, lying somehow. Between two positive distances nobody looks for a surface.",
-        THIN, -1, breaks=True,
+        Params(shape="plate"), -1, breaks=True,
     ),
     Preset(
         "union", "The smaller of two distances",
@@ -58,12 +48,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "cloud", "Points alone",
         "From 100 to 100,000 points: the largest hole closes, and slowly. Four times the points, half the distance.",
-        CLOUD, 4, ALONE,
+        Params(form="cloud", points=100_000), 4, ALONE,
     ),
     Preset(
         "triangles", "Triangles",
         "Vertices on the torus, and flat triangles between them: twice the vertices, half the error.",
-        TRIANGLES, 2, ALONE,
+        Params(form="mesh"), 2, ALONE,
     ),
     Preset(
         "octree", "Only where the surface is",
@@ -73,7 +63,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "neighbours", "Who is whose neighbour",
         "600 points, each joined to ever more of its nearest ones: pieces become one, and edges leave the surface.",
-        NEIGHBOURS, 5, ALONE, breaks=True,
+        Params(form="neighbours", shape="rabbit", points=600, neighbours=10), 5, ALONE, breaks=True,
     ),
     Preset(
         "search", "The nearest of a thousand",
@@ -83,12 +73,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "twenty", "The same in twenty dimensions",
         "4,000 points with 20 coordinates, three of which are drawn. Watch the share that is looked at.",
-        TWENTY, 7, WIDE, breaks=True,
+        Params(form="k-d tree", dimensions=20), 7, WIDE, breaks=True,
     ),
     Preset(
         "cubic", "A torus of Bézier patches",
         "16 patches from 144 control points. Watch one point come about by dividing legs, then the error of all.",
-        CUBIC, 3, PATCH,
+        Params(form="patches"), 3, PATCH,
     ),
     Preset(
         "rational", "With weights",
@@ -103,17 +93,17 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "plain", "Without sines and cosines",
         "The same network is given the coordinates alone: it learns smooth things first, and stays far behind.",
-        PLAIN, -2, breaks=True,
+        Params(form="neural", features=0), -2, breaks=True,
     ),
     Preset(
         "clamp", "A loss that dies",
         "Distances clamped at 10 cm, as DeepSDF does: where the output is beyond that, its gradient is zero. Turn the seed.",
-        CLAMP, -1, breaks=True,
+        Params(form="neural", shape="box", target="clamped", seed=1), -1, breaks=True,
     ),
     Preset(
         "rabbit", "The rabbit in a network",
         "Three octaves of sines: ears and paws come last. Compare with a grid of distances of as many bytes.",
-        RABBIT, 6,
+        Params(form="neural", shape="rabbit", features=3), 6,
     ),
 )  # fmt: skip
 

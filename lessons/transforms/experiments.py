@@ -20,23 +20,14 @@ AHEAD = (1.5, 0.0, 0.0, *NO_TURN)
 ORDER = Params(scale=ONE, angles=(0.0, 0.0, 90.0), pose=AHEAD, compare="the other order")
 GIMBAL = Params(scale=ONE, angles=(30.0, 90.0, 50.0), compare="other triples")
 CONVENTIONS = Params(scale=ONE, angles=(40.0, 30.0, 70.0), compare="four conventions")
-FIXED_OWN = Params(scale=ONE, angles=(40.0, 30.0, 70.0), compare="fixed and own axes")
-MIRROR = Params(scale=ONE, mirror="x", compare="best rigid motion")
 SHEAR = Params(scale=ONE, shear=0.8, angles=(0.0, 0.0, 40.0))
-PERSPECTIVE = Params(scale=ONE, perspective=0.5, shape="box", point=4)
-TRANSPOSE = Params(scale=ONE, angles=(0.0, 0.0, 40.0), pose=(1.8, 0.0, 0.0, *NO_TURN), compare="transpose")
 INVERSE = Params(scale=ONE, angles=(0.0, 0.0, -90.0), pose=(1.3, -0.5, 0.3, *NO_TURN), compare="undo by (Rᵀ, −t)")
-HIDDEN_SCALE = Params(scale=(1.3, 1.3, 1.3), angles=(0.0, 0.0, 40.0), compare="undo all as if rigid")
-XYZW = Params(scale=ONE, angles=(0.0, 0.0, 40.0), pose=(1.8, 0.0, 0.0, *NO_TURN), compare="xyzw for wxyz")
-DIRECTION = Params(scale=ONE, angles=(0.0, 0.0, 20.0), compare="direction with w = 1")
 
-MINUS_Q = Params(half="move between two poses", angles=NO_TURN, angles_end=(0.0, 0.0, 60.0), method="slerp to -q")
 WOBBLE = Params(half="move between two poses", angles=NO_TURN, angles_end=(170.0, 40.0, 160.0), method="Euler angles")
 AVERAGE = Params(
     half="move between two poses", angles=(0.0, 0.0, 170.0), angles_end=(0.0, 0.0, -170.0), method="Euler angles"
 )
 ENTRIES = Params(half="move between two poses", angles=NO_TURN, angles_end=(0.0, 0.0, 170.0), method="matrix entries")
-SCREW = Params(half="move between two poses", angles=NO_TURN, angles_end=(0.0, 0.0, 120.0), method="screw")
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
@@ -57,12 +48,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "fixed-own", "Fixed or carried axes", "xyz about fixed axes is ZYX about carried axes with the numbers in reverse"
         " (green, the same); XYZ with the same numbers is not.",
-        FIXED_OWN, -2,
+        Params(scale=ONE, angles=(40.0, 30.0, 70.0), compare="fixed and own axes"), -2,
     ),
     Preset(
         "mirror", "A reflection is no rotation", "Every length and angle survives, yet det is −1. The vermillion house is"
         " the best of all rigid motions, by the sum of squared distances: it does not fit.",
-        MIRROR, -2,
+        Params(scale=ONE, mirror="x", compare="best rigid motion"), -2,
     ),
     Preset(
         "shear", "A shear", "Each horizontal layer slides as it is, the higher the farther. Step on, and read in the"
@@ -72,12 +63,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "perspective", "Divide by w", "A projective map keeps straight lines straight, and cross-ratios on them, but no"
         " lengths, angles or parallels: the vertical edges of the box now run to one point.",
-        PERSPECTIVE, 1,
+        Params(scale=ONE, perspective=0.5, shape="box", point=4), 1,
     ),
     Preset(
         "transpose", "R taken for Rᵀ", "The same numbers, read as turning the axes (passive) instead of the body (active):"
         " it turns the other way, 80° from where it belongs.",
-        TRANSPOSE, -2,
+        Params(scale=ONE, angles=(0.0, 0.0, 40.0), pose=(1.8, 0.0, 0.0, *NO_TURN), compare="transpose"), -2,
     ),
     Preset(
         "inverse", "Undo with (Rᵀ, −t)", "The translation must be turned back too: (Rᵀ, −Rᵀt) returns to the start. After"
@@ -87,22 +78,22 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "hidden-scale", "A scale hidden in R", "With a scale of 1.3 in its 3×3, the transpose is no inverse: instead of"
         " going back to its size the house ends 1.3² = 1.69 times as long, wide and high.",
-        HIDDEN_SCALE, -1, breaks=True,
+        Params(scale=(1.3, 1.3, 1.3), angles=(0.0, 0.0, 40.0), compare="undo all as if rigid"), -1, breaks=True,
     ),
     Preset(
         "xyzw", "wxyz read as xyzw", "Both are four numbers of length 1, so nothing complains: a turn of 40° about z has"
         " become one of 140° about x.",
-        XYZW, -2,
+        Params(scale=ONE, angles=(0.0, 0.0, 40.0), pose=(1.8, 0.0, 0.0, *NO_TURN), compare="xyzw for wxyz"), -2,
     ),
     Preset(
         "direction", "A direction with w = 1", "The translation leaks into a direction that is given w = 1: the arrow to"
         " the front no longer points to the front.",
-        DIRECTION, -2, breaks=True,
+        Params(scale=ONE, angles=(0.0, 0.0, 20.0), compare="direction with w = 1"), -2, breaks=True,
     ),
     Preset(
         "minus-q", "q and −q", "Both are the end's rotation. Slerp to the wrong one still arrives, but turns 300° where"
         " 60° would do: check the sign of q₀ · q₁ first.",
-        MINUS_Q, 15,
+        Params(half="move between two poses", angles=NO_TURN, angles_end=(0.0, 0.0, 60.0), method="slerp to -q"), 15,
     ),
     Preset(
         "wobble", "Euler angles wobble", "Three angles at constant speed, yet the body leaves the shortest turn and changes"
@@ -122,7 +113,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "screw", "Along a screw", "Exp and log on SE(3) turn about a line that stays put and slide along it: the origin"
         " follows a helix, not a straight line as with slerp + lerp.",
-        SCREW, 15,
+        Params(half="move between two poses", angles=NO_TURN, angles_end=(0.0, 0.0, 120.0), method="screw"), 15,
     ),
 )  # fmt: skip
 
