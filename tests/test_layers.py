@@ -29,6 +29,7 @@ ALLOWED = {
     "workbench.scene": {"workbench.scene", "workbench.numerals"},
     "workbench.knobs": {"workbench.errors"},
     "workbench.numerals": set(),
+    "workbench.certain": set(),
     "workbench.geometry": MATHS,
     "workbench.algorithms": MATHS | {"workbench.algorithms"},
     "workbench.data": MATHS | {"workbench.data", "workbench.numerals"},
@@ -75,7 +76,7 @@ ALLOWED = {
     "workbench.__main__": None,
     "workbench": None,
     "lessons": DRAWING | {"workbench.geometry", "workbench.algorithms", "workbench.data", "workbench.lesson", "lessons",
-                          "workbench.exercise", "workbench.numerals"},
+                          "workbench.exercise", "workbench.numerals", "workbench.certain"},
 }  # fmt: skip
 
 OUTSIDE = {"viser": ("workbench.viewer", "workbench.publish"), "rerun": ("workbench.recording",)}
