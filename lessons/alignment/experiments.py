@@ -80,7 +80,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "stray", "One stray point",
-        "One point of 1,501 lies 2 m away: drag it. The axes hardly move, but the signs are made of cubes.",
+        "One point of 1,501 lies 2 m away. The axes hardly move, but the signs are made of cubes.",
         Params(stray=(0.0, 2.0, 0.0)), POSE, breaks=True,
     ),
     Preset(
@@ -111,8 +111,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "flat", "A plate with noise",
-        "Nothing is mirrored here, but nothing but noise tells a plate from its mirror image: see the determinant, and"
-        " other seeds.",
+        "Nothing is mirrored here, but nothing but noise tells a plate from its mirror image: see the determinant, a"
+        " matter of chance.",
         Params(stage="pairs", shape="plate", points=200, noise=0.02), 4, ABOVE, breaks=True,
     ),
     Preset(

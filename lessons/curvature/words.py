@@ -8,7 +8,7 @@ from workbench.certain import sure
 from workbench.numerals import brief, percent
 from workbench.scene import Caption
 
-NOWHERE = "The vertex lies on the border, where {} is not defined: choose one inside."
+NOWHERE = "The vertex lies on the border, where {} is not defined."
 
 
 def caption(state: State) -> Caption:

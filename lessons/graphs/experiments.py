@@ -46,13 +46,14 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "split", "Two pieces, no cut",
-        "Without a bridge 0 is an eigenvalue twice. Any mixture of the two constants is a second eigenvector: turn"
-        " `numbering`.",
+        "Without a bridge 0 is an eigenvalue twice. Any mixture of the two constants is a second eigenvector: with other"
+        " numbers for the nodes the cut is another.",
         Params(points=200, bridge=0, numbering=4), SIGN, breaks=True,
     ),
     Preset(
         "square", "Equal eigenvalues",
-        "On a square grid two eigenvectors share λ₂, and any mixture is one too: turn `numbering`, and the cut turns.",
+        "On a square grid two eigenvectors share λ₂, and any mixture is one too: with other numbers for the"
+        " nodes the cut turns.",
         Params(graph="grid", columns=10, numbering=2), SIGN, breaks=True,
     ),
     Preset(
@@ -102,7 +103,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "layer", "One layer, in parts",
-        "Two members of the karate club have a label. See in the table what the one you click gathers from its friends.",
+        "Two members of the karate club have a label. See in the table what the purple node gathers from its friends.",
         Params(graph="karate", stage="network"), 3,
     ),
     Preset(

@@ -100,7 +100,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "stray", "One stray point",
-        "One point of each cloud is moved away. Drag it. Purple points are those that the maximum listens to.",
+        "One point of each cloud is moved away. Purple points are those that the maximum listens to.",
         STRAY, 0, ROW, breaks=True,
     ),
     Preset(
@@ -120,7 +120,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "many", "Twenty-four photographs",
-        "From all around: what fits all of them has hardly a choice left. Click a pixel of the new view.",
+        "From all around: what fits all of them has hardly a choice left. Look at the weights along a ray of the new view.",
         MANY, 0, FLAT,
     ),
 )  # fmt: skip

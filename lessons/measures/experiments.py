@@ -33,7 +33,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "hole", "A hole",
         "1 % of the triangles is cut out, on the side you see. From an origin one diagonal behind, 7 % of the volume go with"
-        " them. Drag the origin: every place has its own number.",
+        " them. Every origin has its own number.",
         HOLE, 15, BEHIND, breaks=True,
     ),
     Preset(

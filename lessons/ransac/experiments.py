@@ -32,7 +32,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "thirty", "30 % outliers: a dozen or two",
-        "A third of all samples is clean, so a dozen or two are enough; the same outliers drag least squares 15 cm off.",
+        "A third of all samples is clean, so a dozen or two are enough; the same outliers drag least squares 15 cm off"
+        " (RMS).",
         THIRTY, 2,
     ),
     Preset(
@@ -48,7 +49,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "loose", "Inlier distance too large",
-        "0.3 m is 20 sigma: clutter votes too, a dozen samples satisfy the formula, and the plane ends 4 cm off.",
+        "0.3 m is 20 sigma: clutter votes too, a dozen samples satisfy the formula, and the plane ends 4 cm off (RMS).",
         LOOSE, -1, breaks=True,
     ),
     Preset(

@@ -97,7 +97,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "clamp", "A loss that dies",
-        "Distances clamped at 10 cm, as DeepSDF does: where the output is beyond that, its gradient is zero. Turn the seed.",
+        "Distances clamped at 10 cm, as DeepSDF does: where the output is beyond that, its gradient is zero. What is left of"
+        " the surface?",
         Params(form="neural", shape="box", target="clamped", seed=1), -1, breaks=True,
     ),
     Preset(
