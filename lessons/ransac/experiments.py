@@ -38,7 +38,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "seventy", "70 % outliers: over a hundred",
-        "Only one sample in 37 is clean, so over a hundred are drawn; the plane is still within 3 mm. Half is no limit.",
+        "Only one sample in 37 is clean, so over a hundred are drawn; the plane is still within 3 mm (RMS)."
+        " Half is no limit.",
         SEVENTY, 2,
     ),
     Preset(
