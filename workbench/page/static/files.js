@@ -19,6 +19,11 @@ const files = {
       element("div", {}, said, forget));
   },
 
+  say(text) {
+    this.line ??= $("#view").appendChild(element("p", { id: "aside", role: "status" }));
+    if (this.line.textContent !== text) this.line.textContent = text;
+  },
+
   async hand(field, input, said) {
     said.textContent = "Handing it over …";
     try {
@@ -30,8 +35,9 @@ const files = {
     }
   },
 
-  // names of the files that are open, by field: of one that came from the command line the page has no input
-  show(open) {
+  // names of the files that are open or put aside, by field: of one that came from the command line the page has no input
+  show(open, aside) {
+    this.say(aside ? "This run is of the lesson's own data. A preset or Reset (R) goes back to yours." : "");
     for (const [name, { said, forget, input }] of Object.entries(this.boxes)) {
       forget.hidden = !(name in open);
       if (name in open) said.textContent = input.files.length ? "" : open[name];

@@ -23,7 +23,7 @@ const source = {
     const { tell, run, ...more } = message;
     if (tell === "run") {
       page.told({ id: run, ...more });
-      if (more.files) files.show(more.files);
+      if (more.files) files.show(more.files, more.aside);
     } else if (tell === "step") page.came(run, more.k, more.step, more.things);
     else if (tell === "answer") article.answered({ ...more, given: this.given[more.question] ?? null });
     else if (tell === "trouble") page.say(more.text, "wrong");
