@@ -14,9 +14,10 @@ const source = {
     socket.onopen = () => {
       this.send({ verb: "open", query: location.search, lesson: LESSON.name });
       for (const text of this.waiting.splice(0)) socket.send(text);
+      returning.opened();
     };
     socket.onmessage = (event) => this.heard(JSON.parse(event.data));
-    socket.onclose = () => page.say("The server is gone. Reload the page when it is back.", "wrong");
+    socket.onclose = () => returning.wait();
   },
 
   heard(message) {
