@@ -66,9 +66,9 @@ def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
 
 
 def turn(server: Server, eye: tuple[float, float, float]) -> None:
-    for client in server._viser.get_clients().values():
+    for client in server._inner.viser.get_clients().values():
         client.camera.position = eye
 
 
 def eyes(server: Server) -> set[tuple[float, ...]]:
-    return {tuple(client.camera.position.round(6).tolist()) for client in server._viser.get_clients().values()}
+    return {tuple(client.camera.position.round(6).tolist()) for client in server._inner.viser.get_clients().values()}
