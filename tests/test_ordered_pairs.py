@@ -112,7 +112,7 @@ def walk_live(server, monkeypatch, scenes: list[Scene], order: Sequence[int]) ->
 
 
 def drawn(seen: Seen) -> Seen:
-    """Return what is to be seen without frames that draw nothing, such as lists of no segments: a player never hides these."""
+    """Return what is to be seen without frames that draw nothing, such as no segments: a player never hides them."""
     return {name: node for name, node in seen.items() if node["kind"] != "FrameMessage" or node["show_axes"]}
 
 
