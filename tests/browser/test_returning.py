@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from tests import fake
 from tests.browser.visits import at_rest
 from tests.viewer.test_serving import running
+from workbench import links
 from workbench.lesson import catalog
 from workbench.timeline import Timeline
 from workbench.viewer.server import Server
@@ -111,3 +113,28 @@ def test_nothing_is_asked_while_nobody_looks(chromium, server):
     }""")
     assert asked == [0, 0, 1, 1]
     page.context.close()
+
+
+def test_an_own_file_is_put_aside_by_an_answer_and_said_to_be_gone_with_its_server(chromium, tmp_path):
+    np.save(tmp_path / "mine.npy", np.eye(3))
+    server = Server(links.Place(fake.lesson, fake.Params()))
+    page = chromium.new_page(viewport={"width": 1100, "height": 640})
+    try:
+        page.goto(server.address)
+        page.wait_for_function("page.run && page.run.finished")
+        line, caption = page.locator("#aside"), page.locator("#caption")
+        page.locator("input[type=file]").set_input_files(tmp_path / "mine.npy")
+        caption.get_by_text(" 3 points").wait_for()
+        page.evaluate("$('form.question [value=skip]').click()")
+        line.get_by_text("This run is of the lesson's own data. A preset or Reset (R) goes back to yours.").wait_for()
+        caption.get_by_text("200 points").wait_for()
+        page.keyboard.press("r")
+        caption.get_by_text(" 3 points").wait_for()
+        assert line.text_content() == ""
+        server.stop()
+        server = Server(links.Place(fake.lesson, fake.Params()), port=server.port)
+        line.get_by_text("Files that were handed over went with the server.").wait_for()
+        caption.get_by_text("200 points").wait_for()
+    finally:
+        page.context.close()
+        server.stop()
