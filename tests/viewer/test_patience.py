@@ -69,16 +69,17 @@ def test_at_the_limit_of_open_files_it_says_a_line_a_second_and_open_pages_go_on
     with subprocess.Popen(
         [sys.executable, "-c", FULL], cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
     ) as process:
-        assert process.stdin is not None
-        assert process.stdout is not None
-        assert process.stderr is not None
-        address = process.stdout.readline().decode().strip()
+        asked, answers, complaints = process.stdin, process.stdout, process.stderr
+        assert asked is not None
+        assert answers is not None
+        assert complaints is not None
+        address = answers.readline().decode().strip()
         port = int(address.rpartition(":")[2])
 
         def may_open(word: str) -> int:
-            process.stdin.write(f"{word}\n".encode())
-            process.stdin.flush()
-            return int(process.stdout.readline())
+            asked.write(f"{word}\n".encode())
+            asked.flush()
+            return int(answers.readline())
 
         async def visit() -> None:
             page = await FakePage(address, "?lesson=fake").open()
@@ -86,7 +87,7 @@ def test_at_the_limit_of_open_files_it_says_a_line_a_second_and_open_pages_go_on
             await goes_on(page)  # what a picture needs is imported when it is first drawn
             most = may_open("few")
             quiet = [socket.create_connection(("127.0.0.1", port), timeout=60) for _ in range(60)]
-            await asyncio.to_thread(select.select, [process.stderr], [], [], 60)  # the first line
+            await asyncio.to_thread(select.select, [complaints], [], [], 60)  # the first line
             began = time.monotonic()
             while time.monotonic() - began < 2.2:
                 await goes_on(page)
@@ -102,6 +103,6 @@ def test_at_the_limit_of_open_files_it_says_a_line_a_second_and_open_pages_go_on
             run_apart(visit())
         finally:
             process.kill()
-            said = process.stderr.read().decode().splitlines()
+            said = complaints.read().decode().splitlines()
         assert 1 <= len(said) <= 6, "\n".join(said)
         assert all(line.startswith("workbench: ") and "Too many open files" in line for line in said), said
