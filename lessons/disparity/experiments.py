@@ -161,10 +161,6 @@ def boards(state: State) -> dict[float, float]:
     return {round(true): true + float(np.median(off)) for true, off in flat_parts(state).items()}
 
 
-def _quarter(states: Sequence[State]) -> float:
-    return boards(states[DEPTH])[20]
-
-
 def _quarter_why(states: Sequence[State]) -> str:
     found = boards(states[DEPTH])
     return (
@@ -206,18 +202,6 @@ def _averages_why(states: Sequence[State]) -> str:
     )
 
 
-def _hidden(states: Sequence[State]) -> float:
-    times = hidden(states[0].setup.params) / hidden(PLANES)
-    return 0.0 if times < 0.75 else 1.0 if times < 1.5 else 2.0
-
-
-def _hidden_why(states: Sequence[State]) -> str:
-    return (
-        f"{percent(hidden(PLANES), 1)} became {percent(hidden(states[0].setup.params), 1)}. The depths of the rest are"
-        " about twice as exact: a longer baseline is a trade, not a gain."
-    )
-
-
 def _edges(states: Sequence[State]) -> float:
     of_wrong, of_all = near_edges(last_choice(states))
     return 1.0 if of_wrong > 0.8 and of_wrong > 1.5 * of_all else 0.0
@@ -235,7 +219,7 @@ def _edges_why(states: Sequence[State]) -> str:
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "quarter", "A board 5 m away has a disparity of 16 px. Another has 4 px, a quarter of that. How far away is it?",
-        _quarter, _quarter_why, BOARDS, unit="m", tolerance=1.0, step=DEPTH,
+        lambda states: boards(states[DEPTH])[20], _quarter_why, BOARDS, unit="m", tolerance=1.0, step=DEPTH,
     ),
     Question(
         "nearer",
@@ -252,7 +236,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "baseline", "The cameras move apart to twice the baseline. How many pixels does the right camera not see now?",
-        _hidden, _hidden_why, DOUBLE, choices=("about half as many", "about as many", "about twice as many"), step=CHECKED,
+        lambda states: float(np.digitize(hidden(states[0].setup.params) / hidden(PLANES), [0.75, 1.5])),
+        lambda states: f"{percent(hidden(PLANES), 1)} became {percent(hidden(states[0].setup.params), 1)}. The depths of the"
+        " rest are about twice as exact: a longer baseline is a trade, not a gain.",
+        DOUBLE, choices=("about half as many", "about as many", "about twice as many"), step=CHECKED,
     ),
     Question(
         "window", "A window of 21 px instead of 3 against noise, without paths. Where are the pixels that stay wrong?",
