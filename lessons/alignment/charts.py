@@ -5,11 +5,20 @@ import numpy as np
 from lessons.alignment.state import AxesState, PairsState
 from workbench.geometry.principal_axes import degrees_between_axes
 from workbench.numerals import angle, fixed, length
-from workbench.scene import Curve, Primitive, Scalar, Table
+from workbench.scene import Chart, Curve, Primitive, Table
 
 CM2 = 1e4  # square centimetres in a square metre
 ROUNDING = 1e-16  # below this share nothing is left off the diagonal
 BINS = np.arange(0.0, 181.0, 10.0)
+
+OFF = Chart("Off the diagonal", unit="of the whole")
+TO_AXES = Chart("Frame to the axes", unit="deg")
+BY_DIRECTION = Chart("Variance by direction", "angle in the plane (deg)", "cm²")
+VARIANCES = Chart("Variance of each axis", "axis", "cm²")
+TURNS = Chart("Where many turns end", "rotation error (deg)", "turns")
+RMSE = Chart("RMSE", unit="m")
+ROTATION_ERROR = Chart("Rotation error", unit="deg")
+SINGULAR = Chart("Singular values of H", "direction", "cm²")
 
 
 def beside_axes(state: AxesState) -> dict[str, Primitive]:
@@ -17,15 +26,11 @@ def beside_axes(state: AxesState) -> dict[str, Primitive]:
     now = state.jacobi
     turning = now is not None and state.axes is None
     scene: dict[str, Primitive] = {
-        "off diagonal": Scalar(
-            max(now.off, ROUNDING) if turning and now else np.nan,
-            "off the diagonal", "Off the diagonal", "of the whole", "source", log=True,
+        "off diagonal": OFF.scalar(max(now.off, ROUNDING) if turning and now else np.nan, "off the diagonal", log=True),
+        "to axes": TO_AXES.scalar(
+            max(_to_axes(state), 1e-9) if turning else np.nan, "frame to the true axes", "truth", log=True
         ),
-        "to axes": Scalar(
-            max(_to_axes(state), 1e-9) if turning else np.nan,
-            "frame to the true axes", "Frame to the axes", "deg", "truth", log=True,
-        ),
-    }  # fmt: skip
+    }
     if now is None:
         return scene
     if turning:
@@ -33,20 +38,13 @@ def beside_axes(state: AxesState) -> dict[str, Primitive]:
         if state.before is not None and now.plane is not None:
             scene["variance"] = _variance(state.before, now.plane, now.angle)
     if state.variances is not None and state.moment in ("order", "signs"):
-        scene["variances"] = Curve(
-            np.arange(1.0, 4.0), CM2 * state.variances, "along the axes", "Variance of each axis", "axis", "cm²",
-            "source", "bars",
-        )  # fmt: skip
+        scene["variances"] = VARIANCES.bars(np.arange(1.0, 4.0), CM2 * state.variances, "along the axes")
     if state.moments is not None and state.variances is not None and state.moment == "signs":
         scene["moments"] = _moments(state.moments, state.variances)
     if state.outcome is not None and state.moment in ("pose", "turns"):
         scene["outcome"] = _outcome(state)
     if state.turns is not None:
-        counts, _ = np.histogram(state.turns.degrees, BINS)
-        scene["turns"] = Curve(
-            (BINS[1:] + BINS[:-1]) / 2, counts.astype(float), "turns", "Where many turns end",
-            "rotation error (deg)", "turns", "truth", "bars",
-        )  # fmt: skip
+        scene["turns"] = TURNS.histogram(state.turns.degrees, BINS, "turns", "truth")
     return scene
 
 
@@ -65,10 +63,8 @@ def _variance(A: np.ndarray, plane: tuple[int, int], turned: float) -> Curve:
     degrees = np.linspace(-90.0, 90.0, 181)
     c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     variance = c * c * A[i, i] + 2 * c * s * A[i, j] + s * s * A[j, j]
-    return Curve(
-        degrees, CM2 * variance, f"from {'xyz'[i]} towards {'xyz'[j]}", "Variance by direction",
-        "angle in the plane (deg)", "cm²", "source", marks=(float(np.degrees(turned)),),
-    )  # fmt: skip
+    name = f"from {'xyz'[i]} towards {'xyz'[j]}"
+    return BY_DIRECTION.curve(degrees, CM2 * variance, name, marks=(float(np.degrees(turned)),))
 
 
 def _matrix(title: str, A: np.ndarray) -> Table:
@@ -98,19 +94,14 @@ def beside_pairs(state: PairsState) -> dict[str, Primitive]:
     now, outcome = state.now, state.outcome
     begun = now.stage != "pairs"
     scene: dict[str, Primitive] = {
-        "rmse": Scalar(now.rmse if begun else np.nan, "RMSE of the pairs", "RMSE", "m", "source"),
-        "rotation error": Scalar(
-            outcome.rotation if begun else np.nan, "rotation error", "Rotation error", "deg", "truth"
-        ),
+        "rmse": RMSE.scalar(now.rmse if begun else np.nan, "RMSE of the pairs"),
+        "rotation error": ROTATION_ERROR.scalar(outcome.rotation if begun else np.nan, "rotation error", "truth"),
     }
     if now.H is not None and now.stage == "cross":
         scene["cross"] = _matrix("Cross-covariance H (cm²)", now.H)
     if now.D is not None:
         signs = np.ones(3) if now.S is None else now.S
-        scene["singular"] = Curve(
-            np.arange(1.0, 4.0), CM2 * now.D * signs, "with the sign it got", "Singular values of H",
-            "direction", "cm²", "source", "bars",
-        )  # fmt: skip
+        scene["singular"] = SINGULAR.bars(np.arange(1.0, 4.0), CM2 * now.D * signs, "with the sign it got")
     if now.scale is not None:
         scene["scales"] = _scales(state, now.scale)
     return scene

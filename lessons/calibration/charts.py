@@ -6,7 +6,7 @@ from lessons.calibration.state import Ending, State
 from lessons.calibration.views import GRID, places
 from workbench.algorithms.board_adjustment import SHARED
 from workbench.numerals import brief, fixed, pixels
-from workbench.scene import Chart, Curve, Field, Picture, Primitive, Table
+from workbench.scene import Chart, Field, Picture, Primitive, Table
 
 FOCAL = Chart("Focal length", unit="px")
 ERROR = Chart("Error", unit="px")
@@ -53,9 +53,7 @@ def _ending(state: State, ending: Ending) -> dict[str, Primitive]:
     if ending.kind != "known":
         numbers = np.array(state.subject.views, float)
         kept = np.arange(len(numbers)) != ending.worst
-        scene: dict[str, Primitive] = {
-            "views": Curve(numbers, state.per_view, "rms", VIEWS.title, VIEWS.x_label, VIEWS.unit, kind="bars")
-        }
+        scene: dict[str, Primitive] = {"views": VIEWS.bars(numbers, state.per_view, "rms")}
         if ending.without is not None and ending.kind == "without":
             off = np.sqrt(np.square(ending.without.residuals).sum(axis=2).mean(axis=1))
             scene["views/without"] = VIEWS.dots(numbers[kept], off, "without the worst", "highlight")

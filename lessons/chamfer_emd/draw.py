@@ -19,6 +19,7 @@ NEARER = 0.03  # metres towards the viewer, at which source points are drawn
 VIEW = View(eye=(0.0, -4.75, -0.5), target=(0.0, 0.0, -0.5), grid=None, axes=False)
 P_TITLE = np.array([0.0, 0.0, 1.12])
 MOST_SERVED = 10  # the last bar of the histogram holds all counts from here on
+SERVED = Chart("Nearest of how many target points", f"target points, {MOST_SERVED} or more at the end", "points")
 
 
 def draw(state: State) -> Scene:
@@ -140,9 +141,8 @@ def _curves(state: State) -> dict[str, Primitive]:
 def _served(side: Side, name: str, color: Role) -> Curve:
     """Return how many points of the cloud are the nearest of 0, 1, 2, ... target points: all at 1 where it is one to one."""
     counts = np.bincount(np.minimum(side.served, MOST_SERVED), minlength=MOST_SERVED + 1)
-    chart, x_label = "Nearest of how many target points", f"target points, {MOST_SERVED} or more at the end"
-    kind = "bars" if name == "left" else "dots"
-    return Curve(np.arange(MOST_SERVED + 1.0), counts.astype(float), name, chart, x_label, "points", color, kind)
+    kind = SERVED.bars if name == "left" else SERVED.dots
+    return kind(np.arange(MOST_SERVED + 1.0), counts.astype(float), name, color)
 
 
 def _numbers_table(state: State) -> Table:

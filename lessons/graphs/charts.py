@@ -9,11 +9,12 @@ from workbench.algorithms.graph_network import Layer, Trained
 from workbench.algorithms.spectral_cut import Cut
 from workbench.geometry.graphs import Sparse, degrees
 from workbench.numerals import brief
-from workbench.scene import Curve, Field, Picture, Primitive, Scalar, Table
+from workbench.scene import Chart, Curve, Field, Picture, Primitive, Scalar, Table
 
 LARGEST = 120  # pixels of a picture of a matrix
 FLOOR = 1e-16
 ROWS = 12
+DEGREES = Chart("Degrees", "neighbours", "nodes")
 
 
 def beside(state: State) -> dict[str, Primitive]:
@@ -46,9 +47,8 @@ def _grown(state: State, now: Grown) -> dict[str, Primitive]:
     counts = np.bincount(d.astype(int))
     scene: dict[str, Primitive] = {
         "components": Scalar(float(now.count), "components", "Components", color="wrong", log=True),
-        "degrees": Curve(np.arange(len(counts), dtype=float), counts.astype(float), "nodes", "Degrees",
-                         "neighbours", "nodes", "target", "bars"),
-    }  # fmt: skip
+        "degrees": DEGREES.bars(np.arange(len(counts), dtype=float), counts.astype(float), "nodes", "target"),
+    }
     if now.k:
         scene["one-way"] = Scalar(100 * now.one_way, "neighbours not returned", "One-way", "%", "source")
     return scene

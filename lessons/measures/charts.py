@@ -7,9 +7,18 @@ from lessons.measures.words import SURE, area, off, volume
 from workbench.algorithms.measures import Cells, Sums
 from workbench.algorithms.monte_carlo import Balls, Estimates, Lines, Sampled, Throws
 from workbench.numerals import percent
-from workbench.scene import Curve, Primitive, Role, Scalar, Table
+from workbench.scene import Chart, Primitive, Role, Table
 
 FLOOR = 1e-4  # per cent: what lies below is rounding
+LOG_ERROR, CELLS = "log₁₀ error (%)", "log₂ cells across"
+
+LANTERN = Chart("Area over that of the cylinder", "log₁₀ sectors", "log₁₀ times")
+FINER = Chart("Error of ever finer meshes", "log₁₀ faces", LOG_ERROR)
+OFF_VOLUME = Chart("Error of the volume", CELLS, LOG_ERROR)
+AREAS = Chart("Area over the true area", CELLS, "times")
+FROM_MIDDLE = Chart("Distance from the surface's middle", unit="% of the diagonal")
+IN_HALF = Chart("Points in the half of small faces", unit="%")
+HITS = Chart("Hits by dimension", "dimensions", "log₁₀ hits")
 
 
 def beside(state: State) -> dict[str, Primitive]:
@@ -30,14 +39,15 @@ def beside(state: State) -> dict[str, Primitive]:
 
 def _running(state: State, volume: float, area: float) -> dict[str, Primitive]:
     subject = state.subject
+    volumes, areas = Chart("Volume", unit=f"{subject.unit}³"), Chart("Area", unit=f"{subject.unit}²")
     scene: dict[str, Primitive] = {}
     if np.isfinite(subject.volume):
-        scene["volume"] = Scalar(volume, "volume", "Volume", f"{subject.unit}³")
-        scene["true volume"] = Scalar(subject.volume, "truth", "Volume", f"{subject.unit}³", "truth")
-    scene["area"] = Scalar(area, "area", "Area", f"{subject.unit}²")
-    scene["true area"] = Scalar(subject.area, "truth", "Area", f"{subject.unit}²", "truth")
+        scene["volume"] = volumes.scalar(volume, "volume")
+        scene["true volume"] = volumes.scalar(subject.volume, "truth", "truth")
+    scene["area"] = areas.scalar(area, "area")
+    scene["true area"] = areas.scalar(subject.area, "truth", "truth")
     if isinstance(state.now, Cells):
-        scene["marched area"] = Scalar(state.now.marched[-1], "marching cubes", "Area", f"{subject.unit}²", "other")
+        scene["marched area"] = areas.scalar(state.now.marched[-1], "marching cubes", "other")
     return scene
 
 
@@ -57,57 +67,43 @@ def _sums(state: State) -> dict[str, Primitive]:
 
 def _finer(study: Study, lantern: bool) -> dict[str, Primitive]:
     roles: tuple[Role, ...] = ("source", "other", "wrong")
-    x, label = np.log10(study.faces), "log₁₀ sectors" if lantern else "log₁₀ faces"
-    chart = "Area over that of the cylinder" if lantern else "Error of ever finer meshes"
-    unit = "log₁₀ times" if lantern else "log₁₀ error (%)"
+    x, chart = np.log10(study.faces), LANTERN if lantern else FINER
     scene: dict[str, Primitive] = {}
     for (name, values), role in zip(study.errors.items(), roles, strict=False):
-        y = np.log10(values if lantern else np.maximum(100 * values, FLOOR))
-        scene[f"finer {name}"] = Curve(x, np.round(y, 9) + 0.0, name, chart, label, unit, role)
+        y = np.log10(values) if lantern else _log_error(values)
+        scene[f"finer {name}"] = chart.curve(x, np.round(y, 9) + 0.0, name, role)
     if lantern:
-        scene["finer truth"] = Curve(x, np.zeros(len(x)), "truth", chart, label, unit, "truth")
+        scene["finer truth"] = chart.curve(x, np.zeros(len(x)), "truth", "truth")
     return scene
 
 
 def _cells(state: State, now: Cells) -> dict[str, Primitive]:
     subject, x = state.subject, np.log2(now.across)
-    label = "log₂ cells across"
     off_volume = np.abs(np.array(now.volumes) / subject.volume - 1)
-    chart = "Area over the true area"
     return {
-        "volume errors": _dots(x, off_volume, "volume", "Error of the volume", label, "source"),
-        "wall areas": Curve(x, np.array(now.areas) / subject.area, "walls of cells", chart, label, "times"),
-        "marched areas": Curve(
-            x, np.array(now.marched) / subject.area, "marching cubes", chart, label, "times", "other"
-        ),
-        "true areas": Curve(x, np.ones(len(x)), "truth", chart, label, "times", "truth"),
+        "volume errors": OFF_VOLUME.dots(x, _log_error(off_volume), "volume"),
+        "wall areas": AREAS.curve(x, np.array(now.areas) / subject.area, "walls of cells"),
+        "marched areas": AREAS.curve(x, np.array(now.marched) / subject.area, "marching cubes", "other"),
+        "true areas": AREAS.curve(x, np.ones(len(x)), "truth", "truth"),
     }
 
 
-def _dots(x: np.ndarray, error: np.ndarray, name: str, chart: str, label: str, role: Role) -> Curve:
-    return Curve(x, np.log10(np.maximum(100 * error, FLOOR)), name, chart, label, "log₁₀ error (%)", role, "dots")
+def _log_error(error: np.ndarray) -> np.ndarray:
+    return np.log10(np.maximum(100 * error, FLOOR))
 
 
 def _by_chance(estimates: Estimates, true: float, what: str, unit: str, drawn: str) -> dict[str, Primitive]:
-    x, label = np.log10(estimates.counts), f"log₁₀ {drawn}"
-    values, errors = np.array(estimates.values), np.array(estimates.errors)
-    chart, bad = f"{what} by {drawn}", np.abs(values / true - 1)
+    x, values, errors = np.log10(estimates.counts), np.array(estimates.values), np.array(estimates.errors)
+    chart = Chart(f"{what} by {drawn}", f"log₁₀ {drawn}", unit)
+    error = Chart(f"Error by {drawn}", f"log₁₀ {drawn}", LOG_ERROR)
     expected = np.where(errors > 0, errors, np.nan) / true
     return {
-        "estimate": Curve(x, values, "estimate", chart, label, unit, "source"),
-        "upper": Curve(x, values + SURE * errors, "95 % interval", chart, label, unit, "correspondence"),
-        "lower": Curve(x, values - SURE * errors, "its lower end", chart, label, unit, "correspondence"),
-        "truth": Curve(x, np.full(len(x), true), "truth", chart, label, unit, "truth"),
-        "errors": _dots(x, bad, "error", f"Error by {drawn}", label, "wrong"),
-        "standard errors": Curve(
-            x,
-            np.log10(100 * expected),
-            "standard error, random",
-            f"Error by {drawn}",
-            label,
-            "log₁₀ error (%)",
-            "source",
-        ),
+        "estimate": chart.curve(x, values, "estimate"),
+        "upper": chart.curve(x, values + SURE * errors, "95 % interval", "correspondence"),
+        "lower": chart.curve(x, values - SURE * errors, "its lower end", "correspondence"),
+        "truth": chart.curve(x, np.full(len(x), true), "truth", "truth"),
+        "errors": error.dots(x, _log_error(np.abs(values / true - 1)), "error", "wrong"),
+        "standard errors": error.curve(x, np.log10(100 * expected), "standard error, random"),
     }
 
 
@@ -117,21 +113,17 @@ def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
         rows = tuple((name, percent(share, 1), "25 %") for name, share in zip(names, state.quarters, strict=True))
         return {"quarters table": Table("Points in the quarters", ("", "share", "of the area"), rows)}
     gap = 100 * float(np.linalg.norm(now.mean - state.middle)) / state.subject.diagonal
-    chart = "Points in the half of small faces"
     return {
-        "gap": Scalar(gap, "mean of the points", "Distance from the surface's middle", "% of the diagonal", "wrong"),
-        "half": Scalar(100 * state.half_hits, "points", chart, "%", "source"),
-        "true half": Scalar(100 * state.half_share, "area", chart, "%", "truth"),
+        "gap": FROM_MIDDLE.scalar(gap, "mean of the points", "wrong"),
+        "half": IN_HALF.scalar(100 * state.half_hits, "points"),
+        "true half": IN_HALF.scalar(100 * state.half_share, "area", "truth"),
     }
 
 
 def _balls(now: Balls) -> dict[str, Primitive]:
-    x, label, chart = np.array(now.dimensions, float), "dimensions", "Hits by dimension"
-    hits = np.array(now.hits, float)
+    x, hits = np.array(now.dimensions, float), np.array(now.hits, float)
     expected = np.log10(now.throws * np.array(now.shares))
     return {
-        "expected hits": Curve(x, expected, "expected", chart, label, "log₁₀ hits", "truth"),
-        "hits": Curve(
-            x, np.log10(np.where(hits > 0, hits, np.nan)), "hits", chart, label, "log₁₀ hits", "source", "dots"
-        ),
+        "expected hits": HITS.curve(x, expected, "expected", "truth"),
+        "hits": HITS.dots(x, np.log10(np.where(hits > 0, hits, np.nan)), "hits"),
     }

@@ -80,6 +80,12 @@ class Chart:
         """Return y over x as dots."""
         return Curve(x, y, name, self.title, self.x_label, self.unit, color, "dots")
 
+    def bars(
+        self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "source", *, marks: tuple[float, ...] = ()
+    ) -> Curve:
+        """Return y over x as bars."""
+        return Curve(x, y, name, self.title, self.x_label, self.unit, color, "bars", marks)
+
     def histogram(
         self,
         values: np.ndarray,
@@ -91,8 +97,7 @@ class Chart:
     ) -> Curve:
         """Return how many of the values lie in each of so many bins, or between edges, as bars at their middles."""
         counts, edges = np.histogram(values, bins)
-        x = (edges[1:] + edges[:-1]) / 2
-        return Curve(x, counts.astype(float), name, self.title, self.x_label, self.unit, color, "bars", marks)
+        return self.bars((edges[1:] + edges[:-1]) / 2, counts.astype(float), name, color, marks=marks)
 
     def scalar(self, value: float, name: str, color: Role = "source", *, log: bool = False) -> Scalar:
         """Return the number of this step."""
