@@ -10,7 +10,7 @@ import scipy
 from lessons.representations.state import Form, Params, Shape, Subject, Surface
 from workbench.data import solids, surfaces
 from workbench.data.files import read_cloud, stamp
-from workbench.data.framing import UPRIGHT, Upward, box, extent, own_points, upward
+from workbench.data.framing import Upward, own_points
 from workbench.data.own_meshes import read_welded
 from workbench.data.rabbit import rabbit_mesh
 from workbench.data.thinning import some_points
@@ -192,10 +192,7 @@ def _of_mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
 @functools.lru_cache(maxsize=4)
 def _own(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
     p, faces = read_welded(path, MOST_OWN, "stored")
-    axis = upward(p, path, up)
-    low, high = box(p)
-    scale = OWN_SIZE / extent(p)
-    return _of_mesh(path.name, scale * (p - (low + high) / 2) @ UPRIGHT[axis].T, faces)
+    return _of_mesh(path.name, own_points(p, path, up, OWN_SIZE), faces)
 
 
 @functools.lru_cache(maxsize=4)
