@@ -16,7 +16,7 @@ from workbench.data.surfaces import sphere
 from workbench.geometry.curvilinear import Coordinates, cartesian_from_spherical, cell_edges
 from workbench.geometry.globe import Ellipsoid, graticule, parallel, units_of_places
 from workbench.geometry.motions import motion
-from workbench.geometry.polylines import between, circle, segments, sphere_rings
+from workbench.geometry.polylines import at_height, between, circle, segments, sphere_rings
 from workbench.numerals import angle, fixed
 from workbench.scene import Camera, Chart, Classes, Label, Mesh, Points, Primitive, Role, Scene, Segments, Table
 
@@ -240,7 +240,7 @@ def _followed(now: Followed) -> dict[str, Primitive]:
     n = cartesian_from_spherical(np.array([[1.0, np.pi / 2 - now.tilt, now.pan]]))[0]
     right = np.array([s, -c, 0.0])
     T_world_camera = motion(np.column_stack([right, np.cross(n, right), n]), ORIGIN)
-    ring = np.insert(4.0 * circle(), 2, 0.0, axis=1)
+    ring = at_height(4.0 * circle())
     track = np.array([[[-18.0, now.p[1], now.p[2]], [18.0, now.p[1], now.p[2]]]])
     return {
         "ring": Segments(segments(ring), "neutral", 2, name="pan axis"),

@@ -8,7 +8,7 @@ from workbench.algorithms.parallels import Met, Seen
 from workbench.algorithms.placing import Ranged
 from workbench.geometry.clipping import clip_lines
 from workbench.geometry.homography import transform_pixels
-from workbench.geometry.polylines import between, rectangle, segments
+from workbench.geometry.polylines import at_height, between, rectangle, segments
 from workbench.numerals import length
 from workbench.scene import Camera, Chart, Mesh, Points, Primitive, Role, Segments, Table
 
@@ -26,10 +26,12 @@ def ranged(now: Ranged) -> dict[str, Primitive]:
     return {
         "range": Segments(_arc(now), "correspondence", 1.5, name="the true range"),
         "radar": Points(ORIGIN[None], "neutral", 0.15, name="radar"),
-        "points": Points(_level(now.p), "target", 0.05 if len(now.p) > 500 else 0.08, opacity=0.6, name="measurements"),
-        "true": Points(_level(now.true[None], 0.1), "truth", 0.2, name="true point"),
-        "mean": Points(_level(now.mean[None], 0.1), "wrong", 0.2, name="mean of the points"),
-        "debiased": Points(_level(now.debiased[None], 0.1), "source", 0.15, name="mean, divided"),
+        "points": Points(
+            at_height(now.p), "target", 0.05 if len(now.p) > 500 else 0.08, opacity=0.6, name="measurements"
+        ),
+        "true": Points(at_height(now.true[None], 0.1), "truth", 0.2, name="true point"),
+        "mean": Points(at_height(now.mean[None], 0.1), "wrong", 0.2, name="mean of the points"),
+        "debiased": Points(at_height(now.debiased[None], 0.1), "source", 0.15, name="mean, divided"),
         "off": OFF.scalar(float(np.linalg.norm(now.mean - now.true)), "mean of the points", "wrong"),
         "expected": OFF.scalar(float(np.linalg.norm(now.expected - now.true)), "expected of it", "correspondence"),
         "off divided": OFF.scalar(float(np.linalg.norm(now.debiased - now.true)), "divided by exp(−σ²/2)"),
@@ -47,19 +49,14 @@ def ranged(now: Ranged) -> dict[str, Primitive]:
 
 def _arc(now: Ranged) -> np.ndarray:
     turn = np.linspace(-np.pi / 2, np.pi / 2, 61)
-    return segments(_level(now.true[0] * np.column_stack([np.cos(turn), np.sin(turn)])))
-
-
-def _level(p: np.ndarray, height: float = 0.0) -> np.ndarray:
-    """Return points of a plane at a height."""
-    return np.insert(p, 2, height, axis=1)
+    return segments(at_height(now.true[0] * np.column_stack([np.cos(turn), np.sin(turn)])))
 
 
 def met(now: Met) -> dict[str, Primitive]:
     """Return the plane w = 1, both lines with the planes that they span with the origin, and the vector of their meeting."""
     scene: dict[str, Primitive] = {
         "plane": Segments(
-            segments(_level(rectangle(LOW, HIGH), 1.0), closed=True), "neutral", 1.5, name="the plane w = 1"
+            segments(at_height(rectangle(LOW, HIGH), 1.0), closed=True), "neutral", 1.5, name="the plane w = 1"
         ),
         "origin": Points(ORIGIN[None], "neutral", 0.06, name="origin"),
         "rails": Segments(_grid(now.H), "neutral", 1, opacity=0.5),
@@ -69,14 +66,14 @@ def met(now: Met) -> dict[str, Primitive]:
         a, b, _ = now.lines[k]
         ends = clip_lines(now.lines[[k]] / np.hypot(a, b), LOW, HIGH) if np.hypot(a, b) > 1e-9 else np.empty((0, 2, 2))
         if len(ends):
-            p = _level(ends[0], 1.0)
+            p = at_height(ends[0], 1.0)
             scene[f"line/{k + 1}"] = Segments(p[None], role, 5, name=name)
             scene[f"fan/{k + 1}"] = Mesh(np.vstack([ORIGIN, p]), np.array([[0, 1, 2]]), role, opacity=0.2)
     horizon = now.horizon / max(float(np.hypot(*now.horizon[:2])), 1e-12)
     if now.H[2, 0] and len(ends := clip_lines(horizon[None], LOW, HIGH)):
-        scene["horizon"] = Segments(_level(ends[0], 1.0)[None], "highlight", 4, name="horizon")
+        scene["horizon"] = Segments(at_height(ends[0], 1.0)[None], "highlight", 4, name="horizon")
     stops = now.places[:, :2] / now.places[:, 2:]
-    scene["stops"] = Points(_level(stops, 1.0), "target", 0.05, name="four points of l")
+    scene["stops"] = Points(at_height(stops, 1.0), "target", 0.05, name="four points of l")
     x_h, right = now.x_h, lies_on_both(now)
     if np.isfinite(x_h).all() and x_h.any():
         n = x_h / np.linalg.norm(x_h) * (-1.0 if x_h[2] < 0 or (x_h[2] == 0 and x_h[0] < 0) else 1.0)
@@ -98,7 +95,7 @@ def _grid(H: np.ndarray) -> np.ndarray:
     ]
     ends = np.concatenate([segments(transform_pixels(H, line)) for line in lines])
     inside = ((ends >= LOW) & (ends <= HIGH)).all(axis=(1, 2))
-    return _level(ends[inside].reshape(-1, 2), 1.0).reshape(-1, 2, 3)
+    return at_height(ends[inside], 1.0)
 
 
 def seen(state: State, now: Seen) -> dict[str, Primitive]:

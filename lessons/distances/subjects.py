@@ -16,6 +16,7 @@ from workbench.data.swiss_roll import rolled, swiss_roll
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
 from workbench.geometry import geodesics, graphs, meshes
+from workbench.geometry.polylines import at_height
 from workbench.knobs import only
 
 OWN_SIZE, MOST_CLOUD = 2.0, 3000
@@ -86,7 +87,7 @@ def _square(side: int, wall: float) -> Subject:
     faces = np.concatenate([corner[:, None] + [0, side, side + 1], corner[:, None] + [0, side + 1, 1]])
     source, goal = (int(np.argmin(np.linalg.norm(flat - at, axis=1) + 9.0 * ~free)) for at in (FROM, TO))
     return Subject(
-        name="the square", p=np.column_stack([flat, np.zeros(len(flat))]), faces=faces, edges=np.empty((0, 2), int),
+        name="the square", p=at_height(flat), faces=faces, edges=np.empty((0, 2), int),
         lengths=np.empty(0), source=source, goal=goal, free=free, h=h, tip=tip, side=side, radius=0.3 * h,
     )  # fmt: skip
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from lessons.features.state import Outlined, Pictured, State
-from workbench.geometry.polylines import between, circle, segments
+from workbench.geometry.polylines import at_height, between, circle, segments
 from workbench.geometry.shape_context import EDGES, SECTORS, tangent_angles
 from workbench.geometry.sift import Sift
 from workbench.scene import Chart, Field, Picture, Points, Primitive, Role, Segments
@@ -64,9 +64,7 @@ def _marks(found: Sift, some: slice | np.ndarray) -> np.ndarray:
 
 def outlined(state: State, now: Outlined) -> dict[str, Primitive]:
     """Return two outlines, the bins of a point, its histograms, and lines between matches."""
-    first, second = (
-        np.column_stack([p, np.zeros(len(p))]) + place for p, place in zip((now.first, now.second), PLACES, strict=True)
-    )
+    first, second = (at_height(p) + place for p, place in zip((now.first, now.second), PLACES, strict=True))
     scene: dict[str, Primitive] = {
         "first": Segments(segments(first, closed=True), "target", 3, name="first outline"),
         "second": Segments(segments(second, closed=True), "source", 3, name="second outline"),
@@ -96,8 +94,7 @@ def _bins(state: State, now: Outlined) -> np.ndarray:
     rings = [segments(p + unit * edge * circle(48), closed=True) for edge in EDGES]
     at = start + 2 * np.pi * np.arange(SECTORS) / SECTORS
     way = unit * np.column_stack([np.cos(at), np.sin(at)])
-    flat = np.concatenate([*rings, between(p + EDGES[0] * way, p + EDGES[-1] * way)])
-    return np.concatenate([flat, np.zeros((*flat.shape[:-1], 1))], axis=-1)
+    return at_height(np.concatenate([*rings, between(p + EDGES[0] * way, p + EDGES[-1] * way)]))
 
 
 def lines_between(

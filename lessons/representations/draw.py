@@ -10,11 +10,11 @@ from lessons.representations.words import caption, subject_name
 from workbench.algorithms.kd_tree import Tree
 from workbench.algorithms.octree import Level
 from workbench.data.thinning import every
-from workbench.geometry.polylines import segments, sphere_rings
+from workbench.geometry.polylines import at_height, segments, sphere_rings
 from workbench.geometry.voxels import Grid, counted_surface
 from workbench.scene import Field, Mesh, Picture, Points, Primitive, Scene, Segments
 
-MOST_POINTS, MOST_BOXES, MOST_QUADS, MOST_EDGES = 8000, 260, 26_000, 12_000
+MOST_POINTS, MOST_BOXES, MOST_EDGES = 8000, 260, 12_000
 ASIDE = np.array([0.0, 1.1, 0.85])  # m: a slice that is out of the way is behind and above
 REACH = 0.5  # m: the end of the colour bar of distances
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
@@ -156,7 +156,7 @@ def _tree(now: Built | Searched) -> dict[str, Primitive]:
 
 def _three(p: np.ndarray) -> np.ndarray:
     """Return the first three coordinates; 0 where there is no third."""
-    return p[:, :3] if p.shape[1] > 2 else np.column_stack([p, np.zeros(len(p))])
+    return at_height(p[:, :3])
 
 
 def _boxes(tree: Tree, cells: np.ndarray) -> np.ndarray:

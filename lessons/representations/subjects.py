@@ -20,7 +20,7 @@ from workbench.geometry.containment import windings
 from workbench.geometry.measures import encloses, signed_volume, surface_area
 from workbench.geometry.meshes import face_normals
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.sampling import points_on_faces, unit_points
+from workbench.geometry.sampling import places_on_faces, points_on_faces, unit_points
 from workbench.geometry.signed_distances import face_tree, mesh_sdf, torus_sdf
 
 BoxSdf = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -118,8 +118,7 @@ def spread_numbers() -> np.ndarray:
 def _tilt(subject: Subject, p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> float:
     """Return the mean angle between face normals and the gradient of the true distance, degrees."""
     normals = face_normals(p, faces)
-    area = np.cumsum(np.linalg.norm(np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]]), axis=1))
-    k = np.minimum(np.searchsorted(area, u[:, 0] * area[-1], side="right"), len(faces) - 1)
+    k, _ = places_on_faces(p, faces, u)
     q = points_on_faces(p, faces, u)
     steps = [subject.distance(q + STEP * axis) - subject.distance(q - STEP * axis) for axis in np.eye(3)]
     gradient = np.stack(steps, axis=1)
