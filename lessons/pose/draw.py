@@ -10,6 +10,7 @@ from lessons.pose.words import caption
 from workbench.algorithms import ransac
 from workbench.algorithms.camera_search import Searched
 from workbench.geometry.cameras import camera_center, project
+from workbench.geometry.metrics import rms
 from workbench.geometry.motions import apply, inverse
 from workbench.geometry.polylines import between
 from workbench.lesson import View
@@ -130,7 +131,7 @@ def _pixels(state: State, photograph: Picture) -> dict[str, Primitive]:
     if not front.any():
         return scene
     errors = subject.pixel_errors(T)[front]
-    factor = ENLARGED if np.sqrt(np.square(errors).mean()) < SMALL else 1
+    factor = ENLARGED if rms(errors) < SMALL else 1
     start, end = subject.given.uv[front], uv[front]
     ends = between(*(_on(photograph, subject, at) for at in (start, start + factor * (end - start))))
     times = f", drawn {factor} times as long" if factor > 1 else ""
@@ -144,9 +145,9 @@ def _votes(now: object) -> Color:
     return "target" if fit is None else Classes.marking(~fit.inliers, "wrong", "outlier", others=("target", "inlier"))
 
 
-def _camera(subject: Subject, T: np.ndarray, color: Role, name: str = "", opacity: float = 1.0) -> Camera:
+def _camera(subject: Subject, T: np.ndarray, color: Role, name: str) -> Camera:
     depth = LOOKS[subject.kind].depth
-    return Camera(subject.K, 640, 480, subject.frame.shown_camera(T), depth, None, color, opacity, name)
+    return Camera(subject.K, 640, 480, subject.frame.shown_camera(T), depth, color=color, name=name)
 
 
 def _three(state: State, now: Searched) -> dict[str, Primitive]:
