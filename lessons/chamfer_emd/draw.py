@@ -31,7 +31,7 @@ def draw(state: State) -> Scene:
         "right/title": Label(right_label(state), P_TITLE, "source", T_WORLD_RIGHT),
         **_clouds(state),
         **_left_edges(state),
-        "right/pairs": _pairs(right, T_WORLD_RIGHT),
+        "right/pairs": Segments(_matched(right), "correspondence", 1.5, T_WORLD_RIGHT),
         **_owed(state),
         **{f"left/{path}": one for path, one in unrolled(state, left, T_WORLD_LEFT, nearest=True).items()},
         **{f"right/{path}": one for path, one in unrolled(state, right, T_WORLD_RIGHT, nearest=False).items()},
@@ -41,10 +41,6 @@ def draw(state: State) -> Scene:
         "yardsticks": _yardstick_table(state),
     }
     return scene
-
-
-def _pairs(side: Side, T_world_side: np.ndarray) -> Segments:
-    return Segments(_matched(side), "correspondence", 1.5, T_world_side)
 
 
 def _matched(side: Side) -> np.ndarray:

@@ -137,14 +137,13 @@ def last_choice(states: Sequence[State]) -> State:
     return states[LAST_CHOICE]
 
 
-def near_edges(state: State, reach: int = 10) -> tuple[float, float]:
-    """Return the share of the wrong pixels, and of all pixels, within `reach` px of a jump of the true disparity."""
+def near_edges(state: State) -> tuple[float, float]:
+    """Return the share of the wrong pixels, and of all pixels, within 10 px of a jump of the true disparity."""
     truth, visible = state.setup.pair.disparity, state.setup.pair.visible
     assert truth is not None
     assert visible is not None
-    size = (2 * reach + 1,) * 2
     jump = scipy.ndimage.maximum_filter(truth, 3) - scipy.ndimage.minimum_filter(truth, 3) > 2.0
-    near = scipy.ndimage.maximum_filter(jump, size)
+    near = scipy.ndimage.maximum_filter(jump, (21, 21))
     wrong = (np.abs(state.disparity - truth) > 1.0) & visible
     return float(near[wrong].mean()) if wrong.any() else 0.0, float(near[visible].mean())
 

@@ -28,7 +28,7 @@ def beside(state: State) -> dict[str, Primitive]:
         case Found():
             return _so_far(state, now.d, np.isfinite(now.d)) | _found(state, now)
         case Ball():
-            return _nearest(state, now)
+            return _nearest(now)
         case Trials():
             return _axioms(now)
         case Scatter():
@@ -94,7 +94,7 @@ def _goal(state: State, now: Found) -> dict[str, Primitive]:
     return {"to the goal": Table("From source to goal", ("way", "length"), tuple(rows))}
 
 
-def _nearest(state: State, now: Ball) -> dict[str, Primitive]:
+def _nearest(now: Ball) -> dict[str, Primitive]:
     if not now.nearest:
         return {"radius": Scalar(now.radius, "radius", "Radius of the ball")}
     rows = tuple((name, f"point {index}") for name, index in now.nearest.items())

@@ -34,7 +34,7 @@ def caption(state: State) -> Caption:
         case Ball():
             return Caption(_of_ball(state.params, now))
         case Trials():
-            return _of_trials(state.params, now)
+            return _of_trials(now)
         case Scatter():
             return _of_scatter(state.params, now)
         case Landmarks():
@@ -165,7 +165,7 @@ def _of_ball(params: Params, now: Ball) -> str:
     return f"{text} Of {len(now.changed)} other queries {percent(float(now.changed.mean()))} have another nearest."
 
 
-def _of_trials(params: Params, now: Trials) -> Caption:
+def _of_trials(now: Trials) -> Caption:
     ab, bc, ac = now.sides
     text = f"{now.tried:,} triples tried: {_broken(now)} the triangle inequality."
     if ac > ab + bc + 1e-9:

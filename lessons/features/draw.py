@@ -26,7 +26,7 @@ def draw(state: State) -> Scene:
     """Return the picture of one step."""
     match state.now:
         case Scanned() as now:
-            scene = _scanned(state, now)
+            scene = _scanned(now)
         case Pictured() as now:
             scene = pictured(now)
         case Outlined() as now:
@@ -35,7 +35,7 @@ def draw(state: State) -> Scene:
     return {"caption": caption(state)} | scene | share
 
 
-def _scanned(state: State, now: Scanned) -> dict[str, Primitive]:
+def _scanned(now: Scanned) -> dict[str, Primitive]:
     scans = now.scans
     T = _beside() if now.T_target_source is None else now.T_target_source
     radius = float(np.clip(0.24 / np.sqrt(len(scans.p_target)), 0.003, 0.009))

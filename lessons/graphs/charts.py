@@ -22,7 +22,7 @@ def beside(state: State) -> dict[str, Primitive]:
     now = state.now
     match now:
         case Grown():
-            return _grown(state, now)
+            return _grown(now)
         case Matrix():
             return {"matrix": _picture(now), "node table": _node_table(state, now)}
         case Mode():
@@ -42,7 +42,7 @@ def beside(state: State) -> dict[str, Primitive]:
             return _right(state) | {"loss": Scalar(now.loss, "loss of the two labels", "Loss", color="source")}
 
 
-def _grown(state: State, now: Grown) -> dict[str, Primitive]:
+def _grown(now: Grown) -> dict[str, Primitive]:
     d = degrees(now.adjacency.astype(bool).astype(float))
     counts = np.bincount(d.astype(int))
     scene: dict[str, Primitive] = {

@@ -5,23 +5,20 @@ eigenvector finds the bridge, though not always by its sign; steps of L smooth u
 of a graph network is one such step and a learned matrix, so that many layers make all nodes alike.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
 from lessons.graphs.draw import draw
 from lessons.graphs.experiments import PRESETS, QUESTIONS, VIEW
-from lessons.graphs.stages import STAGES, Functions
+from lessons.graphs.stages import STAGES, Functions, Neighbours, OfMatrix
 from lessons.graphs.state import Params, State
 from lessons.graphs.subjects import subject_of
 from workbench.algorithms.graph_network import GcnLayer
 from workbench.errors import InputError
 from workbench.geometry import graphs
 from workbench.lesson import Lesson, Sweep
-
-OfMatrix = Callable[[np.ndarray], np.ndarray]
-Neighbours = Callable[[np.ndarray, int], np.ndarray]
 
 
 def run(

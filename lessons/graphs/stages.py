@@ -23,13 +23,16 @@ MOST_DENSE = 2000  # nodes of which whole matrices are made: 32 MB each
 TAUBIN = 0.526  # the share of the way back: 1 / 0.5 - 1 / 0.526 = 0.099 is where smoothing begins
 HIDDEN, EVERY = 8, 10
 
+OfMatrix = Callable[[np.ndarray], np.ndarray]
+Neighbours = Callable[[np.ndarray, int], np.ndarray]
+
 
 @dataclass(frozen=True, kw_only=True)
 class Functions:
     """What students may write."""
 
-    laplacian: Callable[[np.ndarray], np.ndarray]
-    knn_adjacency: Callable[[np.ndarray, int], np.ndarray]
+    laplacian: OfMatrix
+    knn_adjacency: Neighbours
     gcn_layer: GcnLayer
 
 

@@ -45,7 +45,7 @@ def draw(state: State) -> Scene:
         case Classified(), Clouds():
             return scene | _clouds(params, now, about)
         case Reconstructed(), Looks():
-            return scene | _field(params, now, about)
+            return scene | _field(now, about)
     raise AssertionError
 
 
@@ -142,7 +142,7 @@ def _clouds(params: Params, now: Classified, about: Clouds) -> dict[str, Primiti
     return scene | {"by class": Table("Named rightly, by shape", ("shape", "as in training", "changed"), tuple(rows))}
 
 
-def _field(params: Params, now: Reconstructed, about: Looks) -> dict[str, Primitive]:
+def _field(now: Reconstructed, about: Looks) -> dict[str, Primitive]:
     field = now.field
     cover = (1 - np.exp(-field.density / 15))[:, :, None]
     image = (255 * (cover * field.color + 1 - cover)).astype(np.uint8).swapaxes(0, 1)[::-1]

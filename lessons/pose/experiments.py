@@ -5,14 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from lessons.pose.draw import ABOVE, VIEW
+from lessons.pose.draw import ABOVE
 from lessons.pose.state import Params, Repeated, State
 from lessons.pose.trials import TRIPLES
 from workbench.algorithms.ransac import iterations_needed
 from workbench.lesson import Preset, Question
 from workbench.numerals import angle, fixed, percent
-
-__all__ = ["PRESETS", "QUESTIONS", "VIEW"]
 
 FOUR = Params(target="triangle", camera=(0.1, 0.05, 2.0), noise=0.0, refine=False)
 MARKER = Params(target="marker", method="IPPE", noise=0.5)

@@ -42,7 +42,7 @@ def caption(state: State) -> Caption:
     if isinstance(now, Cells):
         return _cells(state, now) if surface is None else Caption(_came_back(state, surface))
     if isinstance(now, Level):
-        return _level(state, now)
+        return _level(now)
     if isinstance(now, Built):
         return _built(now)
     if isinstance(now, Searched):
@@ -137,7 +137,7 @@ def _came_back(state: State, surface: Surface) -> str:
     return f"Marching cubes, {len(surface.p):,} vertices {how}: {_errors(surface)}{_sizes(surface)}"
 
 
-def _level(state: State, now: Level) -> Caption:
+def _level(now: Level) -> Caption:
     cells, mixed = len(now.cells), int(now.mixed.sum())
     text = f"Level {now.depth}, edges of {length(float(now.grid.spacing[0]), 2)}: {mixed:,} of"
     text += f" {counted(cells, 'cell')} may be crossed by the surface, as far as their middle knows."
