@@ -61,7 +61,7 @@ def _draw_build(state: Built) -> Scene:
             segments(state.trail), "highlight", 2.5, name=f"vertex {body.point}, factor by factor"
         )
     if is_affine(T):
-        scene["front"] = _front(transform(T, body.p_door[None])[0], T)
+        scene["front"] = _arrow(transform(T, body.p_door[None])[0], T, "highlight", "front: a direction, w = 0")
     if state.params.compare == "direction with w = 1":
         wrong = transform(T, FRONT[None])[0]
         p_door = transform(T, body.p_door[None])[0]
@@ -172,13 +172,11 @@ def _ghost(i: int, ghost: Ghost, body: Body) -> dict[str, Primitive]:
     }
 
 
-def _front(p: np.ndarray, T: np.ndarray) -> Segments:
-    """Return the direction of the front as an arrow from a point."""
+def _arrow(p: np.ndarray, T: np.ndarray, color: Role, name: str) -> Segments:
     v = 0.5 * transform_directions(T, FRONT[None])[0]
     side = 0.08 * np.cross(v, [0.0, 0.0, 1.0] if abs(v[2]) < 0.4 else [1.0, 0.0, 0.0])
     tip = p + v
-    ends = np.array([[p, tip], [tip, tip - 0.2 * v + side], [tip, tip - 0.2 * v - side]])
-    return Segments(ends, "highlight", 3, name="front: a direction, w = 0")
+    return Segments(np.array([[p, tip], [tip, tip - 0.2 * v + side], [tip, tip - 0.2 * v - side]]), color, 3, name=name)
 
 
 def _turning_axes(state: Built) -> dict[str, Primitive]:
