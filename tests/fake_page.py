@@ -95,6 +95,7 @@ class FakePage:
             compression=None,
             ping_interval=None,
             open_timeout=60,
+            proxy=None,
             **options,
         )
 

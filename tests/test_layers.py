@@ -23,12 +23,14 @@ MATHS = BASE | {"workbench.geometry"}
 ALLOWED = {
     "workbench.axis": {"workbench.numerals"},
     "workbench.errors": set(),
+    "workbench.hosts": set(),
     "workbench.tracing": set(),
     "workbench.authors": {"workbench", "workbench.errors"},
     "workbench.questions": LESSON,
     "workbench.scene": {"workbench.scene", "workbench.numerals"},
     "workbench.knobs": {"workbench.errors"},
     "workbench.numerals": set(),
+    "workbench.certain": set(),
     "workbench.geometry": MATHS,
     "workbench.algorithms": MATHS | {"workbench.algorithms"},
     "workbench.data": MATHS | {"workbench.data", "workbench.numerals"},
@@ -48,7 +50,7 @@ ALLOWED = {
     "workbench.atomic": set(),
     "workbench.session": LESSON | {"workbench.session"},
     "workbench.recording": LESSON | {"workbench.recording", "workbench.session", "workbench.typeset", "workbench.links",
-                                     "workbench.images", "workbench.progress", "workbench.atomic"},
+                                     "workbench.images", "workbench.progress", "workbench.atomic", "workbench.hosts"},
     "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.progress", "workbench.atomic",
                            "workbench.workers", "workbench.threads", "workbench.numerals"},
     "workbench.handout": LESSON | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail",
@@ -66,7 +68,7 @@ ALLOWED = {
         "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.motion",
         "workbench.emphasis", "workbench.links",
         "workbench.picking", "workbench.typeset", "workbench.recording", "workbench.exercise",
-        "workbench.authoring.reloading",
+        "workbench.authoring.reloading", "workbench.hosts",
     },
     "workbench.authoring": LESSON | {"workbench.authoring", "workbench.exercise", "workbench.flags", "workbench.typeset"},
     "workbench.flags": LESSON | {"workbench.flags"},
@@ -75,7 +77,7 @@ ALLOWED = {
     "workbench.__main__": None,
     "workbench": None,
     "lessons": DRAWING | {"workbench.geometry", "workbench.algorithms", "workbench.data", "workbench.lesson", "lessons",
-                          "workbench.exercise", "workbench.numerals"},
+                          "workbench.exercise", "workbench.numerals", "workbench.certain"},
 }  # fmt: skip
 
 OUTSIDE = {"viser": ("workbench.viewer", "workbench.publish"), "rerun": ("workbench.recording",)}

@@ -2,7 +2,7 @@
 
 A sink sends what differs, so what it holds can be stale. Every pair goes through the live browser, through the player of
 an export and through a recording: all presets at the step at which they open; steps some way on
-are seen between them.
+are seen between them. Runs that only a question opens are seen between two presets.
 """
 
 import itertools
@@ -37,6 +37,17 @@ def scenes_of(name: str) -> tuple[list[Scene], list[Scene]]:
         opening.append(thinned(timeline[k].scene))
         later.append(thinned(timeline[min(k + MORE, len(timeline) - 1)].scene))
     return opening, later
+
+
+def asked_alone(name: str) -> list[Scene]:
+    """Return the scenes of questions whose run is no preset's, where they open."""
+    lesson = catalog()[name]
+    found = []
+    for question in lesson.questions:
+        if question.params != lesson.params() and lesson.preset_of(question.params) is None:
+            timeline = finished(name, question.params)
+            found.append(thinned(timeline[(-1 if question.step is None else question.step) % len(timeline)].scene))
+    return found
 
 
 def thinned(scene: Scene) -> Scene:
@@ -116,7 +127,10 @@ def test_a_preset_after_another_shows_what_it_shows_alone(server, monkeypatch, n
     opening, later = scenes_of(name)
     n = len(opening)
     walk_live(server, monkeypatch, opening, list(all_pairs(n)))
-    walk_live(server, monkeypatch, opening + later, [i for k in range(n) for i in (n + k, k, n + (k + 1) % n)])
+    asked = asked_alone(name)
+    onwards = [i for k in range(n) for i in (n + k, k, n + (k + 1) % n)]
+    there_and_back = [i for k in range(len(asked)) for i in (2 * k % n, 2 * n + k, (2 * k + 1) % n, 2 * n + k)]
+    walk_live(server, monkeypatch, opening + later + asked, onwards + there_and_back)
     in_space_only = [{path: thing for path, thing in scene.items() if in_space(thing)} for scene in opening]
     walk_recorded(in_space_only, list(all_pairs(n)))
     walk_recorded(opening, [*range(n), *reversed(range(n)), *range(0, n, 2), *range(1, n, 2)])  # charts take their time

@@ -254,6 +254,59 @@ def test_reset_and_presets_keep_own_files_and_how_to_read_them(name, files):
     assert session.params == lesson.params()  # without files nothing is kept, also not how to read them
 
 
+@pytest.mark.parametrize(("name", "files"), OWN_FILES, ids=[name for name, _ in OWN_FILES])
+@pytest.mark.parametrize("back", ["reset", "preset"])
+def test_a_run_of_the_lesson_s_own_data_puts_own_files_aside_and_reset_and_presets_bring_them_back(name, files, back):
+    lesson = catalog()[name]
+    session, mine = Session(lesson), dataclasses.replace(lesson.params(), **files)
+    session.open(lesson, mine)
+    for question in lesson.questions:
+        session.open(lesson, question.params, 0)
+        session.change(seed=7)
+        session.open(lesson, session.params, 1)  # a link to a step of the run that is open
+        assert session.params == dataclasses.replace(question.params, seed=7)
+        assert session.own == mine
+    preset = lesson.presets[-1]
+    session.reset() if back == "reset" else session.use_preset(preset.name)
+    assert session.params == dataclasses.replace(lesson.params() if back == "reset" else preset.params, **files)
+    assert session.own is session.params
+
+
+def test_files_that_are_put_aside_are_forgotten_one_by_one_or_come_back_with_another():
+    lesson = catalog()["icp"]
+    made = lesson.params()
+    mine = dataclasses.replace(made, target=Path("a.ply"), source=Path("b.ply"), unit="mm")
+    session = Session(lesson)
+    session.open(lesson, mine)
+    session.open(lesson, made)
+    session.change(target=Path("c.ply"), start_angle=40)
+    assert session.params == session.own == dataclasses.replace(mine, target=Path("c.ply"), start_angle=40)
+    session.open(lesson, made)
+    session.change(target=7)
+    assert session.message
+    assert session.own.target == Path("c.ply")  # what cannot be used changes nothing
+    session.change(target=None)
+    assert (session.params, session.own.target, session.own.source) == (made, None, Path("b.ply"))
+    session.change(source=None)
+    assert session.own is session.params
+    session.reset()
+    assert session.params == made
+
+
+def test_another_lesson_lets_own_files_go_and_another_version_keeps_what_is_put_aside():
+    icp, other = catalog()["icp"], catalog()["curvature"]
+    mine = dataclasses.replace(icp.params(), target=Path("a.ply"), source=Path("b.ply"))
+    session = Session(icp)
+    session.open(icp, mine)
+    session.open(icp, icp.params())
+    session.go_on(dataclasses.replace(icp), session.params, session.own)
+    assert session.own == mine
+    session.open(other)
+    session.open(icp)
+    session.reset()
+    assert session.params == session.own == icp.params()
+
+
 def test_params_that_name_files_themselves_keep_theirs():
     params = catalog()["icp"].params
     theirs = params(target=Path("theirs.ply"), source=Path("too.ply"))

@@ -1,12 +1,17 @@
 """The error and the warning whose messages are written for the person at the keyboard."""
 
 
-def one_line(text: str) -> str:
-    """Return text on one line of signs that can be seen: what a terminal would obey is written out (`\\x1b`).
+def written_out(text: str) -> str:
+    """Return text with its lines and tabs, and what else a terminal would obey written out (`\\x1b`).
 
     A message often quotes a name out of a file, and that file may be anybody's.
     """
-    return "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in " ".join(text.split()))
+    return "".join(sign if sign.isprintable() or sign in "\n\t" else repr(sign)[1:-1] for sign in text)
+
+
+def one_line(text: str) -> str:
+    """Return text on one line of signs that can be seen: what a terminal would obey is written out (`\\x1b`)."""
+    return written_out(" ".join(text.split()))
 
 
 class InputError(ValueError):

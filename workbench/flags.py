@@ -166,7 +166,18 @@ class _Help(argparse.RawDescriptionHelpFormatter):
 
 def command_line(*words: object) -> str:
     """Return a command of the workbench as a person can type it, quoted for a shell."""
-    return shlex.join(["workbench", *map(str, words)])
+    return " ".join(["workbench", *(_quoted(str(word)) for word in words)])
+
+
+def _quoted(word: str) -> str:
+    if word.isprintable():
+        return shlex.quote(word)
+    signs = {"\\": "\\\\", "'": "\\'"}
+    escaped = (
+        signs.get(sign, sign) if sign.isprintable() else "".join(f"\\x{byte:02x}" for byte in os.fsencode(sign))
+        for sign in word
+    )
+    return f"$'{''.join(escaped)}'"  # a terminal that shows it obeys none of its signs
 
 
 def show_command(lesson: Lesson, params: Any) -> str:

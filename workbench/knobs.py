@@ -256,16 +256,24 @@ def only(params: P, *names: str) -> P:
     return dataclasses.replace(type(params)(), **{name: getattr(params, name) for name in names})  # type: ignore[type-var]
 
 
+def paths_of(params: type) -> list[str]:
+    """Return the names of the fields that take a person's own files."""
+    return [field.name for field in fields_of(params) if field.kind == "path"]
+
+
+def names_files(params: Any) -> bool:
+    """Tell whether params name a person's own files."""
+    return any(getattr(params, name) for name in paths_of(type(params)))
+
+
 def with_own_files(params: P, mine: P) -> P:
     """Return the params with a person's own files in them, and with what says how to read these (`Knob.of_files`).
 
     A preset or a reset keeps them so. Params that name files themselves stay as they are.
     """
-    fields = fields_of(type(params))
-    paths = [field.name for field in fields if field.kind == "path"]
-    if any(getattr(params, name) for name in paths) or not any(getattr(mine, name) for name in paths):
+    if names_files(params) or not names_files(mine):
         return params
-    kept = paths + [field.name for field in fields if field.knob.of_files]
+    kept = paths_of(type(params)) + [field.name for field in fields_of(type(params)) if field.knob.of_files]
     return dataclasses.replace(params, **{name: getattr(mine, name) for name in kept})  # type: ignore[type-var]
 
 

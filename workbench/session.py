@@ -22,6 +22,7 @@ class Look:
 
     Args:
         lesson, params: The lesson and the params that are wanted (the picture may still be of the run before).
+        own: The params that name the person's own files, where they have any; those of `params`, or put aside.
         k, known: The step that is shown, and how many steps there are so far.
         finished: Whether all steps are known.
         scene: The step's scene, the pinned run's ghost included.
@@ -32,6 +33,7 @@ class Look:
 
     lesson: Lesson
     params: Any
+    own: Any
     timeline: Timeline
     k: int
     known: int
@@ -68,6 +70,7 @@ class Session:
         self._pinned: tuple[Timeline, int] | None = None
         self._shown: Timeline | None = None  # the run whose picture stays until the wanted one has a first step
         self._last_k = 0
+        self._aside: Any = None  # params with the person's own files, while a run without them is open
         self.params = lesson.params()
         self.timeline = self._run(self.params)
         self._start(f"lesson {lesson.name}", lesson.first_step)
@@ -77,11 +80,17 @@ class Session:
     def open(self, lesson: Lesson, params: Any = None, step: int | None = None) -> None:
         """Go to a lesson, at these params and this step (negative counts from the end).
 
+        In the same lesson, params that name no files put a person's own ones aside: the next preset or reset has them.
+
         Raises:
             InputError: If the params are not the lesson's; nothing has changed then.
         """
         params = lesson.validated(params if params is not None else lesson.params())
         other = lesson is not self.lesson
+        if other or knobs.names_files(params):
+            self._aside = None
+        elif knobs.names_files(self.params):
+            self._aside = self.params
         self.lesson, self.message = lesson, None
         if other:
             self._pinned, self._shown, self.slots = None, None, {}
@@ -91,8 +100,13 @@ class Session:
         else:
             self._want(lesson.first_step if step is None else step)
 
-    def go_on(self, lesson: Lesson, params: Any) -> None:
+    def go_on(self, lesson: Lesson, params: Any, own: Any = None) -> None:
         """Go on in another version of the lesson, at the step that is wanted; what is pinned stays.
+
+        Args:
+            lesson: That version.
+            params: What is wanted of it.
+            own: What the attribute `own` is in it; None where nothing is put aside.
 
         Raises:
             InputError: If the params are not the lesson's; nothing has changed then.
@@ -100,12 +114,21 @@ class Session:
         pinned, wanted = self._pinned, self._wanted
         self.open(lesson, params)
         self._pinned = pinned
+        self._aside = self._still_aside(own)
         self._want(wanted)
 
     def change(self, /, **values: Any) -> None:
-        """Set params; numbers out of range go to the nearer end. What cannot be used becomes the caption, no more."""
+        """Set params; numbers out of range go to the nearer end. What cannot be used becomes the caption, no more.
+
+        Own files that are put aside come back with another one, and one that is set to None is forgotten.
+        """
+        base, aside = self.params, self._aside
         try:
-            params = knobs.make(self.lesson.params, values, base=self.params, clamp=True)
+            if aside is not None:
+                files = {name: value for name, value in values.items() if name in knobs.paths_of(self.lesson.params)}
+                aside = knobs.make(self.lesson.params, files, base=aside)
+                base = knobs.with_own_files(base, aside) if any(files.values()) else base
+            params = knobs.make(self.lesson.params, values, base=base, clamp=True)
         except InputError as error:
             self.message = str(error)
             return
@@ -114,16 +137,17 @@ class Session:
             at_end = self.timeline.finished and self._wanted >= len(self.timeline) - 1 and len(self.timeline) > 0
             self._go(params)
             self._want(-1 if at_end else self._wanted)
+        self._aside = self._still_aside(aside)
 
     def reset(self) -> None:
-        """Go back to the default run, nothing pinned; own files stay open."""
+        """Go back to the default run, nothing pinned; own files stay open, and those put aside come back."""
         self._pinned = None
-        self.open(self.lesson, knobs.with_own_files(self.lesson.params(), self.params))
+        self.open(self.lesson, knobs.with_own_files(self.lesson.params(), self.own))
 
     def use_preset(self, name: str) -> None:
-        """Open a preset of the lesson; own files stay open."""
+        """Open a preset of the lesson; own files stay open, and those put aside come back."""
         preset = self.lesson.preset(name)
-        self.open(self.lesson, knobs.with_own_files(preset.params, self.params))
+        self.open(self.lesson, knobs.with_own_files(preset.params, self.own))
         step = self.lesson.first_step if preset.step is None else preset.step
         self._start(f"lesson {self.lesson.name}, preset {name!r}", step)
 
@@ -134,6 +158,11 @@ class Session:
     def unpin(self) -> None:
         """Let the pinned run go."""
         self._pinned = None
+
+    @property
+    def own(self) -> Any:
+        """The params that name the person's own files, if they have any: what is wanted, or what is put aside."""
+        return self.params if self._aside is None else self._aside
 
     @property
     def pinned(self) -> bool:
@@ -223,6 +252,7 @@ class Session:
         return Look(
             lesson=self.lesson,
             params=self.params,
+            own=self.own,
             timeline=timeline,
             k=k,
             known=len(timeline),
@@ -232,6 +262,10 @@ class Session:
             pinned_series=pinned_series,
             pinned=self.pinned,
         )
+
+    def _still_aside(self, own: Any) -> Any:
+        """Return params as what is put aside: None where what is wanted names files, or they name none themselves."""
+        return None if own is None or knobs.names_files(self.params) or not knobs.names_files(own) else own
 
     def _go(self, params: Any) -> None:
         self.params, self.timeline = params, self._run(params)
@@ -264,6 +298,7 @@ class Session:
         return Look(
             lesson=self.lesson,
             params=self.params,
+            own=self.own,
             timeline=self.timeline,
             k=0,
             known=0,

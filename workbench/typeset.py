@@ -24,7 +24,8 @@ from workbench.errors import AuthorError
 
 PICTURES = {".svg": "svg+xml", ".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".webp": "webp"}
 LARGEST_PICTURE = 300_000  # bytes
-_WORDING = re.compile(r"\{\{(live|site):\s*(.*?)\}\}", re.DOTALL)
+WORDING = re.compile(r"\{\{(live|site):\s*(.*?)\}\}", re.DOTALL)
+"""What stands in one home only: the home, and its words."""
 
 
 def wording(markdown: str, home: str) -> str:
@@ -32,7 +33,7 @@ def wording(markdown: str, home: str) -> str:
 
     `site` is every home that cannot compute: a published page, a notebook, a recording.
     """
-    return _WORDING.sub(lambda found: found[2] if found[1] == home else "", markdown)
+    return WORDING.sub(lambda found: found[2] if found[1] == home else "", markdown)
 
 
 def page_of(markdown: str, file: Path | None) -> str:

@@ -9,6 +9,7 @@ import scipy
 from lessons.alignment.scans import box_sides, scans_of, second_scan
 from lessons.alignment.state import AxesState, Outcome, Params, Scans, Turns
 from workbench.algorithms.jacobi import jacobi
+from workbench.certain import sure
 from workbench.data.thinning import every
 from workbench.geometry.alignment import degrees_between, nearest_rotation
 from workbench.geometry.metrics import rms
@@ -90,9 +91,7 @@ def signed(state: AxesState, sign: Sign) -> AxesState:
 
 def signed_axes(state: AxesState) -> tuple[np.ndarray, np.ndarray]:
     """Return both frames of a state that has them."""
-    assert state.axes is not None
-    assert state.axes_target is not None
-    return state.axes, state.axes_target
+    return sure(state.axes), sure(state.axes_target)
 
 
 def outcome_of(state: AxesState) -> Outcome:

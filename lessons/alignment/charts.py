@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.alignment.state import AxesState, PairsState
+from workbench.certain import sure
 from workbench.geometry.principal_axes import degrees_between_axes
 from workbench.numerals import angle, fixed, length
 from workbench.scene import Chart, Curve, Primitive, Table
@@ -10,15 +11,11 @@ from workbench.scene import Chart, Curve, Primitive, Table
 CM2 = 1e4  # square centimetres in a square metre
 ROUNDING = 1e-16  # below this share nothing is left off the diagonal
 BINS = np.arange(0.0, 181.0, 10.0)
-
-OFF = Chart("Off the diagonal", unit="of the whole")
-TO_AXES = Chart("Frame to the axes", unit="deg")
+OFF, TO_AXES = Chart("Off the diagonal", unit="of the whole"), Chart("Frame to the axes", unit="deg")
+OF_AXES, OF_H = Chart("Variance of each axis", "axis", "cm²"), Chart("Singular values of H", "direction", "cm²")
 BY_DIRECTION = Chart("Variance by direction", "angle in the plane (deg)", "cm²")
-VARIANCES = Chart("Variance of each axis", "axis", "cm²")
-TURNS = Chart("Where many turns end", "rotation error (deg)", "turns")
-RMSE = Chart("RMSE", unit="m")
-ROTATION_ERROR = Chart("Rotation error", unit="deg")
-SINGULAR = Chart("Singular values of H", "direction", "cm²")
+ENDS = Chart("Where many turns end", "rotation error (deg)", "turns")
+RMSE, TURN = Chart("RMSE", unit="m"), Chart("Rotation error", unit="deg")
 
 
 def beside_axes(state: AxesState) -> dict[str, Primitive]:
@@ -38,13 +35,13 @@ def beside_axes(state: AxesState) -> dict[str, Primitive]:
         if state.before is not None and now.plane is not None:
             scene["variance"] = _variance(state.before, now.plane, now.angle)
     if state.variances is not None and state.moment in ("order", "signs"):
-        scene["variances"] = VARIANCES.bars(np.arange(1.0, 4.0), CM2 * state.variances, "along the axes")
+        scene["variances"] = OF_AXES.bars(np.arange(1.0, 4.0), CM2 * state.variances, "along the axes")
     if state.moments is not None and state.variances is not None and state.moment == "signs":
         scene["moments"] = _moments(state.moments, state.variances)
     if state.outcome is not None and state.moment in ("pose", "turns"):
         scene["outcome"] = _outcome(state)
     if state.turns is not None:
-        scene["turns"] = TURNS.histogram(state.turns.degrees, BINS, "turns", "truth")
+        scene["turns"] = ENDS.histogram(state.turns.degrees, BINS, "turns", "truth")
     return scene
 
 
@@ -79,8 +76,7 @@ def _moments(moments: np.ndarray, variances: np.ndarray) -> Table:
 
 
 def _outcome(state: AxesState) -> Table:
-    outcome = state.outcome
-    assert outcome is not None
+    outcome = sure(state.outcome)
     rows = [("to the nearest points (RMS)", length(outcome.gap))]
     if np.isfinite(outcome.rotation):
         rows.append(("rotation, to the truth", angle(outcome.rotation)))
@@ -95,13 +91,13 @@ def beside_pairs(state: PairsState) -> dict[str, Primitive]:
     begun = now.stage != "pairs"
     scene: dict[str, Primitive] = {
         "rmse": RMSE.scalar(now.rmse if begun else np.nan, "RMSE of the pairs"),
-        "rotation error": ROTATION_ERROR.scalar(outcome.rotation if begun else np.nan, "rotation error", "truth"),
+        "rotation error": TURN.scalar(outcome.rotation if begun else np.nan, "rotation error", "truth"),
     }
     if now.H is not None and now.stage == "cross":
         scene["cross"] = _matrix("Cross-covariance H (cm²)", now.H)
     if now.D is not None:
         signs = np.ones(3) if now.S is None else now.S
-        scene["singular"] = SINGULAR.bars(np.arange(1.0, 4.0), CM2 * now.D * signs, "with the sign it got")
+        scene["singular"] = OF_H.bars(np.arange(1.0, 4.0), CM2 * now.D * signs, "with the sign it got")
     if now.scale is not None:
         scene["scales"] = _scales(state, now.scale)
     return scene

@@ -7,6 +7,9 @@ from lessons.alignment.charts import beside_axes, beside_pairs
 from lessons.alignment.state import AxesState, Outcome, PairsState, Scans, State
 from lessons.alignment.words import caption
 from workbench.data.surfaces import sphere
+from workbench.data.thinning import every
+from workbench.geometry.motions import apply
+from workbench.geometry.polylines import between
 from workbench.geometry.principal_axes import largest_entry_signs
 from workbench.numerals import angle, brief
 from workbench.scene import Classes, Label, Mesh, Points, Primitive, Role, Scene, Segments
@@ -30,9 +33,8 @@ def draw(state: State) -> Scene:
 
 
 def _axes_stage(state: AxesState) -> dict[str, Primitive]:
-    scans, outcome = state.scans, state.outcome
-    together = state.moment in ("pose", "turns") and outcome is not None
-    T_world_source = scans.T_world_target @ outcome.T_target_source if together and outcome else np.eye(4)
+    scans, outcome = state.scans, state.outcome if state.moment in ("pose", "turns") else None
+    T_world_source = np.eye(4) if outcome is None else scans.T_world_target @ outcome.T_target_source
     scene = _scans(scans, T_world_source)
     if state.moment == "cloud":
         return scene
@@ -42,7 +44,7 @@ def _axes_stage(state: AxesState) -> dict[str, Primitive]:
     if state.jacobi is None:
         return scene
     covariance = state.jacobi.V @ state.jacobi.A @ state.jacobi.V.T
-    if not together:
+    if outcome is None:
         scene["ellipsoid"] = Mesh(
             _ellipsoid(state.p_centre, covariance), BALL.faces, "highlight", opacity=0.2, name="2 standard deviations"
         )
@@ -54,12 +56,12 @@ def _axes_stage(state: AxesState) -> dict[str, Primitive]:
     if state.moment == "order":
         return scene | _lines("frame", state.p_centre, largest_entry_signs(axes) * reach, "axis {}", "123")
     scene |= _arrows("frame", state.p_centre, axes * reach, T_world_source)
-    if not together:  # then it lies on the other
+    if outcome is None:  # else it lies on the other
         scene |= _arrows("target frame", p_target, axes_target * reach, scans.T_world_target, 0.6)
     if np.isfinite(state.box):
         name = f"box along the axes, {brief(state.box)} × the shape's own"
         scene["box"] = Segments(_box(scans.p_source, axes), "highlight", 2, T_world_source, name=name)
-    if together and outcome is not None:
+    if outcome is not None:
         scene |= _missed(scans, outcome, T_world_source)
     if state.turns is not None:
         home = np.repeat(~state.turns.home, 2).astype(np.uint8)
@@ -74,8 +76,8 @@ def _pairs_stage(state: PairsState) -> dict[str, Primitive]:
     T_world_source = np.eye(4) if now.stage == "pairs" else scans.T_world_target @ now.T_target_source
     mirrored = np.linalg.det(now.T_target_source[:3, :3]) < 0
     scene = _scans(scans, T_world_source, "wrong" if mirrored else "source", " as a mirror image" if mirrored else "")
-    rows = np.arange(0, len(scans.p_source), -(-len(scans.p_source) // MOST_PAIRS))
-    ends = np.stack([_moved(T, p[rows]) for T, p in _both(scans, T_world_source)], axis=1)
+    rows = every(len(scans.p_source), MOST_PAIRS)
+    ends = between(*(apply(T, p[rows]) for T, p in _both(scans, T_world_source)))
     scene["pairs"] = Segments(ends, "correspondence", 1.5, name="some of the pairs")
     if now.U is not None and now.V is not None and now.D is not None:
         reach = BEYOND * SIGMAS * np.sqrt(np.maximum(now.D, 1e-4))
@@ -90,10 +92,6 @@ def _pairs_stage(state: PairsState) -> dict[str, Primitive]:
 
 def _both(scans: Scans, T_world_source: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
     return (T_world_source, scans.p_source), (scans.T_world_target, scans.p_target)
-
-
-def _moved(T: np.ndarray, p: np.ndarray) -> np.ndarray:
-    return p @ T[:3, :3].T + T[:3, 3]
 
 
 def _scans(scans: Scans, T_world_source: np.ndarray, role: Role = "source", what: str = "") -> dict[str, Primitive]:
@@ -113,15 +111,15 @@ def _missed(scans: Scans, outcome: Outcome, T_world_source: np.ndarray) -> dict[
     T = scans.T_target_source
     if T is None or not np.isfinite(outcome.rotation):
         return {}
-    p = scans.p_source[:: -(-len(scans.p_source) // MOST_MISSES)]
-    true = _moved(scans.T_world_target @ T, p)
-    high = max(float(_moved(T_here, q)[:, 2].max()) for T_here, q in _both(scans, T_world_source))
+    p = scans.p_source[every(len(scans.p_source), MOST_MISSES)]
+    true = apply(scans.T_world_target @ T, p)
+    high = max(float(apply(T_here, q)[:, 2].max()) for T_here, q in _both(scans, T_world_source))
     top = np.array([scans.T_world_target[0, 3], 0.0, high + 0.3])
     scene: dict[str, Primitive] = {
         "off": Label(f"{angle(outcome.rotation)} from the truth", top, "truth" if outcome.home else "wrong")
     }
     if not outcome.home:
-        ends = np.stack([_moved(T_world_source, p), true], axis=1)
+        ends = between(apply(T_world_source, p), true)
         scene["missed"] = Segments(ends, "wrong", 1.5, opacity=0.8, name="to where points belong")
     return scene
 
@@ -136,7 +134,7 @@ def _lines(
     opacity: float = 1.0,
 ) -> dict[str, Primitive]:
     """Return three lines through a point, along the columns of a matrix and as long to either side."""
-    ends = np.stack([p - axes.T, p + axes.T], axis=1)
+    ends = between(p - axes.T, p + axes.T)
     return {
         f"{path}/{k + 1}": Segments(ends[[k]], COLORS[k], 4, T, opacity, name=name.format(letters[k]) if name else "")
         for k in range(3)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.alignment.state import AxesState, PairsState, Params, State, Turns
+from workbench.certain import as_a, sure
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import counted, fixed, length, percent
 
@@ -79,7 +80,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "stray", "One stray point",
-        "One point of 1,501 lies 2 m away: drag it. The axes hardly move, but the signs are made of cubes.",
+        "One point of 1,501 lies 2 m away. The axes hardly move, but the signs are made of cubes.",
         Params(stray=(0.0, 2.0, 0.0)), POSE, breaks=True,
     ),
     Preset(
@@ -110,8 +111,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "flat", "A plate with noise",
-        "Nothing is mirrored here, but nothing but noise tells a plate from its mirror image: see the determinant, and"
-        " other seeds.",
+        "Nothing is mirrored here, but nothing but noise tells a plate from its mirror image: see the determinant, a"
+        " matter of chance.",
         Params(stage="pairs", shape="plate", points=200, noise=0.02), 4, ABOVE, breaks=True,
     ),
     Preset(
@@ -130,29 +131,22 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 def of_axes(states: Sequence[State]) -> AxesState:
     """Return the last step of a run by axes."""
-    last = states[-1]
-    assert isinstance(last, AxesState)
-    return last
+    return as_a(AxesState, states[-1])
 
 
 def of_pairs(states: Sequence[State]) -> PairsState:
     """Return the last step of a run by pairs."""
-    last = states[-1]
-    assert isinstance(last, PairsState)
-    return last
+    return as_a(PairsState, states[-1])
 
 
 def turns_of(states: Sequence[State]) -> Turns:
     """Return what became of the many turns."""
-    turns = of_axes(states).turns
-    assert turns is not None
-    return turns
+    return sure(of_axes(states).turns)
 
 
 def after_flip(states: Sequence[State]) -> float:
     """Return the RMSE once a direction is turned round, before any scale."""
-    state = states[FLIP]
-    assert isinstance(state, PairsState)
+    state = as_a(PairsState, states[FLIP])
     return state.now.rmse
 
 

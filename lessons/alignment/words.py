@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.alignment.state import HOME_DEGREES, AxesState, PairsState, Params, State
+from workbench.certain import sure
 from workbench.geometry.motions import rotation_angle
 from workbench.numerals import angle, brief, fixed, length, percent
 from workbench.scene import Caption
@@ -78,11 +79,8 @@ def _of_centroid(state: AxesState) -> str:
 
 
 def _of_rotation(state: AxesState) -> str:
-    now, before = state.jacobi, state.before
-    assert now is not None
-    assert before is not None
-    assert now.plane is not None
-    i, j = ("xyz"[k] for k in now.plane)
+    now, before = sure(state.jacobi), sure(state.before)
+    i, j = ("xyz"[k] for k in sure(now.plane))
     was = np.linalg.norm(before - np.diag(np.diag(before))) / np.linalg.norm(before)
     return (
         f"Rotation {state.rotations}: the frame turns by {angle(abs(np.degrees(now.angle)))} in its {i}-{j} plane, to where"
@@ -99,15 +97,12 @@ def part(share: float) -> str:
 
 
 def _skewness(state: AxesState) -> str:
-    assert state.moments is not None
-    assert state.variances is not None
-    over = state.moments / np.maximum(state.variances, 1e-12) ** 1.5
+    over = sure(state.moments) / np.maximum(sure(state.variances), 1e-12) ** 1.5
     return f"The moments were {fixed(float(over[0]), 2)} and {fixed(float(over[1]), 2)} (over σ³)."
 
 
 def _of_pose(state: AxesState) -> Caption:
-    outcome = state.outcome
-    assert outcome is not None
+    outcome = sure(state.outcome)
     near = f"its points lie {length(outcome.gap)} (RMS) from the nearest of the first"
     box = f" The box along its axes holds {brief(state.box)} times the shape's own." if np.isfinite(state.box) else ""
     if not np.isfinite(outcome.rotation):
@@ -121,8 +116,7 @@ def _of_pose(state: AxesState) -> Caption:
 
 
 def _of_turns(state: AxesState) -> Caption:
-    turns = state.turns
-    assert turns is not None
+    turns = sure(state.turns)
     scan = "a new scan each time" if state.params.fresh else "the same scan"
     return Caption(
         f"{len(turns.degrees)} random turns, {scan}, the same recipe: {percent(float(turns.home.mean()), 0)} come home,"
@@ -146,17 +140,15 @@ def _of_pairs(state: PairsState) -> Caption:
                 " a scale."
             )
         case "cross":
-            assert now.D is not None
-            a, b, c = (brief(1e4 * value) for value in now.D)
+            a, b, c = (brief(1e4 * value) for value in sure(now.D))
             return Caption(
                 f"The cross-covariance H = U D Vᵀ of the pairs has the singular values {a}, {b} and {c} cm²: three"
                 " directions in the one scan, three in the other."
             )
         case "in":
-            assert now.V is not None
+            turn = angle(np.degrees(rotation_angle(sure(now.V).T)))
             return Caption(
-                f"Vᵀ turns the second scan by {angle(np.degrees(rotation_angle(now.V.T)))}: its three directions lie along"
-                f" x, y and z now. {fall}."
+                f"Vᵀ turns the second scan by {turn}: its three directions lie along x, y and z now. {fall}."
             )
         case "out":
             if now.mirror:
@@ -176,8 +168,7 @@ def _of_flip(state: PairsState, fall: str) -> str:
 
 def _of_scale(state: PairsState) -> Caption:
     now = state.now
-    assert now.scale is not None
-    text = f"Scale {fixed(now.scale, 3)} by least squares"
+    text = f"Scale {fixed(sure(now.scale), 3)} by least squares"
     if state.mirrored:
         return Caption(f"{text}: RMSE {length(now.rmse)}. No turn and no scale makes a scan of its mirror image.")
     if not np.isfinite(state.outcome.rotation):

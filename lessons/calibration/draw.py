@@ -10,8 +10,8 @@ from lessons.calibration.views import photograph
 from lessons.calibration.words import caption, title
 from workbench.data.boards import board_mesh, board_points
 from workbench.geometry.cameras import look_at
-from workbench.geometry.motions import apply, inverse
-from workbench.geometry.polylines import between, segments
+from workbench.geometry.motions import apply, inverse, motion
+from workbench.geometry.polylines import at_height, between, rectangle, segments
 from workbench.lesson import View
 from workbench.scene import Camera, Color, Field, Label, Mesh, Picture, Points, Primitive, Scene, Segments
 
@@ -66,9 +66,7 @@ def _scale(subject: Subject) -> float:
 
 
 def _placed(T_camera_board: np.ndarray, scale: float) -> np.ndarray:
-    T = T_camera_board.copy()
-    T[:3, 3] *= scale
-    return T_WORLD_CAMERA @ T
+    return T_WORLD_CAMERA @ motion(T_camera_board[:3, :3], scale * T_camera_board[:3, 3])
 
 
 def _outline(subject: Subject) -> np.ndarray:
@@ -81,8 +79,7 @@ def _rim(p_board: bytes, scale: float) -> np.ndarray:
     p = scale * np.frombuffer(p_board).reshape(-1, 3)
     low, high = p[:, :2].min(axis=0), p[:, :2].max(axis=0)
     edge = (high - low).max() / 8
-    (x0, y0), (x1, y1) = low - edge, high + edge
-    return segments(np.array([[x0, y0, 0], [x1, y0, 0], [x1, y1, 0], [x0, y1, 0]]), closed=True)
+    return segments(at_height(rectangle(low - edge, high + edge)), closed=True)
 
 
 @functools.cache

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.calibration.state import Params, State
+from workbench.certain import sure
 from workbench.lesson import Preset, Question
 from workbench.numerals import fixed, percent, pixels
 
@@ -68,16 +69,13 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 def f_error(states: Sequence[State]) -> float:
     """Return how far f is off at the end, px."""
-    now, truth = states[-1].now.K, states[-1].subject.K
-    assert now is not None
-    assert truth is not None
+    now, truth = sure(states[-1].now.K), sure(states[-1].subject.K)
     return float(now[0, 0] - truth[0, 0])
 
 
 def f_deviation(states: Sequence[State]) -> float:
     """Return the ± of f at the end, px."""
-    now = states[-1].now.adjustment
-    assert now is not None
+    now = sure(states[-1].now.adjustment)
     return float(now.deviations[0])
 
 

@@ -17,6 +17,7 @@ from lessons.calibration.state import COEFFICIENTS, Ending, Params, State
 from lessons.calibration.views import deviations, map_error, over_tilt, subject_of
 from workbench.algorithms.board_adjustment import adjust
 from workbench.algorithms.calibration import Pose, Rows, calibrate
+from workbench.certain import sure
 from workbench.errors import InputError
 from workbench.geometry import calibration
 from workbench.lesson import Lesson, Sweep
@@ -67,8 +68,7 @@ def run(
 
 def endings(state: State, corner: float | None) -> Iterator[State]:
     """Yield how well each view fits, what changes without the worst one, and how well all is known."""
-    subject, found, worst = state.subject, state.now.adjustment, int(np.argmax(state.per_view))
-    assert found is not None
+    subject, found, worst = state.subject, sure(state.now.adjustment), int(np.argmax(state.per_view))
     views = Ending(kind="views", worst=worst)
     yield replace(state, shown=worst, ending=views)
     if len(subject.views) > 2:

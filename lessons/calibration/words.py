@@ -6,6 +6,7 @@ import numpy as np
 
 from lessons.calibration.state import Ending, State, Subject
 from workbench.algorithms.board_adjustment import Stop
+from workbench.certain import sure
 from workbench.errors import one_line
 from workbench.numerals import brief, counted, fixed, percent, pixels
 from workbench.scene import Caption
@@ -43,17 +44,14 @@ def title(subject: Subject, view: int) -> str:
 
 def is_right(state: State) -> bool:
     """Tell whether the camera is right: f to 1 %, and every ray of the picture to 10 px."""
-    assert state.subject.K is not None
-    assert state.now.K is not None
-    f_true = state.subject.K[0, 0]
-    return bool(abs(state.now.K[0, 0] - f_true) <= SHARE * f_true and state.worst_in_picture <= NEAR)
+    f, f_true = sure(state.now.K)[0, 0], sure(state.subject.K)[0, 0]
+    return bool(abs(f - f_true) <= SHARE * f_true and state.worst_in_picture <= NEAR)
 
 
 def f_of(state: State) -> str:
     """Return the focal length in words, beside the true one where it is known."""
-    assert state.now.K is not None
     truth = "" if state.subject.K is None else f", in truth {fixed(state.subject.K[0, 0], 0)} px"
-    return f"f = {fixed(state.now.K[0, 0], 1)} px{truth}"
+    return f"f = {fixed(sure(state.now.K)[0, 0], 1)} px{truth}"
 
 
 def _homography(state: State) -> Caption:
@@ -125,8 +123,7 @@ def _lens(state: State) -> Caption:
 
 
 def _refine(state: State) -> Caption:
-    now = state.now.adjustment
-    assert now is not None
+    now = sure(state.now.adjustment)
     unknowns = int(now.free.sum()) + 6 * len(now.Ts_camera_board)
     if not now.accepted:
         text = f"Iteration {now.iteration}: the step would raise the cost and is not taken; the damping grows tenfold."
@@ -151,9 +148,7 @@ def _views(state: State, ending: Ending) -> Caption:
 
 
 def _without(state: State, ending: Ending) -> Caption:
-    found, now = state.now.adjustment, ending.without
-    assert found is not None
-    assert now is not None
+    found, now = sure(state.now.adjustment), sure(ending.without)
     sd = found.deviations[0]
     moved = float(now.K[0, 0] - found.K[0, 0])
     by = f"{brief(abs(moved) / sd, 2)} times its ±" if np.isfinite(sd) and sd > 0 else "with no ± to compare"
@@ -164,8 +159,7 @@ def _without(state: State, ending: Ending) -> Caption:
 
 
 def _known(state: State, ending: Ending) -> Caption:
-    now = state.now.adjustment
-    assert now is not None
+    now = sure(state.now.adjustment)
     sd = now.deviations[0]
     known = np.isfinite(sd)
     pm = f" ± {fixed(sd, 1)}" if known else ""

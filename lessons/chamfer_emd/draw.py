@@ -25,7 +25,7 @@ SERVED = Chart("Nearest of how many target points", f"target points, {MOST_SERVE
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
     left, right = state.left, state.right
-    scene: dict[str, Primitive] = {
+    return {
         "caption": caption(state),
         "left/title": Label(left_label(state), P_TITLE, "source", T_WORLD_LEFT),
         "right/title": Label(right_label(state), P_TITLE, "source", T_WORLD_RIGHT),
@@ -40,7 +40,6 @@ def draw(state: State) -> Scene:
         "numbers": _numbers_table(state),
         "yardsticks": _yardstick_table(state),
     }
-    return scene
 
 
 def _matched(side: Side) -> np.ndarray:
@@ -136,9 +135,9 @@ def _curves(state: State) -> dict[str, Primitive]:
 
 def _served(side: Side, name: str, color: Role) -> Curve:
     """Return how many points of the cloud are the nearest of 0, 1, 2, ... target points: all at 1 where it is one to one."""
-    counts = np.bincount(np.minimum(side.served, MOST_SERVED), minlength=MOST_SERVED + 1)
-    kind = SERVED.bars if name == "left" else SERVED.dots
-    return kind(np.arange(MOST_SERVED + 1.0), counts.astype(float), name, color)
+    counts = np.bincount(np.minimum(side.served, MOST_SERVED), minlength=MOST_SERVED + 1).astype(float)
+    draw = SERVED.bars if name == "left" else SERVED.dots
+    return draw(np.arange(MOST_SERVED + 1.0), counts, name, color)
 
 
 def _numbers_table(state: State) -> Table:

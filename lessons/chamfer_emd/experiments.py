@@ -36,8 +36,8 @@ PRESETS: tuple[Preset[Params], ...] = (
         Params(start="bump", amount=0.147, points=140), 0,
     ),
     Preset(
-        "missing", "A part is missing", "The source has only the left half of the target, twice. Set “Left flow lowers” to"
-        " each side of Chamfer in turn: which of them sees what is missing?",
+        "missing", "A part is missing", "The source has only the left half of the target, twice. The table has both"
+        " sides of Chamfer: which of them sees what is missing?",
         Params(start="part missing", amount=0.5), 4,
     ),
     Preset(

@@ -1,7 +1,5 @@
 """What one step looks like, stage by stage."""
 
-import functools
-
 import numpy as np
 
 from lessons.coordinates.flat import met, ranged, seen
@@ -13,10 +11,11 @@ from workbench.algorithms.placing import Cell, Placed, Ranged, Readings, Scatter
 from workbench.algorithms.voyages import Raised, Travelled
 from workbench.data.places import Places
 from workbench.data.surfaces import sphere
+from workbench.geometry.cameras import intrinsics
 from workbench.geometry.curvilinear import Coordinates, cartesian_from_spherical, cell_edges
 from workbench.geometry.globe import Ellipsoid, graticule, parallel, units_of_places
 from workbench.geometry.motions import motion
-from workbench.geometry.polylines import at_height, between, circle, segments, sphere_rings
+from workbench.geometry.polylines import at_height, between, circle, fan, segments, sphere_rings
 from workbench.numerals import angle, fixed
 from workbench.scene import Camera, Chart, Classes, Label, Mesh, Points, Primitive, Role, Scene, Segments, Table
 
@@ -30,12 +29,13 @@ LATITUDES = Chart("Plumb line less line to the centre", "latitude (°)", "°")
 RATES = Chart("How fast it turns", unit="°/s")
 ANGLES = Chart("Pan and tilt", unit="°")
 ORIGIN = np.zeros(3)
-REACH = 1.2  # metres that axes and rays go
+RINGS = Segments(sphere_rings(ORIGIN, 1.0), "neutral", 1, opacity=0.4)
+AXIS = Segments(np.array([[[0.0, 0.0, -1.2], [0.0, 0.0, 1.2]]]), "z", 3, opacity=0.7, name="the axis")
 FLAT = Ellipsoid(1.0, 0.35)  # how flat a planet is drawn
 BALL = sphere(1500)
 PALE = np.tile(np.array([222, 228, 236], np.uint8), (len(BALL.p), 1))  # land and sea: nothing to tell apart
 GRATICULE = graticule(15)
-K = np.array([[60.0, 0.0, 31.5], [0.0, 60.0, 23.5], [0.0, 0.0, 1.0]])
+K = intrinsics(60.0, 31.5, 23.5)
 
 
 def draw(state: State) -> Scene:
@@ -67,16 +67,13 @@ def draw(state: State) -> Scene:
 
 def _point(state: State, system: Coordinates) -> dict[str, Primitive]:
     now, p = state.now, np.array(state.params.point)
-    scene: dict[str, Primitive] = {"frame": _rings(), "axis": _axis()}
+    scene: dict[str, Primitive] = {"frame": RINGS, "axis": AXIS}
     if not isinstance(now, Walked):
         scene["point"] = Points(p[None], "target", 0.03, name="the point")
     if isinstance(now, Placed):
         if now.moves:  # the first goes straight out and sweeps nothing
-            swept = np.column_stack(
-                [np.zeros(len(now.path) - 1, int), *(np.arange(len(now.path) - 1) + k for k in (1, 2))]
-            )
-            fan = np.vstack([ORIGIN, now.path])
-            scene["swept"] = Mesh(fan, swept, "source", opacity=0.6, name="swept by the ray to it")
+            swept = np.vstack([ORIGIN, now.path])
+            scene["swept"] = Mesh(swept, fan(len(swept)), "source", opacity=0.6, name="swept by the ray to it")
         if now.moves is not None:
             scene["path"] = Segments(segments(now.path), "source", 4, name="its coordinates, one after the other")
         scene["place"] = Points(now.p[None], "source", 0.025, name="so far")
@@ -91,7 +88,7 @@ def _point(state: State, system: Coordinates) -> dict[str, Primitive]:
         q = np.stack([now.p[name] for name in others])
         scene["ray"] = Segments(between(ORIGIN, p), "source", 3)
         scene["others"] = Points(q, "wrong", 0.03, name="by other conventions")
-        scene["other rays"] = Segments(between(np.zeros_like(q), q), "wrong", 2, opacity=0.6)
+        scene["other rays"] = Segments(between(ORIGIN, q), "wrong", 2, opacity=0.6)
         for name, where in (*zip(others, q, strict=True), (state.params.convention, p)):
             color = "wrong" if name in others else "source"
             scene[f"name/{name}"] = Label(name, where + np.array([0.0, 0.0, 0.08]), color)
@@ -123,19 +120,9 @@ def _walked(now: Walked, system: Coordinates) -> dict[str, Primitive]:
     return scene
 
 
-@functools.cache
-def _rings() -> Segments:
-    return Segments(sphere_rings(ORIGIN, 1.0), "neutral", 1, opacity=0.4)
-
-
-@functools.cache
-def _axis() -> Segments:
-    return Segments(np.array([[[0.0, 0.0, -REACH], [0.0, 0.0, REACH]]]), "z", 3, opacity=0.7, name="the axis")
-
-
 def _scaled(now: Scaled) -> dict[str, Primitive]:
     v = now.p_h[:3]
-    scene: dict[str, Primitive] = {"frame": _rings()}
+    scene: dict[str, Primitive] = {"frame": RINGS}
     scene["ray"] = Segments(between(ORIGIN, 3.0 * v), "correspondence", 2, name="all points of this direction")
     if now.mean_h is not None and now.other_h is not None:
         p, q, mean = (h[:3] / h[3] for h in (now.p_h, now.other_h, now.mean_h))
@@ -240,10 +227,9 @@ def _followed(now: Followed) -> dict[str, Primitive]:
     n = cartesian_from_spherical(np.array([[1.0, np.pi / 2 - now.tilt, now.pan]]))[0]
     right = np.array([s, -c, 0.0])
     T_world_camera = motion(np.column_stack([right, np.cross(n, right), n]), ORIGIN)
-    ring = at_height(4.0 * circle())
     track = np.array([[[-18.0, now.p[1], now.p[2]], [18.0, now.p[1], now.p[2]]]])
     return {
-        "ring": Segments(segments(ring), "neutral", 2, name="pan axis"),
+        "ring": Segments(segments(at_height(4.0 * circle())), "neutral", 2, name="pan axis"),
         "pan": Segments(between(ORIGIN, 4.0 * np.array([c, s, 0.0])), "source", 5, name="pan"),
         "camera": Camera(K, 64, 48, T_world_camera, 3.0, color="source", name="camera"),
         "track": Segments(track, "neutral", 1.5, name="way of the target"),

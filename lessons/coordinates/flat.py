@@ -6,8 +6,11 @@ from lessons.coordinates.state import State, Thing
 from lessons.coordinates.words import lies_on_both
 from workbench.algorithms.parallels import Met, Seen
 from workbench.algorithms.placing import Ranged
-from workbench.geometry.clipping import clip_lines
+from workbench.certain import as_a
+from workbench.geometry.cameras import intrinsics
+from workbench.geometry.clipping import clip_lines, segments_inside
 from workbench.geometry.homography import transform_pixels
+from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import at_height, between, rectangle, segments
 from workbench.numerals import length
 from workbench.scene import Camera, Chart, Mesh, Points, Primitive, Role, Segments, Table
@@ -94,14 +97,12 @@ def _grid(H: np.ndarray) -> np.ndarray:
         np.column_stack([np.full(13, x), -1.0 + 3.0 * t]) for x in (0.0, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 40.0)
     ]
     ends = np.concatenate([segments(transform_pixels(H, line)) for line in lines])
-    inside = ((ends >= LOW) & (ends <= HIGH)).all(axis=(1, 2))
-    return at_height(ends[inside], 1.0)
+    return at_height(segments_inside(ends, LOW, HIGH), 1.0)
 
 
 def seen(state: State, now: Seen) -> dict[str, Primitive]:
     """Return the object, its two pictures on the plane y = 0, and the rays to the eye."""
-    thing = state.subject
-    assert isinstance(thing, Thing)
+    thing = as_a(Thing, state.subject)
     scene: dict[str, Primitive] = {}
     if len(thing.lines):
         scene["object"] = Segments(thing.lines, "target", 2.5, name=thing.name)
@@ -117,11 +118,7 @@ def seen(state: State, now: Seen) -> dict[str, Primitive]:
         between(corners, corners + reach * v), "correspondence", 1.5, opacity=0.7, name="rays to the eye"
     )
     if -now.eye[1] < EYE_SHOWN:
-        T = np.eye(4)
-        T[:3, :3] = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-        T[:3, 3] = now.eye
-        K = np.array([[50.0, 0.0, 31.5], [0.0, 50.0, 23.5], [0.0, 0.0, 1.0]])
-        scene["eye"] = Camera(K, 64, 48, T, 0.15, name="eye")
+        scene["eye"] = Camera(intrinsics(50.0, 31.5, 23.5), 64, 48, motion(R_UPRIGHT, now.eye), 0.15, name="eye")
     scene["near"] = SIZES.scalar(100 * now.near, "near side", "source", log=True)
     scene["far"] = SIZES.scalar(-100 * now.far, "far side", "other", log=True)
     return scene

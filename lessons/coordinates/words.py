@@ -32,35 +32,32 @@ FAR_APART = 1e4  # metres between two means
 def caption(state: State) -> Caption:
     """Return the caption of a step."""
     now, params, subject = state.now, state.params, state.subject
-    match now:
-        case Placed():
-            assert isinstance(subject, Coordinates)
+    match now, subject:
+        case Placed(), Coordinates():
             return Caption(_placed(now, subject, params))
-        case Cell():
-            assert isinstance(subject, Coordinates)
+        case Cell(), Coordinates():
             return Caption(_cell(now, subject, params))
-        case Readings():
+        case Readings(), _:
             return Caption(_readings(now, params))
-        case Walked():
-            assert isinstance(subject, Coordinates)
+        case Walked(), Coordinates():
             return _walked(now, subject, state)
-        case Scaled():
+        case Scaled(), _:
             return Caption(_scaled(now))
-        case Scattered():
+        case Scattered(), _:
             return _scattered(now, state)
-        case Ranged():
+        case Ranged(), _:
             return _ranged(now, state)
-        case Travelled():
-            assert isinstance(subject, Places)
+        case Travelled(), Places():
             return _travelled(now, subject)
-        case Raised():
+        case Raised(), _:
             return Caption(_raised(now, state))
-        case Followed():
+        case Followed(), _:
             return _followed(now, state)
-        case Met():
+        case Met(), _:
             return _met(now, state)
-        case Seen():
+        case Seen(), _:
             return Caption(_seen(now))
+    raise AssertionError
 
 
 def quantity(value: float, is_angle: bool) -> str:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.curvature.state import State
+from workbench.certain import sure
 from workbench.data.thinning import evenly
 from workbench.geometry.normals import surface_variation
 from workbench.numerals import brief
@@ -76,8 +77,7 @@ def _sum(state: State) -> dict[str, Primitive]:
 
 
 def _finer(state: State) -> dict[str, Primitive]:
-    study = state.study
-    assert study is not None
+    study = sure(state.study)
     x, chart = np.log10(study.counts), Chart("Error over resolution", "log₁₀ vertices", "log₁₀ error (%)")
     roles: tuple[tuple[str, np.ndarray, Role], ...] = (
         ("K from angles", study.K, "source"),

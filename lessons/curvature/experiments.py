@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from lessons.curvature.state import Params, State, at_stage
+from workbench.certain import sure
 from workbench.geometry.curvature import gaussian_curvature
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import percent
@@ -131,21 +132,18 @@ def _size_ratio(states: Sequence[State]) -> float:
 def _signs(states: Sequence[State]) -> tuple[bool, bool]:
     """Return whether K and H at the vertex have another sign than on the surface as it was made."""
     state = at_stage(states, "mean")
-    K, H, surface, v = state.now.K, state.now.H, state.subject.truth, state.now.vertex
-    assert surface is not None
+    K, H, surface, v = state.now.K, state.now.H, sure(state.subject.truth), state.now.vertex
     # Made outside out, K is the same and H the other way round (`inside_out`).
     return bool(K[v] * surface.gaussian[v] < 0), bool(H[v] * -surface.mean[v] < 0)
 
 
 def _finer_ratio(states: Sequence[State]) -> float:
-    study = at_stage(states, "finer").study
-    assert study is not None
+    study = sure(at_stage(states, "finer").study)
     return float(study.K[0] / study.K[-1])
 
 
 def _why_finer(states: Sequence[State]) -> str:
-    study = at_stage(states, "finer").study
-    assert study is not None
+    study = sure(at_stage(states, "finer").study)
     return (
         f"It goes from {percent(study.K[0], 1)} to {percent(study.K[-1], 1)} (RMS). The triangles shrink but keep their odd"
         f" shapes, and so does the error of defect / area; that of the quadric fit falls to {percent(study.K_fit[-1], 1)}."

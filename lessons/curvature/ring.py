@@ -4,8 +4,9 @@ import numpy as np
 
 from lessons.curvature.state import State
 from workbench.algorithms.curvature import Measured
+from workbench.certain import sure
 from workbench.geometry.laplacian import mixed_cell, vertex_pushes
-from workbench.geometry.polylines import between, segments
+from workbench.geometry.polylines import between, fan, segments
 from workbench.numerals import brief
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
 
@@ -73,12 +74,10 @@ def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
     along = flat(turned)
     if share < 1:
         along = _unbent((1 - share) * rim / lengths[:, None] + share * along, now.angles)
-    fan = np.vstack([centre, at(along, turned, lengths)])
-    k = np.arange(1, len(turned))
-    spokes = between(np.broadcast_to(centre, (len(turned), 3)), fan[1:])
+    p = np.vstack([centre, at(along, turned, lengths)])
     scene: dict[str, Primitive] = {
-        "flat ring": Mesh(fan, np.stack([0 * k, k, k + 1], 1), "highlight", opacity=0.5, flat=True),
-        "flat edges": Segments(spokes, "highlight", 2),
+        "flat ring": Mesh(p, fan(len(p)), "highlight", opacity=0.5, flat=True),
+        "flat edges": Segments(between(centre, p[1:]), "highlight", 2),
         "stalk": Segments(between(now.p[now.vertex], centre), "correspondence", 1),
     }
     if share < 1:
@@ -165,8 +164,7 @@ def circles(now: Measured) -> dict[str, Primitive]:
 
 def patch(state: State) -> dict[str, Primitive]:
     """Return the quadric at the vertex over its two rings, and the vertices it was fitted to."""
-    now, quadrics = state.now, state.now.quadrics
-    assert quadrics is not None
+    now, quadrics = state.now, sure(state.now.quadrics)
     near = state.two_rings
     scene: dict[str, Primitive] = {
         "fitted": Points(

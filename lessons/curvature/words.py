@@ -4,10 +4,11 @@ import numpy as np
 
 from lessons.curvature.scales import H_SCALE, K_SCALE, reach, share_within
 from lessons.curvature.state import State
+from workbench.certain import sure
 from workbench.numerals import brief, percent
 from workbench.scene import Caption
 
-NOWHERE = "The vertex lies on the border, where {} is not defined: choose one inside."
+NOWHERE = "The vertex lies on the border, where {} is not defined."
 
 
 def caption(state: State) -> Caption:
@@ -34,8 +35,7 @@ def _mesh(state: State) -> Caption:
 
 
 def _ring(state: State) -> Caption:
-    angles = state.now.angles
-    assert angles is not None
+    angles = sure(state.now.angles)
     total = np.degrees(angles.sum())
     text = f"{len(angles)} triangles meet at vertex {state.now.vertex:,}; their angles add up to {total:.2f}°."
     if state.on_border:
@@ -51,8 +51,7 @@ def _unfolding(state: State) -> Caption:
 
 
 def _defect(state: State) -> Caption:
-    defects = state.now.defects
-    assert defects is not None
+    defects = sure(state.now.defects)
     here = np.degrees(float(defects[state.now.vertex]))
     if abs(here) < 5e-7:
         return Caption(
@@ -123,8 +122,7 @@ def _principal(state: State) -> Caption:
 
 
 def _quadric(state: State) -> Caption:
-    quadrics, v = state.now.quadrics, state.now.vertex
-    assert quadrics is not None
+    quadrics, v = sure(state.now.quadrics), state.now.vertex
     K, H = (float(values[v]) for values in quadrics.curvatures())
     n = int(quadrics.neighbours[v])
     if not np.isfinite(K):
@@ -155,8 +153,7 @@ def _total(state: State) -> Caption:
 
 
 def _finer(state: State) -> Caption:
-    study = state.study
-    assert study is not None
+    study = sure(state.study)
     text = f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from angles (RMS) goes from"
     text += f" {percent(study.K[0])} to {percent(study.K[-1])}, by quadric fit from"
     text += f" {percent(study.K_fit[0])} to {percent(study.K_fit[-1])}."

@@ -6,13 +6,13 @@ import math
 import numpy as np
 
 from lessons.disparity.charts import beside
-from lessons.disparity.stage import R_WORLD_CAMERA, T_WORLD_LEFT, pictures
+from lessons.disparity.stage import T_WORLD_LEFT, pictures
 from lessons.disparity.state import Setup, State
 from lessons.disparity.words import caption
 from workbench.algorithms.disparity import Stage
 from workbench.data.framing import round_below
 from workbench.geometry.cameras import back_project
-from workbench.geometry.motions import apply, motion
+from workbench.geometry.motions import R_UPRIGHT, apply, motion
 from workbench.geometry.polylines import between, segments
 from workbench.geometry.stereo import depth_cloud, depth_from_disparity, depth_interval, points_on_ray
 from workbench.numerals import brief, length
@@ -42,7 +42,7 @@ def _cameras(setup: Setup) -> dict[str, Primitive]:
     h, w = setup.left.shape
     camera, K_right = setup.pair.camera, setup.pair.camera.K
     K_right[0, 2] += camera.doffs
-    T_world_right = motion(R_WORLD_CAMERA, np.array([setup.scale * camera.baseline, 0.0, 0.0]))
+    T_world_right = motion(R_UPRIGHT, np.array([setup.scale * camera.baseline, 0.0, 0.0]))
     return {
         "left/camera": Camera(camera.K, w, h, T_WORLD_LEFT, 0.2, color="target"),
         "right/camera": Camera(K_right, w, h, T_world_right, 0.2, color="source"),
@@ -153,7 +153,7 @@ def _swept(state: State) -> dict[str, Primitive]:
 def _ruler(setup: Setup) -> dict[str, Primitive]:
     """Show what the cameras see as a faint pyramid, along one edge of which the metres are counted."""
     far = _corners(setup, setup.far / 1.25)
-    edges = between(np.zeros((4, 3)), far)
+    edges = between(np.zeros(3), far)
     shown: dict[str, Primitive] = {
         "seen": Segments(np.concatenate([edges, segments(far, closed=True)]), "correspondence", 1.0, T_WORLD_LEFT, 0.45)
     }

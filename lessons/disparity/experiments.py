@@ -9,6 +9,7 @@ import scipy
 from lessons.disparity.pairs import setup_of
 from lessons.disparity.state import Params, State
 from lessons.disparity.truth import flat_parts
+from workbench.certain import sure
 from workbench.lesson import Preset, Question
 from workbench.numerals import length, percent
 
@@ -139,9 +140,7 @@ def last_choice(states: Sequence[State]) -> State:
 
 def near_edges(state: State) -> tuple[float, float]:
     """Return the share of the wrong pixels, and of all pixels, within 10 px of a jump of the true disparity."""
-    truth, visible = state.setup.pair.disparity, state.setup.pair.visible
-    assert truth is not None
-    assert visible is not None
+    truth, visible = sure(state.setup.pair.disparity), sure(state.setup.pair.visible)
     jump = scipy.ndimage.maximum_filter(truth, 3) - scipy.ndimage.minimum_filter(truth, 3) > 2.0
     near = scipy.ndimage.maximum_filter(jump, (21, 21))
     wrong = (np.abs(state.disparity - truth) > 1.0) & visible
@@ -150,8 +149,7 @@ def near_edges(state: State) -> tuple[float, float]:
 
 def hidden(params: Params) -> float:
     """Return the share of left pixels that the right camera does not see."""
-    visible = setup_of(params).pair.visible
-    assert visible is not None
+    visible = sure(setup_of(params).pair.visible)
     return 1.0 - float(visible.mean())
 
 

@@ -8,14 +8,13 @@ import numpy as np
 from lessons.disparity.pairs import ROWS_OFF
 from lessons.disparity.state import Setup, State
 from workbench.algorithms.disparity import Stage
-from workbench.geometry.motions import motion
+from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import between
 from workbench.lesson import View
 from workbench.scene import Field, Label, Picture, Primitive, Role, Segments
 
 # The left camera is at the world's origin and looks along +Y.
-R_WORLD_CAMERA = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-T_WORLD_LEFT = motion(R_WORLD_CAMERA, np.zeros(3))
+T_WORLD_LEFT = motion(R_UPRIGHT, np.zeros(3))
 VIEW = View(eye=(0.97, -3.73, 3.69), target=(-1.17, 0.77, 1.22), grid=None, axes=False)
 NEARER = 1.0  # metres towards the eye: in front of the cloud, whatever strays in it
 LARGEST = (2.1, 1.575)

@@ -8,6 +8,7 @@ import numpy as np
 from lessons.disparity.state import State
 from lessons.disparity.truth import depth_errors, flat_parts, known_depths
 from workbench.algorithms.disparity import Stage
+from workbench.certain import sure
 from workbench.numerals import brief, fixed, length, percent
 from workbench.scene import Caption
 
@@ -57,11 +58,9 @@ def _aggregated(state: State) -> str:
 
 
 def _path(state: State) -> str:
-    assert state.direction is not None
-    assert state.before is not None
     change = _change(state, "")
-    change = change or f"energy {brief(state.before.energy, 4)} → {brief(state.energy, 4)} per pixel"
-    return f"Path {state.done} of 8, {WAYS[state.direction]}: neighbours that disagree pay; {change}."
+    change = change or f"energy {brief(sure(state.before).energy, 4)} → {brief(state.energy, 4)} per pixel"
+    return f"Path {state.done} of 8, {WAYS[sure(state.direction)]}: neighbours that disagree pay; {change}."
 
 
 def _checked(state: State) -> str:

@@ -5,8 +5,9 @@ import numpy as np
 from lessons.distances.plane import WITHIN
 from lessons.distances.stages import relative
 from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, State, Trials
+from workbench.certain import sure
 from workbench.numerals import brief, length, percent
-from workbench.scene import Chart, Primitive, Role, Scalar, Table
+from workbench.scene import Chart, Primitive, Role, Table
 
 WORST = Chart("Worst error so far", unit="%")
 FINER = "Error of ever finer {}"
@@ -83,8 +84,7 @@ def _found(state: State, now: Found) -> dict[str, Primitive]:
 
 
 def _goal(state: State, now: Found) -> dict[str, Primitive]:
-    subject = state.subject
-    assert subject is not None
+    subject = sure(state.subject)
     if subject.goal < 0 or not np.isfinite(now.d[subject.goal]):
         return {}
     straight = float(np.linalg.norm(subject.p[subject.goal] - subject.p[subject.source]))
@@ -95,13 +95,11 @@ def _goal(state: State, now: Found) -> dict[str, Primitive]:
 
 
 def _nearest(now: Ball) -> dict[str, Primitive]:
-    if not now.nearest:
-        return {"radius": Scalar(now.radius, "radius", "Radius of the ball")}
-    rows = tuple((name, f"point {index}") for name, index in now.nearest.items())
-    return {
-        "radius": Scalar(now.radius, "radius", "Radius of the ball"),
-        "nearest by": Table("Nearest to the purple point", ("by", "nearest"), rows),
-    }
+    scene: dict[str, Primitive] = {"radius": Chart("Radius of the ball").scalar(now.radius, "radius")}
+    if now.nearest:
+        rows = tuple((name, f"point {index}") for name, index in now.nearest.items())
+        scene["nearest by"] = Table("Nearest to the purple point", ("by", "nearest"), rows)
+    return scene
 
 
 def _axioms(now: Trials) -> dict[str, Primitive]:

@@ -8,6 +8,8 @@ from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, Stat
 from lessons.distances.subjects import true_way
 from lessons.distances.words import caption
 from workbench.algorithms.heat_method import HeatState
+from workbench.certain import sure
+from workbench.data.thinning import every
 from workbench.geometry.polylines import at_height, between, rectangle, segments
 from workbench.scene import Classes, Color, Field, Label, Mesh, Points, Primitive, Scene, Segments
 
@@ -34,8 +36,7 @@ def draw(state: State) -> Scene:
 
 
 def _ways(state: State) -> dict[str, Primitive]:
-    now, subject = state.now, state.subject
-    assert subject is not None
+    now, subject = state.now, sure(state.subject)
     color = _color(state, subject)
     scene: dict[str, Primitive] = {}
     if len(subject.faces):
@@ -87,7 +88,7 @@ def _color(state: State, subject: Subject) -> Color:
 
 
 def _arrows(subject: Subject, now: HeatState) -> dict[str, Primitive]:
-    some = slice(None, None, -(-len(subject.faces) // MOST_ARROWS))
+    some = every(len(subject.faces), MOST_ARROWS)
     middle = subject.p[subject.faces[some]].mean(axis=1)
     tip = middle + 0.8 * subject.h * now.X[some]
     return {

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.distances.state import Found, Params, Scatter, State, Trials
+from workbench.certain import as_a, sure
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import counted, fixed, length, percent
 
@@ -130,29 +131,23 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 def found(states: Sequence[State], step: int = -1) -> Found:
     """Return the distances of a step that has them all."""
-    now = states[step].now
-    assert isinstance(now, Found)
-    return now
+    return as_a(Found, states[step].now)
 
 
 def scatter(states: Sequence[State], step: int = -1) -> Scatter:
     """Return a step of a scatter."""
-    now = states[step].now
-    assert isinstance(now, Scatter)
-    return now
+    return as_a(Scatter, states[step].now)
 
 
 def broken(states: Sequence[State]) -> float:
     """Return the share of all triples that broke the triangle inequality."""
-    now = states[-1].now
-    assert isinstance(now, Trials)
+    now = as_a(Trials, states[-1].now)
     return now.broken / now.tried
 
 
 def within_two(states: Sequence[State]) -> float:
     """Return the share of points of the plane within 2, as counted."""
-    shares = scatter(states).shares
-    assert shares is not None
+    shares = sure(scatter(states).shares)
     return float(shares[0][1])
 
 
@@ -163,22 +158,19 @@ def refined(states: Sequence[State]) -> np.ndarray:
 
 def late(states: Sequence[State]) -> float:
     """Return how many times the mean error of heat is what it is after one squared edge."""
-    times = found(states).times
-    assert times is not None
+    times = sure(found(states).times)
     at = {float(t): float(error) for t, error in zip(*times, strict=True)}
     return at[2.0] / at[0.0]
 
 
 def to_goal(states: Sequence[State]) -> tuple[float, float]:
     """Return how long the way to the goal is, as found and in truth."""
-    now, subject = found(states), states[-1].subject
-    assert subject is not None
+    now, subject = found(states), sure(states[-1].subject)
     return float(now.d[subject.goal]), float(now.truth[subject.goal])
 
 
 def _why_shortcut(states: Sequence[State]) -> str:
-    subject, (d, true) = states[-1].subject, to_goal(states)
-    assert subject is not None
+    subject, (d, true) = sure(states[-1].subject), to_goal(states)
     many = int(subject.shortcuts.sum())
     if not many:
         return f"{length(d)} for {length(true)}: with these points no edge leaves the sheet."

@@ -137,19 +137,17 @@ class Subject:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Front:
-    """How far a front has come, and in the end the way to the goal.
+    """How far a front has come.
 
     Attributes:
         d: Distances, final and tentative; inf or NaN beyond.
         accepted: Which are final.
         reach: Up to where all are.
-        path: Nodes of the way to the goal, in the end.
     """
 
     d: np.ndarray
     accepted: np.ndarray
     reach: float
-    path: np.ndarray = field(default_factory=lambda: np.empty(0, int))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -5,8 +5,9 @@ from typing import Literal
 import numpy as np
 
 from lessons.distances.plane import WITHIN
-from lessons.distances.state import Ball, Found, Front, Landmarks, Params, Scatter, State, Subject, Trials
+from lessons.distances.state import Ball, Found, Front, Landmarks, Params, Scatter, State, Trials
 from workbench.algorithms.heat_method import HeatState
+from workbench.certain import sure
 from workbench.numerals import brief, counted, fixed, length, percent
 from workbench.scene import Caption
 
@@ -53,7 +54,7 @@ def way_of(params: Params) -> str:
 
 
 def _of_front(state: State, now: Front) -> str:
-    subject = _on(state)
+    subject = sure(state.subject)
     done, trial = int(now.accepted.sum()), int((np.isfinite(now.d) & ~now.accepted).sum())
     where = int(subject.free.sum()) if len(subject.free) else len(now.d)
     if now.reach == 0:
@@ -66,17 +67,13 @@ def _of_front(state: State, now: Front) -> str:
     return f"{text}."
 
 
-def _on(state: State) -> Subject:
-    assert state.subject is not None
-    return state.subject
-
-
 def _of_heat(state: State, now: HeatState) -> str:
     if now.phase == "flow":
         far = float(np.log10(max(np.median(np.abs(now.u)) / now.u.max(), 1e-300)))
         return (
-            f"Heat has flowed from the source for {_times(state.params)} squared mean edges. Half of the surface"
-            f" has less than 10 to the power of {fixed(far, 0)} of the strongest: its size says little, its direction all."
+            f"Heat has flowed from the source for {brief(10.0**state.params.time, 2)} squared mean edges. Half of the"
+            f" surface has less than 10 to the power of {fixed(far, 0)} of the strongest: its size says little, its"
+            " direction all."
         )
     if now.phase == "directions":
         return (
@@ -85,10 +82,6 @@ def _of_heat(state: State, now: HeatState) -> str:
         )
     top = length(float(now.d.max()))
     return f"The function whose slope is nearest to those directions, by one more linear system: up to {top}."
-
-
-def _times(params: Params) -> str:
-    return brief(10.0**params.time, 2)
 
 
 def tone_of(now: Found) -> Literal["good", "wrong", "info"]:
@@ -100,7 +93,7 @@ def tone_of(now: Found) -> Literal["good", "wrong", "info"]:
 
 
 def _of_found(state: State, now: Found) -> Caption:
-    subject, by = _on(state), way_of(state.params)
+    subject, by = sure(state.subject), way_of(state.params)
     reached = int(np.isfinite(now.d).sum())
     where = int(subject.free.sum()) if len(subject.free) else len(now.d)
     if not len(now.truth):
@@ -125,10 +118,8 @@ def _of_found(state: State, now: Found) -> Caption:
     if reached < where:
         text += f" {where - reached:,} nodes cannot be reached."
     if len(now.asymmetry):
-        text += (
-            f" There and back differ by up to {percent(now.asymmetry.max())}, and of the triples {percent(now.broken)}"
-        )
-        text += " break the triangle inequality."
+        text += f" There and back differ by up to {percent(now.asymmetry.max())},"
+        text += f" and of the triples {percent(now.broken)} break the triangle inequality."
     text += {"good": " Right to 2 %.", "wrong": " That is wrong, also on average.", "info": ""}[tone]
     return Caption(text + _of_study(state, now), tone)
 
@@ -202,10 +193,10 @@ def _of_scatter(params: Params, now: Scatter) -> Caption:
         case "told":
             return _of_flags(now)
         case _:
-            assert now.shares is not None
+            counts, _ = sure(now.shares)
             return Caption(
                 f"How many points lie within {WITHIN:g} standard deviations, by dimension: from"
-                f" {percent(now.shares[0][0], 1)} in one down to {percent(now.shares[0][-1], 1)} in ten."
+                f" {percent(counts[0], 1)} in one down to {percent(counts[-1], 1)} in ten."
             )
 
 

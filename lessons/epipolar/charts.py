@@ -4,6 +4,7 @@ import numpy as np
 
 from lessons.epipolar.state import State
 from workbench.algorithms.two_views import Followed, Related
+from workbench.certain import sure
 from workbench.geometry.cameras import camera_center
 from workbench.geometry.motions import rotation_angle
 from workbench.numerals import angle, brief, coordinates, fixed
@@ -72,8 +73,7 @@ def _motions(now: Related) -> Table:
 
 def _depths(state: State, now: Related) -> dict[str, Primitive]:
     """Return how far the depths of the points are off, and how far noise alone would put them."""
-    true = state.views.p_first
-    assert true is not None
+    true = sure(state.views.p_first)
     assert now.p_first is not None
     order = np.argsort(true[:, 2])
     z, off = true[order, 2], (state.length * now.p_first[:, 2] - true[:, 2])[order]

@@ -9,6 +9,7 @@ from lessons.epipolar.charts import beside
 from lessons.epipolar.state import State
 from lessons.epipolar.words import caption
 from workbench.algorithms.two_views import Followed
+from workbench.certain import sure
 from workbench.data.skyline import skyline
 from workbench.data.street import street
 from workbench.data.thinning import evenly, every
@@ -202,7 +203,7 @@ def _followed(now: Followed, p_center: np.ndarray, T_world_first: np.ndarray, mo
     scene: dict[str, Primitive] = {
         "ray": Segments(between(np.zeros(3), end), "highlight", 3, T_world_first, name="ray of the pixel"),
         "marks": Points(p, "highlight", 0.14, T_world_first),
-        "rays": Segments(between(np.broadcast_to(p_center, p.shape), p), "correspondence", 1, T_world_first),
+        "rays": Segments(between(p_center, p), "correspondence", 1, T_world_first),
     }
     for depth, place in zip(now.depths[near][::2], p[::2], strict=True):
         scene[f"mark/{depth:g}"] = Label(
@@ -219,8 +220,7 @@ def _followed(now: Followed, p_center: np.ndarray, T_world_first: np.ndarray, mo
 
 def _ellipsoids(state: State, p: np.ndarray, T_world_first: np.ndarray) -> Segments:
     """Return where points lie with two standard deviations, from the noise or what the lines say of it."""
-    T = _drawn(state.T_second_first, state.views.model)
-    assert T is not None
+    T = sure(_drawn(state.T_second_first, state.views.model))
     n = len(state.views.matches)
     sigma = state.views.sigma or state.to_lines(state.views.matches) * np.sqrt(n / max(n - 5, 1))
     Ps = camera_matrix(state.K_first, np.eye(4)), camera_matrix(state.K_second, T)

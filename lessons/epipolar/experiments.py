@@ -6,6 +6,7 @@ import numpy as np
 
 from lessons.epipolar.state import Params, State
 from workbench.algorithms.two_views import Related
+from workbench.certain import as_a
 from workbench.lesson import Preset, Question
 from workbench.numerals import angle, fixed, pixels
 
@@ -102,8 +103,7 @@ def depth_sigma(state: State) -> float:
 
 def in_front(states: Sequence[State]) -> tuple[int, ...]:
     """Return how many points each of the four motions puts in front of both cameras."""
-    now = states[-1].now
-    assert isinstance(now, Related)
+    now = as_a(Related, states[-1].now)
     return now.in_front
 
 

@@ -8,6 +8,7 @@ from typing import Annotated
 import numpy as np
 
 from workbench.algorithms.two_views import Followed, Related, Route
+from workbench.certain import sure
 from workbench.data.two_views import LARGEST, TwoViews, What
 from workbench.geometry.alignment import degrees_between
 from workbench.geometry.cameras import project
@@ -124,8 +125,7 @@ class State:
 
     def depth_sigma(self, p_first: np.ndarray) -> np.ndarray:
         """Return how uncertain the noise of the pixels makes the depths of points, metres, through the true cameras."""
-        assert self.T_true is not None
-        Ps = camera_matrix(self.views.K_first, np.eye(4)), camera_matrix(self.views.K_second, self.T_true)
+        Ps = camera_matrix(self.views.K_first, np.eye(4)), camera_matrix(self.views.K_second, sure(self.T_true))
         return np.sqrt(triangulation_covariances(*Ps, p_first, self.params.noise)[:, 2, 2])
 
     def to_lines(self, matches: np.ndarray) -> float:

@@ -4,6 +4,7 @@ import numpy as np
 
 from lessons.epipolar.state import State
 from workbench.algorithms.two_views import Followed, Related
+from workbench.certain import sure
 from workbench.geometry.epipolar import epipoles, fundamental_from_cameras
 from workbench.geometry.metrics import rms
 from workbench.geometry.motions import rotation_angle
@@ -57,8 +58,8 @@ def _followed(state: State, now: Followed) -> str:
             " the depth, the partner is on it."
         )
     if now.stage == "pencil":
-        assert state.T_true is not None
-        u, v, w = epipoles(fundamental_from_cameras(state.views.K_first, state.views.K_second, state.T_true))[1]
+        F = fundamental_from_cameras(state.views.K_first, state.views.K_second, sure(state.T_true))
+        u, v, w = epipoles(F)[1]
         far = abs(w) * 1e6 < max(abs(u), abs(v))
         where = "at infinity" if far else f"at column {fixed(u / w, 0)}, row {fixed(v / w, 0)}"
         return (
@@ -108,11 +109,10 @@ def _refined(state: State, now: Related) -> str:
 
 
 def _essential(state: State, now: Related) -> str:
-    assert now.E_values is not None
-    second = now.E_values[1] / now.E_values[0]
+    first, second = sure(now.E_values)[:2]
     return (
-        f"With K it is E = K′ᵀ F K. Its second singular value is {percent(second)} of its first; of a motion they are equal,"
-        " so both become their mean."
+        f"With K it is E = K′ᵀ F K. Its second singular value is {percent(second / first)} of its first; of a motion they"
+        " are equal, so both become their mean."
     )
 
 
@@ -156,8 +156,7 @@ def _rows(state: State, now: Related) -> str:
     Hs = found.H_first, found.H_second
     if any(torn(H, size) for H, size in zip(Hs, sizes, strict=True)):
         return "Turned to the baseline, a picture would be torn: a part of it would look backwards. No rows correspond."
-    assert state.disparities is not None
-    text = f"Both cameras turned: matched rows are {pixels(rms(state.disparities[:, 1]))} apart (rms)"
+    text = f"Both cameras turned: matched rows are {pixels(rms(sure(state.disparities)[:, 1]))} apart (rms)"
     times = max(growth(H, size) for H, size in zip(Hs, sizes, strict=True))
     if times > 3:
         text += f", in pictures {brief(times, 2)} times as large"

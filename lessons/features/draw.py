@@ -6,12 +6,13 @@ from lessons.features.flat import lines_between, outlined, pictured
 from lessons.features.state import Outlined, Pictured, Scanned, State
 from lessons.features.words import caption
 from workbench.data.thinning import every
+from workbench.geometry.alignment import rmse
 from workbench.geometry.fpfh import BINS
-from workbench.geometry.motions import apply
+from workbench.geometry.motions import apply, motion
 from workbench.geometry.polylines import between
 from workbench.scene import Chart, Color, Field, Label, Points, Primitive, Scene, Segments
 
-APART = np.array([1.0, 0.0, 0.0])  # how far beside the target the source is shown until a motion is found
+T_BESIDE = motion(np.eye(3), np.array([1.0, 0.0, 0.0]))  # where the source is shown until a motion is found
 MOST_NORMALS, MOST_LINES, NORMAL = 500, 400, 0.05
 BARS = Chart("Descriptor of the picked point", "bar: 11 of θ, 11 of α, 11 of φ", "%")
 SHARE, TURN, DISTANCE = (
@@ -37,7 +38,7 @@ def draw(state: State) -> Scene:
 
 def _scanned(now: Scanned) -> dict[str, Primitive]:
     scans = now.scans
-    T = _beside() if now.T_target_source is None else now.T_target_source
+    T = T_BESIDE if now.T_target_source is None else now.T_target_source
     radius = float(np.clip(0.24 / np.sqrt(len(scans.p_target)), 0.003, 0.009))
     scene: dict[str, Primitive] = {
         "target": Points(scans.p_target, _target_color(now), radius, name="target"),
@@ -51,9 +52,7 @@ def _scanned(now: Scanned) -> dict[str, Primitive]:
         scene["source normals"] = _normals(scans.p_source, now.n_source, T)
     if now.phase == "pairs" and now.around is not None and now.n_source is not None:
         some = now.around[every(len(now.around), 60)]
-        ends = between(
-            np.broadcast_to(scans.p_source[now.picked], (len(scans.p_source[some]), 3)), scans.p_source[some]
-        )
+        ends = between(scans.p_source[now.picked], scans.p_source[some])
         scene["pairs"] = Segments(ends, "correspondence", 2, T, name="pairs")
         scene["pair normals"] = _normals(scans.p_source[[now.picked, *some]], now.n_source[[now.picked, *some]], T)
     if now.phase in ("histogram", "similar"):
@@ -65,17 +64,11 @@ def _scanned(now: Scanned) -> dict[str, Primitive]:
         scene |= _matches(now, T)
     scene |= _errors(now)
     if now.T_target_source is not None:
-        scene["start"] = Points(scans.p_source, "neutral", radius, _beside(), opacity=0.3, name="source, as it came")
+        scene["start"] = Points(scans.p_source, "neutral", radius, T_BESIDE, opacity=0.3, name="source, as it came")
     else:
         top = float(apply(T, scans.p_source)[:, 2].max())
-        scene["source name"] = Label("source", np.array([APART[0], 0.0, top + 0.08]), "source")
+        scene["source name"] = Label("source", np.array([1.0, 0.0, top + 0.08]), "source")
     return scene
-
-
-def _beside() -> np.ndarray:
-    T = np.eye(4)
-    T[:3, 3] = APART
-    return T
 
 
 def _target_color(now: Scanned) -> Color:
@@ -113,12 +106,10 @@ def _matches(now: Scanned, T: np.ndarray) -> dict[str, Primitive]:
 def _errors(now: Scanned) -> dict[str, Primitive]:
     if now.scans.T_truth is None:
         return {}
-    error = now.error
-    rms = np.nan
+    error, rms = now.error, np.nan
     if now.T_target_source is not None and now.pairs is not None and now.inliers is not None and now.inliers.any():
-        kept = now.pairs[now.inliers]
-        off = apply(now.T_target_source, now.scans.p_source[kept[:, 0]]) - now.scans.p_target[kept[:, 1]]
-        rms = float(np.sqrt(np.mean(np.sum(off * off, axis=1))))
+        source, target = now.pairs[now.inliers].T
+        rms = rmse(now.T_target_source, now.scans.p_target[target], now.scans.p_source[source])
     return {
         "rotation error": TURN.scalar(error.rotation, "rotation error", "truth"),
         "distance": DISTANCE.scalar(error.displacement, "RMS distance from the truth", "truth"),

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from lessons.features.state import Params, Scanned, State
+from workbench.certain import as_a
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import angle, counted, percent
 
@@ -118,9 +119,7 @@ def kept_share(states: Sequence[State]) -> float:
 
 def end(states: Sequence[State]) -> Scanned:
     """Return the last step of a run on scans."""
-    last = states[-1].now
-    assert isinstance(last, Scanned)
-    return last
+    return as_a(Scanned, states[-1].now)
 
 
 QUESTIONS: tuple[Question[Params, State], ...] = (

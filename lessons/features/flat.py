@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.features.state import Outlined, Pictured, State
+from workbench.geometry.motions import R_ROWS_DOWN, motion
 from workbench.geometry.polylines import at_height, between, circle, segments
 from workbench.geometry.shape_context import EDGES, SECTORS, tangent_angles
 from workbench.geometry.sift import Sift
@@ -31,8 +32,7 @@ def pictured(now: Pictured) -> dict[str, Primitive]:
             scene |= lines_between(a, b, now.right, now.known)
     if now.sifts and now.phase in ("corners", "patch"):
         for k, (name, picture, found) in enumerate(zip(NAMES, shown, now.sifts, strict=True)):
-            ends = _marks(found, slice(None) if now.pairs is None else now.pairs[:, k])
-            ends = picture.places(ends.reshape(-1, 2), NEARER).reshape(-1, 2, 3)
+            ends = picture.places(_marks(found, slice(None) if now.pairs is None else now.pairs[:, k]), NEARER)
             scene[f"{name} keypoints"] = Segments(ends, "highlight", 1.5, name="keypoints: size and direction")
     if now.phase == "patch" and now.windows is not None:
         scene["patches"] = Picture(now.windows, "Two patches that match")
@@ -40,8 +40,7 @@ def pictured(now: Pictured) -> dict[str, Primitive]:
 
 
 def _picture(now: Pictured, k: int) -> Picture:
-    image, pose = (now.first, now.second)[k], np.diag([1.0, -1.0, -1.0, 1.0])
-    pose[:3, 3] = PLACES[k]
+    image = (now.first, now.second)[k]
     shown: np.ndarray | Field = np.clip(np.rint(image), 0, 255).astype(np.uint8)
     if now.phase == "gradient" and now.strength is not None:
         top = max(float(np.percentile(now.strength[0], 99)), 1e-6)
@@ -51,7 +50,7 @@ def _picture(now: Pictured, k: int) -> Picture:
         top = max(float(np.percentile(np.sqrt(np.abs(now.response[0])), 99.5)), 1e-6)
         shown = Field(root, -top, top, "signed root of the response", map="diverging")
     width = WIDTH * image.shape[1] / max(now.first.shape[1], now.second.shape[1])
-    return Picture(shown, NAMES[k], width, pose)
+    return Picture(shown, NAMES[k], width, motion(R_ROWS_DOWN, PLACES[k]))
 
 
 def _marks(found: Sift, some: slice | np.ndarray) -> np.ndarray:

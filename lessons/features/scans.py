@@ -11,6 +11,7 @@ from workbench.algorithms.icp import Gate, icp
 from workbench.algorithms.models import RIGID
 from workbench.algorithms.ransac import Judge, ransac
 from workbench.algorithms.samplers import uniform_samples
+from workbench.certain import sure
 from workbench.data.clouds import pair
 from workbench.data.files import stamp
 from workbench.data.scan_pairs import Scans, read_scans
@@ -76,8 +77,7 @@ def scan_steps(params: Params, pair_angles: PairAngles, mutual_matches: Matcher)
 
 def _moved(params: Params, now: Scanned) -> Iterator[Scanned]:
     """Yield every best sample of RANSAC and its refits, then fits of ICP."""
-    scans, pairs = now.scans, now.pairs
-    assert pairs is not None
+    scans, pairs = now.scans, sure(now.pairs)
     if len(pairs) < RIGID.sample_size:
         yield replace(now, phase="end")
         return

@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.features.state import PIXELS, Outlined, Pictured, Scanned, State
+from workbench.certain import sure
 from workbench.numerals import angle, counted, fixed_row, length, percent
 from workbench.scene import Caption
 
@@ -59,13 +60,10 @@ def _scanned(state: State, now: Scanned) -> Caption:
                 " The nearest of all is its match."
             )
         case "nearest":
-            assert now.pairs is not None
             which = "source point takes the target point" if params.where == "every point" else "keypoint takes the one"
             return Caption(f"Every {which} with the nearest descriptor.{_share(state)}")
         case "kept":
-            assert now.pairs is not None
-            asked = 0 if now.asked is None else len(now.asked)
-            kept = f"{len(now.pairs):,} of {asked:,}"
+            kept = f"{len(sure(now.pairs)):,} of {len(sure(now.asked)):,}"
             return Caption(f"Keep {FILTERS[params.keep]}: {kept} stay.{_share(state)}")
         case "sample":
             return Caption(
@@ -80,19 +78,16 @@ def _scanned(state: State, now: Scanned) -> Caption:
 
 
 def _pair_text(state: State, now: Scanned) -> str:
-    assert now.angles is not None
-    assert now.around is not None
-    if not len(now.around):
+    count = len(sure(now.around))
+    if not count:
         return f"No other point lies within {length(state.params.radius)} of the picked one: it has no pairs."
-    text = f"{counted(len(now.around), 'pair', 'pairs')} within {length(state.params.radius)} of the picked point."
-    theta, alpha, phi = now.angles[0]
+    text = f"{counted(count, 'pair')} within {length(state.params.radius)} of the picked point."
+    theta, alpha, phi = sure(now.angles)[0]
     return f"{text} Of each three angles are kept: the first has (θ, α, φ) = ({fixed_row((theta, alpha, phi), 2)})."
 
 
 def _histogram_text(now: Scanned) -> str:
-    assert now.f_source is not None
-    assert now.f_target is not None
-    off = np.linalg.norm(now.f_target - now.f_source[now.picked], axis=1)
+    off = np.linalg.norm(sure(now.f_target) - sure(now.f_source)[now.picked], axis=1)
     text = "33 bars: three histograms of the point's own pairs, and its neighbours' mixed in."
     if now.scans.T_truth is None:
         return f"{text} Beside it the most alike of the target."
@@ -101,8 +96,8 @@ def _histogram_text(now: Scanned) -> str:
 
 
 def _votes(now: Scanned) -> str:
-    assert now.inliers is not None
-    return f"{np.count_nonzero(now.inliers):,} of {len(now.inliers):,} matches agree"
+    inliers = sure(now.inliers)
+    return f"{np.count_nonzero(inliers):,} of {len(inliers):,} matches agree"
 
 
 def _off(now: Scanned) -> str:
@@ -141,13 +136,12 @@ def _pictured(state: State, now: Pictured) -> Caption:
                 " two directions are steep."
             )
         case "corners":
-            assert now.uv_first is not None
-            assert now.uv_second is not None
-            count = f"{len(now.uv_first)} left and {len(now.uv_second)} right."
+            left, right = len(sure(now.uv_first)), len(sure(now.uv_second))
+            count = f"{left} left and {right} right."
             text = f"The strongest local maxima are corners: {count}"
             if now.sifts:
                 text = f"{SIFT} {count} A circle is its size, the line in it its main direction."
-            if min(len(now.uv_first), len(now.uv_second)) < 2:
+            if min(left, right) < 2:
                 return Caption(f"{text} That is too few to match.")
             return Caption(text)
         case "patch":
@@ -178,9 +172,8 @@ def _known(state: State, now: Pictured) -> str:
 
 
 def _kept_pictures(state: State, now: Pictured) -> Caption:
-    assert now.pairs is not None
-    assert now.uv_first is not None
-    text = f"Keep {FILTERS[state.params.keep]}: {len(now.pairs)} of {len(now.uv_first)} stay.{_known(state, now)}"
+    kept = f"{len(sure(now.pairs))} of {len(sure(now.uv_first))}"
+    text = f"Keep {FILTERS[state.params.keep]}: {kept} stay.{_known(state, now)}"
     if now.known is None or not now.known.any():
         return Caption(text)
     right = state.right_share > HALF
@@ -202,10 +195,9 @@ def _outlined(state: State, now: Outlined) -> Caption:
         case "histogram":
             return Caption("The histogram of the picked point, and that of its true partner on the other outline.")
         case "costs":
-            assert now.costs is not None
             return Caption(
                 "How different every two histograms are: rows are points of the first outline, columns of the second."
-                f" The true partners cost {float(np.diag(now.costs).mean()):.2f} on average."
+                f" The true partners cost {np.diag(sure(now.costs)).mean():.2f} on average."
             )
         case "matched":
             text = f"One to one, at the least total cost.{_share(state)}"

@@ -12,12 +12,13 @@ from workbench.algorithms.fit_studies import AWAY, FATES, Basin, Lines, Rivals, 
 from workbench.algorithms.least_squares import Descent, Walked
 from workbench.algorithms.robust import LOSSES, Trusted
 from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, RoundShape, feet, outline
+from workbench.certain import sure
 from workbench.data.rims import Rim
 from workbench.data.thinning import every
 from workbench.geometry.algebraic_fits import ALGEBRAIC
 from workbench.geometry.clipping import plane_in_box
 from workbench.geometry.lines_planes import line_angle
-from workbench.geometry.motions import across
+from workbench.geometry.motions import R_ROWS_DOWN, across, motion
 from workbench.geometry.polylines import at_height, between, circle, fan, segments
 from workbench.numerals import angle, brief, fixed
 from workbench.scene import Chart, Classes, Field, Mesh, Picture, Points, Primitive, Role, Scene, Segments, Table
@@ -62,8 +63,7 @@ def _distances(p: np.ndarray, at: np.ndarray) -> Segments:
 
 
 def _walked(state: State, walked: Walked) -> dict[str, Primitive]:
-    subject, now, kind = state.subject, walked.now, state.subject.kind
-    assert kind is not None
+    subject, now, kind = state.subject, walked.now, sure(state.subject.kind)
     scene = _points(subject) | _estimate(kind, now.unknown)
     if np.isfinite(now.unknown).all() and now.phase != "tried":
         scene["distances"] = _distances(subject.p, feet(kind, now.unknown, subject.p))
@@ -108,8 +108,7 @@ def _estimate(kind: RoundShape, unknown: np.ndarray) -> dict[str, Primitive]:
 
 
 def _spread(state: State, now: Spread) -> dict[str, Primitive]:
-    subject, kind, unknown, d = state.subject, state.subject.kind, now.unknown, state.subject.p.shape[1]
-    assert kind is not None
+    subject, kind, unknown, d = state.subject, sure(state.subject.kind), now.unknown, state.subject.p.shape[1]
     scene = _points(subject) | _estimate(kind, unknown)
     axes = np.stack(across(unknown[3:6])) if kind is CYLINDER else np.eye(3)[:2]
     values, vectors = np.linalg.eigh(now.covariance[:2, :2])
@@ -169,14 +168,12 @@ def _photograph(rim: Rim) -> Picture:
     """Lay the photograph under the points: the coin's centre at the origin, its radius 1 m."""
     h, w = rim.photograph.shape[:2]
     right, down = (np.array([w - 1, h - 1]) / 2 - rim.center) / rim.radius
-    T = np.diag([1.0, -1.0, -1.0, 1.0])
-    T[:3, 3] = right, -down, -0.02
-    return Picture(rim.photograph, "Coins", width=w / rim.radius, T_world_object=T)
+    T_world_picture = motion(R_ROWS_DOWN, np.array([right, -down, -0.02]))
+    return Picture(rim.photograph, "Coins", w / rim.radius, T_world_picture)
 
 
 def _lines(state: State, now: Lines) -> dict[str, Primitive]:
-    subject, truth = state.subject, state.subject.truth
-    assert truth is not None
+    subject, truth = state.subject, sure(state.subject.truth)
     scene = _points(subject) | {"true line": Segments(_line(truth), "truth", 3.0, name="truth")}
     names = list(now.lines)
     for name in names:

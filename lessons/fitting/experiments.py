@@ -69,7 +69,7 @@ PRESETS: tuple[Preset[Params], ...] = (
            " that.",
            Params(stage="algebraic", arc=360.0, noise=0.1, points=60), -1),
     Preset("coin", "A sixth of a coin",
-           "The rim of a real coin, 60° of it. Click another coin.",
+           "The rim of a real coin, 60° of it. Compare the radii of the fits with the whole rim's.",
            Params(stage="coin", arc=60.0), 0, breaks=True),
     Preset("line", "Which distance?",
            "A steep line with errors in x and in y: upright, level and perpendicular distances make three lines of it.",

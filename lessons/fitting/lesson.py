@@ -19,6 +19,7 @@ from lessons.fitting.stages import Linearised, Weights, basin, lines, rivals, tr
 from lessons.fitting.state import Now, Params, State
 from lessons.fitting.subjects import subject_of
 from workbench.algorithms.least_squares import DampedStep
+from workbench.certain import sure
 from workbench.lesson import Lesson, Sweep
 
 
@@ -34,8 +35,7 @@ def run(
     subject = subject_of(params, rng)
     found: Iterator[Now]
     if params.stage == "descent":
-        kind = subject.kind
-        assert kind is not None
+        kind = sure(subject.kind)
         found = walk(params, subject, rng, circle_linearised if kind.name == "circle" else kind.linearise, damped_step)
     elif params.stage == "basin":
         found = basin(params, subject)

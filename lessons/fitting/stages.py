@@ -18,6 +18,7 @@ from workbench.algorithms.fit_studies import (
 from workbench.algorithms.least_squares import FIRST_DAMPING, DampedStep, Stop, descend, with_its_way
 from workbench.algorithms.models import PLANE
 from workbench.algorithms.robust import HUBER, LOSSES, Trusted, cascade
+from workbench.certain import sure
 from workbench.data.fit_scenes import arc_points, errors
 from workbench.errors import InputError
 from workbench.geometry.lines_planes import hyperplane_distances
@@ -56,8 +57,7 @@ def walk(
     params: Params, subject: Subject, rng: np.random.Generator, linearise: Linearised, step: DampedStep
 ) -> Iterator[Now]:
     """Yield the moments of a descent, and what its end is worth: made points get other errors, own points are drawn anew."""
-    kind, p, now = subject.kind, subject.p, None
-    assert kind is not None
+    kind, p, now = sure(subject.kind), subject.p, None
     moments = descend(
         lambda unknown: linearise(unknown, p),
         kind.retract,

@@ -57,9 +57,10 @@ def _walked(state: State, walked: Walked) -> Caption:
         )
     if now.phase == "tried":
         promise = square(max(now.cost - now.predicted, 0.0), scale)
+        gain = f", {percent(now.gain)} of the promised change" if now.gain > 0.0 else ""
         return Caption(
             f"The solution of the linear problem, tried out (dashed). It promised {promise} for {cost}; the sum of"
-            f" squares is {square(now.trial_cost, scale)}{_gain(now)}."
+            f" squares is {square(now.trial_cost, scale)}{gain}."
         )
     if now.phase == "accepted":
         rose = f", up from {square(now.before, scale)}: Gauss-Newton takes every step" if now.cost > now.before else ""
@@ -73,10 +74,6 @@ def _walked(state: State, walked: Walked) -> Caption:
         f" {square(now.trial_cost, scale)}. The damping rises to {damping_in_words(now.damping)}: the next one is"
         " shorter."
     )
-
-
-def _gain(now: Descent) -> str:
-    return f", {percent(now.gain)} of the promised change" if now.gain > 0.0 else ""
 
 
 def _stopped(state: State, now: Descent) -> Caption:

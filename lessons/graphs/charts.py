@@ -9,12 +9,19 @@ from workbench.algorithms.graph_network import Layer, Trained
 from workbench.algorithms.spectral_cut import Cut
 from workbench.geometry.graphs import Sparse, degrees
 from workbench.numerals import brief
-from workbench.scene import Chart, Curve, Field, Picture, Primitive, Scalar, Table
+from workbench.scene import Chart, Field, Picture, Primitive, Table
 
 LARGEST = 120  # pixels of a picture of a matrix
 FLOOR = 1e-16
 ROWS = 12
-DEGREES = Chart("Degrees", "neighbours", "nodes")
+HEAT, LOSS, COMPONENTS, CONDUCTANCE = Chart("Heat"), Chart("Loss"), Chart("Components"), Chart("Conductance")
+DEGREES, ONE_WAY = Chart("Degrees", "neighbours", "nodes"), Chart("One-way", unit="%")
+OF_A, OF_L = Chart("Eigenvalues of A", "number"), Chart("Eigenvalues of L", "number")
+EIGENVALUES, ERROR = Chart("Eigenvalues", "number", "λ"), Chart("Error to the truth", unit="%")
+SORTED = Chart("Fiedler vector, sorted", "node in its order")
+CUTS = Chart("Conductance of the cuts", "nodes on the near side")
+RIGHT, SMOOTHED = Chart("Right", unit="%"), Chart("Over-smoothing", unit="%")
+OFF, VOLUME = Chart("Error to the truth", unit="edges"), Chart("Volume", unit="%")
 
 
 def beside(state: State) -> dict[str, Primitive]:
@@ -31,26 +38,26 @@ def beside(state: State) -> dict[str, Primitive]:
             return _cut(state, now)
         case Heat():
             return {
-                "error": Scalar(max(now.error, FLOOR), "error to the exact heat", "Heat", color="truth", log=True),
-                "hottest": Scalar(max(float(np.abs(now.u).max()), FLOOR), "largest heat", "Heat", log=True),
+                "error": HEAT.scalar(max(now.error, FLOOR), "error to the exact heat", "truth", log=True),
+                "hottest": HEAT.scalar(max(float(np.abs(now.u).max()), FLOOR), "largest heat", log=True),
             }
         case Smoothed():
             return _smoothed(state, now)
         case Layer():
             return _layer(state, now)
         case Trained():
-            return _right(state) | {"loss": Scalar(now.loss, "loss of the two labels", "Loss", color="source")}
+            return _right(state) | {"loss": LOSS.scalar(now.loss, "loss of the two labels")}
 
 
 def _grown(now: Grown) -> dict[str, Primitive]:
     d = degrees(now.adjacency.astype(bool).astype(float))
     counts = np.bincount(d.astype(int))
     scene: dict[str, Primitive] = {
-        "components": Scalar(float(now.count), "components", "Components", color="wrong", log=True),
+        "components": COMPONENTS.scalar(float(now.count), "components", "wrong", log=True),
         "degrees": DEGREES.bars(np.arange(len(counts), dtype=float), counts.astype(float), "nodes", "target"),
     }
     if now.k:
-        scene["one-way"] = Scalar(100 * now.one_way, "neighbours not returned", "One-way", "%", "source")
+        scene["one-way"] = ONE_WAY.scalar(100 * now.one_way, "neighbours not returned")
     return scene
 
 
@@ -97,44 +104,41 @@ def _node_table(state: State, now: Matrix) -> Table:
 def _spectrum(state: State, now: Mode) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {}
     if now.spectra:
-        for k, chart in enumerate(("Eigenvalues of A", "Eigenvalues of L")):
+        for k, chart in enumerate((OF_A, OF_L)):
             for which, (spectrum, role) in enumerate(zip(now.spectra, ("target", "source"), strict=True)):
                 values = np.round(spectrum[k], 9) + 0.0
                 x = np.arange(len(values)) + 1.0 + 0.15 * which
                 name = f"{'left' if which == 0 else 'right'} graph"
-                scene[f"{chart} {name}"] = Curve(x, values, name, chart, "number", "", role, "dots")
+                scene[f"{chart.title} {name}"] = chart.dots(x, values, name, role)
         return scene
     number, count = np.arange(len(now.values)) + 1.0, len(now.values)
-    chart = "Eigenvalues"
-    scene["eigenvalues"] = Curve(number, np.round(now.values, 9) + 0.0, "of the graph", chart, "number", "λ",
-                                 "source", "dots", marks=(now.index + 1.0,))  # fmt: skip
+    values, mark = np.round(now.values, 9) + 0.0, now.index + 1.0
+    scene["eigenvalues"] = EIGENVALUES.dots(number, values, "of the graph", marks=(mark,))
     true = state.subject.eigenvalues[:count]
     if len(true) == count and state.params.laplacian in (
         ("plain", "cotangent") if state.subject.of_surface else ("plain",)
     ):
         name = "of the surface" if state.subject.of_surface else "in closed form"
-        scene["true eigenvalues"] = Curve(number, np.round(true, 9) + 0.0, name, chart, "number", "λ", "truth", "line")
+        scene["true eigenvalues"] = EIGENVALUES.curve(number, np.round(true, 9) + 0.0, name, "truth")
         here = float(true[now.index])
         error = 100 * abs(now.values[now.index] - here) / here if here > 1e-9 else np.nan
-        scene["error"] = Scalar(round(float(error), 6), "error of this eigenvalue", "Error to the truth", "%", "truth")
+        scene["error"] = ERROR.scalar(round(float(error), 6), "error of this eigenvalue", "truth")
     return scene
 
 
 def _cut(state: State, now: Cut) -> dict[str, Primitive]:
     scene = _right(state)
     if np.isfinite(now.conductance):
-        scene["conductance"] = Scalar(now.conductance, "conductance", "Conductance", color="source")
+        scene["conductance"] = CONDUCTANCE.scalar(now.conductance, "conductance")
     if len(now.fiedler):
         values = np.sort(now.fiedler)
         x = np.arange(len(values)) + 1.0
         zero = float(np.count_nonzero(values <= 0)) + 0.5
-        scene["sorted"] = Curve(x, np.round(values, 9) + 0.0, "Fiedler vector", "Fiedler vector, sorted",
-                                "node in its order", "", "highlight", marks=(zero,))  # fmt: skip
+        scene["sorted"] = SORTED.curve(x, np.round(values, 9) + 0.0, "Fiedler vector", "highlight", marks=(zero,))
     if len(now.conductances):
         x = np.arange(len(now.conductances)) + 1.0
         mark = () if now.k < 0 else (now.k + 1.0,)
-        scene["cuts"] = Curve(x, now.conductances, "cut edges over the smaller side's degrees", "Conductance of the cuts",
-                              "nodes on the near side", "", "source", marks=mark)  # fmt: skip
+        scene["cuts"] = CUTS.curve(x, now.conductances, "cut edges over the smaller side's degrees", marks=mark)
     return scene
 
 
@@ -142,19 +146,14 @@ def _right(state: State) -> dict[str, Primitive]:
     correct = right(state)
     if correct is None:
         return {}
-    share = 100 * correct / len(state.subject.p)
-    return {"right": Scalar(share, "nodes on their true side", "Right", "%", "truth")}
+    return {"right": RIGHT.scalar(100 * correct / len(state.subject.p), "nodes on their true side", "truth")}
 
 
 def _smoothed(state: State, now: Smoothed) -> dict[str, Primitive]:
-    scene: dict[str, Primitive] = {
-        "error": Scalar(
-            from_clean(state, now.p), "RMS distance to the clean places", "Error to the truth", "edges", "truth"
-        )
-    }
-    share = volume_share(state)
+    off, share = from_clean(state, now.p), volume_share(state)
+    scene: dict[str, Primitive] = {"error": OFF.scalar(off, "RMS distance to the clean places", "truth")}
     if np.isfinite(share):
-        scene["volume"] = Scalar(100 * share, "volume", "Volume", "%", "source")
+        scene["volume"] = VOLUME.scalar(100 * share, "volume")
     return scene
 
 
@@ -162,8 +161,8 @@ def _layer(state: State, now: Layer) -> dict[str, Primitive]:
     scene = _right(state)
     if now.features.shape[1] == 2:
         share = 100 * np.mean(reached(state))
-        scene["reached"] = Scalar(float(share), "nodes that a label has reached", "Right", "%", "correspondence")
-    scene["apart"] = Scalar(100 * apart(state), "what still differs between nodes", "Over-smoothing", "%", "highlight")
+        scene["reached"] = RIGHT.scalar(float(share), "nodes that a label has reached", "correspondence")
+    scene["apart"] = SMOOTHED.scalar(100 * apart(state), "what still differs between nodes", "highlight")
     if len(state.subject.classes) and now.features.shape[1] != 2:
         sums = [now.features[state.subject.classes == which].sum(axis=0) for which in (0, 1)]
         rows = tuple((f"feature {k + 1}", brief(a), brief(b)) for k, (a, b) in enumerate(zip(*sums, strict=True)))

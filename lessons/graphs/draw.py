@@ -10,6 +10,7 @@ from workbench.algorithms.diffusion import Heat, Smoothed
 from workbench.algorithms.graph_network import Layer, Trained
 from workbench.algorithms.spectral_cut import Cut
 from workbench.geometry.graphs import edges_of
+from workbench.geometry.polylines import between
 from workbench.scene import Classes, Color, Field, Mesh, Points, Primitive, Role, Scene, Segments
 
 MOST_EDGES = 12_000
@@ -76,8 +77,7 @@ def _matrix_color(state: State, now: Matrix) -> Color:
     if now.part == "applied":
         return _signed(now.laplacian(state.subject.p[:, 0]), "L applied to x")
     if now.part == "ordered":
-        place = np.empty(len(now.order))
-        place[now.order] = np.arange(len(now.order))
+        place = np.argsort(now.order).astype(float)
         return Field(place, 0.0, max(len(place) - 1.0, 1.0), "place in the new order")
     if now.part == "degrees":
         d = now.laplacian.matrix.diagonal()
@@ -118,8 +118,7 @@ def _marks(state: State, p: np.ndarray) -> dict[str, Primitive]:
         )
         near = state.adjacency[[node]].indices
         if isinstance(now, Matrix | Layer) and len(near):
-            ends = np.stack([np.repeat(p[[node]], len(near), axis=0), p[near]], axis=1) + 2 * under
-            scene["its edges"] = Segments(ends, "highlight", 3.0, name="its edges")
+            scene["its edges"] = Segments(between(p[node], p[near]) + 2 * under, "highlight", 3.0, name="its edges")
     told, classes = predicted(state), subject.classes
     if len(told) and len(classes) and not isinstance(now, Cut):
         misses = (told != classes) & (told >= 0) & reached(state)

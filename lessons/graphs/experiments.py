@@ -7,6 +7,7 @@ import numpy as np
 from lessons.graphs.measures import right, volume_share
 from lessons.graphs.state import Grown, Params, State
 from workbench.algorithms.diffusion import Heat, Smoothed
+from workbench.certain import as_a, sure
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import counted, fixed_or_power, percent
 
@@ -45,13 +46,14 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "split", "Two pieces, no cut",
-        "Without a bridge 0 is an eigenvalue twice. Any mixture of the two constants is a second eigenvector: turn"
-        " `numbering`.",
+        "Without a bridge 0 is an eigenvalue twice. Any mixture of the two constants is a second eigenvector: with other"
+        " numbers for the nodes the cut is another.",
         Params(points=200, bridge=0, numbering=4), SIGN, breaks=True,
     ),
     Preset(
         "square", "Equal eigenvalues",
-        "On a square grid two eigenvectors share λ₂, and any mixture is one too: turn `numbering`, and the cut turns.",
+        "On a square grid two eigenvectors share λ₂, and any mixture is one too: with other numbers for the"
+        " nodes the cut turns.",
         Params(graph="grid", columns=10, numbering=2), SIGN, breaks=True,
     ),
     Preset(
@@ -101,7 +103,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "layer", "One layer, in parts",
-        "Two members of the karate club have a label. See in the table what the one you click gathers from its friends.",
+        "Two members of the karate club have a label. See in the table what the purple node gathers from its friends.",
         Params(graph="karate", stage="network"), 3,
     ),
     Preset(
@@ -128,21 +130,17 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 
 def _components(states: Sequence[State]) -> int:
-    now = states[-1].now
-    assert isinstance(now, Grown)
+    now = as_a(Grown, states[-1].now)
     return now.count
 
 
 def _hottest(states: Sequence[State]) -> float:
-    now = states[-1].now
-    assert isinstance(now, Heat)
+    now = as_a(Heat, states[-1].now)
     return float(np.abs(now.u).max())
 
 
 def _right(states: Sequence[State], step: int = -1) -> int:
-    correct = right(states[step])
-    assert correct is not None
-    return correct
+    return sure(right(states[step]))
 
 
 def _volume(states: Sequence[State]) -> float:

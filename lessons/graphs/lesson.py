@@ -5,20 +5,23 @@ eigenvector finds the bridge, though not always by its sign; steps of L smooth u
 of a graph network is one such step and a learned matrix, so that many layers make all nodes alike.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 
 from lessons.graphs.draw import draw
 from lessons.graphs.experiments import PRESETS, QUESTIONS, VIEW
-from lessons.graphs.stages import STAGES, Functions, Neighbours, OfMatrix
+from lessons.graphs.stages import Functions, states
 from lessons.graphs.state import Params, State
 from lessons.graphs.subjects import subject_of
 from workbench.algorithms.graph_network import GcnLayer
 from workbench.errors import InputError
 from workbench.geometry import graphs
 from workbench.lesson import Lesson, Sweep
+
+OfMatrix = Callable[[np.ndarray], np.ndarray]
+Neighbours = Callable[[np.ndarray, int], np.ndarray]
 
 
 def run(
@@ -31,7 +34,7 @@ def run(
     """Yield the steps of one stage; above 2,000 nodes, too many for dense matrices, without these functions."""
     functions = Functions(laplacian=laplacian, knn_adjacency=knn_adjacency, gcn_layer=gcn_layer)
     try:
-        yield from STAGES[params.stage](params, subject_of(params), functions)
+        yield from states(params, subject_of(params), functions)
     except np.linalg.LinAlgError:
         raise InputError(
             "of this matrix no eigenvectors were found: is it symmetric, and are its rows' sums 0?"

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import scipy
 
-from lessons.graphs.state import ITERATIONS, PAIRS, Grown, Matrix, Mode, Params, State, Subject
+from lessons.graphs.state import ITERATIONS, PAIRS, Grown, Matrix, Mode, Now, Params, State, Subject
 from workbench.algorithms.diffusion import heat, smooth
 from workbench.algorithms.graph_network import GcnLayer, spread, train
 from workbench.algorithms.spectral_cut import spectral_cut
+from workbench.certain import as_a
 from workbench.errors import InputError
 from workbench.geometry import graphs
 from workbench.geometry.graphs import Sparse
@@ -23,24 +24,20 @@ MOST_DENSE = 2000  # nodes of which whole matrices are made: 32 MB each
 TAUBIN = 0.526  # the share of the way back: 1 / 0.5 - 1 / 0.526 = 0.099 is where smoothing begins
 HIDDEN, EVERY = 8, 10
 
-OfMatrix = Callable[[np.ndarray], np.ndarray]
-Neighbours = Callable[[np.ndarray, int], np.ndarray]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Functions:
     """What students may write."""
 
-    laplacian: OfMatrix
-    knn_adjacency: Neighbours
+    laplacian: Callable[[np.ndarray], np.ndarray]
+    knn_adjacency: Callable[[np.ndarray, int], np.ndarray]
     gcn_layer: GcnLayer
 
 
-def graph_steps(params: Params, subject: Subject, functions: Functions) -> Iterator[State]:
+def graph_steps(params: Params, subject: Subject, functions: Functions) -> Iterator[Grown]:
     """Yield the graph as it grows: neighbour by neighbour, or as a list of edges is read."""
-    steps = params.k if subject.edges is None else 4
-    sizes = range(1, steps + 1) if subject.edges is None else range(steps + 1)
-    yield from _states(params, subject, grow(params, subject, functions, sizes))
+    sizes = range(1, params.k + 1) if subject.edges is None else range(5)
+    return grow(params, subject, functions, sizes)
 
 
 @traced
@@ -97,11 +94,10 @@ def laplacian_of(params: Params, subject: Subject, adjacency: Sparse, functions:
     return Laplacian(matrix, np.where(d > 0, d, 1.0) if params.laplacian == "normalised" else np.ones(len(d)))
 
 
-def matrix_steps(params: Params, subject: Subject, functions: Functions) -> Iterator[State]:
+def matrix_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
     """Yield A, D, L = D - A, L applied to a function of the nodes, and L with its nodes in a better order."""
-    adjacency = adjacency_of(params, subject, functions)
     laplacian = laplacian_of(params, subject, adjacency, functions)
-    yield from _states(params, subject, matrices(laplacian, len(subject.p)), adjacency)
+    return matrices(laplacian, len(subject.p))
 
 
 @traced
@@ -119,17 +115,11 @@ def matrices(laplacian: Laplacian, count: int) -> Iterator[Matrix]:
     yield Matrix(part="ordered", laplacian=laplacian, shown=L[order][:, order], order=order)
 
 
-def spectrum_steps(params: Params, subject: Subject, functions: Functions) -> Iterator[State]:
+def spectrum_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
     """Yield eigenvectors one by one, slow ones first."""
-    adjacency = adjacency_of(params, subject, functions)
     laplacian = laplacian_of(params, subject, adjacency, functions)
-    steps = modes(
-        laplacian,
-        min(params.modes, len(subject.p)),
-        of_unit_sphere(params, subject),
-        spectra(params, subject, adjacency),
-    )
-    yield from _states(params, subject, steps, adjacency)
+    pair = spectra(params, subject, adjacency)
+    return modes(laplacian, min(params.modes, len(subject.p)), of_unit_sphere(params, subject), pair)
 
 
 @traced
@@ -155,26 +145,23 @@ def spectra(params: Params, subject: Subject, adjacency: Sparse) -> tuple[tuple[
     return tuple((np.linalg.eigvalsh(A), np.linalg.eigvalsh(graphs.laplacian(A))) for A in dense)
 
 
-def cut_steps(params: Params, subject: Subject, functions: Functions) -> Iterator[State]:
+def cut_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
     """Yield the Fiedler vector and the cuts that it gives."""
-    adjacency = adjacency_of(params, subject, functions)
     laplacian = laplacian_of(params, subject, adjacency, functions)
-    yield from _states(params, subject, spectral_cut(adjacency, laplacian), adjacency)
+    return spectral_cut(adjacency, laplacian)
 
 
-def heat_steps(params: Params, subject: Subject, functions: Functions) -> Iterator[State]:
+def heat_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
     """Yield heat that flows from the node that is looked at."""
-    adjacency = adjacency_of(params, subject, functions)
     laplacian = laplacian_of(params, subject, adjacency, functions)
     u = np.zeros(len(subject.p))
     u[subject.front if params.vertex < 0 else params.vertex % len(u)] = 1.0
     dt = params.step_size / max(laplacian.largest(), 1e-12)
-    yield from _states(params, subject, heat(u, laplacian, dt, params.steps), adjacency)
+    return heat(u, laplacian, dt, params.steps)
 
 
-def smooth_steps(params: Params, subject: Subject, functions: Functions) -> Iterator[State]:
+def smooth_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
     """Yield the nodes' places, roughened by noise, as they are smoothed."""
-    adjacency = adjacency_of(params, subject, functions)
     if (graphs.degrees(adjacency) <= 0).any():
         raise InputError("a node without neighbours has no mean to move to: raise k, or take another graph")
     sigma = params.noise * edge_length(subject, adjacency)
@@ -182,7 +169,7 @@ def smooth_steps(params: Params, subject: Subject, functions: Functions) -> Iter
     if subject.flat:
         noise[:, 2] = 0.0
     outward = TAUBIN if params.filter == "taubin" else 0.0
-    yield from _states(params, subject, smooth(subject.p + noise, adjacency, params.steps, outward=outward), adjacency)
+    return smooth(subject.p + noise, adjacency, params.steps, outward=outward)
 
 
 def edge_length(subject: Subject, adjacency: Sparse) -> float:
@@ -191,28 +178,25 @@ def edge_length(subject: Subject, adjacency: Sparse) -> float:
     return float(np.linalg.norm(subject.p[a] - subject.p[b], axis=1).mean()) if len(a) else 1.0
 
 
-def network_steps(params: Params, subject: Subject, functions: Functions) -> Iterator[State]:
+def network_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
     """Yield a network's features: two labels that spread, or of a pair of graphs what messages make of equal nodes."""
-    adjacency = adjacency_of(params, subject, functions)
     dense = _dense(adjacency)
     if params.graph in PAIRS and len(subject.classes):
         features, rng = np.ones((len(dense), 4)), np.random.default_rng(params.seed)
         weights = [rng.normal(size=(4, 4)) for _ in range(params.layers)]
     else:
         features, weights = _labels(subject), [np.eye(2)] * params.layers
-    steps = spread(dense, features, weights, gcn_layer=functions.gcn_layer)
-    yield from _states(params, subject, steps, adjacency)
+    return spread(dense, features, weights, gcn_layer=functions.gcn_layer)
 
 
-def training_steps(params: Params, subject: Subject, functions: Functions) -> Iterator[State]:
+def training_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
     """Yield a network of one layer or more while it learns two labels, every tenth iteration."""
-    adjacency = adjacency_of(params, subject, functions)
     dense, rng, n = _dense(adjacency), np.random.default_rng(params.seed), len(subject.p)
     sizes = [n, *[HIDDEN] * (max(params.layers, 1) - 1), 2]
     weights = [rng.normal(size=(a, b)) * np.sqrt(2 / (a + b)) for a, b in pairwise(sizes)]
     steps = train(dense, np.eye(n), weights, np.array(subject.labelled), np.array([0, 1]),
                   iterations=ITERATIONS, gcn_layer=functions.gcn_layer)  # fmt: skip
-    yield from _states(params, subject, (now for now in steps if now.iteration % EVERY == 0), adjacency)
+    return (now for now in steps if now.iteration % EVERY == 0)
 
 
 def _labels(subject: Subject) -> np.ndarray:
@@ -234,17 +218,21 @@ def _finite(name: str, answer: Any) -> np.ndarray:
     return matrix
 
 
-def _states(params: Params, subject: Subject, steps: Iterable[Any], adjacency: Sparse | None = None) -> Iterator[State]:
-    """Yield what an algorithm yields as states."""
-    first = None
+def states(params: Params, subject: Subject, functions: Functions) -> Iterator[State]:
+    """Yield what a stage yields as states; all but the growing graph are about a whole one."""
+    first = whole = None
+    if params.stage == "graph":
+        steps = graph_steps(params, subject, functions)
+    else:
+        whole = adjacency_of(params, subject, functions)
+        steps = STAGES[params.stage](params, subject, whole, functions)
     for now in steps:
         first = now if first is None else first
-        graph = now.adjacency if adjacency is None else adjacency
+        graph = as_a(Grown, now).adjacency if whole is None else whole
         yield State(params=params, subject=subject, adjacency=graph, now=now, first=first)
 
 
-STAGES: dict[str, Callable[[Params, Subject, Functions], Iterator[State]]] = {
-    "graph": graph_steps,
+STAGES: dict[str, Callable[[Params, Subject, Sparse, Functions], Iterator[Now]]] = {
     "matrix": matrix_steps,
     "spectrum": spectrum_steps,
     "cut": cut_steps,

@@ -59,10 +59,9 @@ def _matrix(state: State, now: Matrix) -> str:
     called, d = state.subject.called(v), brief(float(L[[v], [v]].sum()))
     entries = counted(len(edges_of(state.adjacency)), "edge")
     if now.part == "adjacency":
+        filled = state.adjacency.nnz / state.adjacency.shape[0] ** 2
         kind = "the cotangent weight of its edge" if state.params.laplacian == "cotangent" else "the weight of its edge"
-        return (
-            f"A: the entry of two nodes is {kind}, else 0. {entries} fill {percent(_filled(state), 1)} of the matrix."
-        )
+        return f"A: the entry of two nodes is {kind}, else 0. {entries} fill {percent(filled, 1)} of the matrix."
     if now.part == "degrees":
         return f"D: on the diagonal the sum of each row of A, the degree. That of node {called} is {d}."
     if now.part == "laplacian":
@@ -76,22 +75,12 @@ def _matrix(state: State, now: Matrix) -> str:
             f" Over all nodes xᵀ L x = {brief(float(x @ (L @ x)))} is the sum of the edges' squared differences."
         )
     a, b = edges_of(state.adjacency).T
-    places = np.arange(len(now.order)), _places(now.order)
+    places = np.arange(len(now.order)), np.argsort(now.order)
     before, after = (brief(float(np.abs(place[a] - place[b]).mean()), 2) for place in places)
     return (
         "The same matrix with its nodes in the order of the second eigenvector of L: joined nodes come to stand together,"
         f" {after} places apart on average, where it was {before}."
     )
-
-
-def _filled(state: State) -> float:
-    return state.adjacency.nnz / state.adjacency.shape[0] ** 2
-
-
-def _places(order: np.ndarray) -> np.ndarray:
-    place = np.empty(len(order))
-    place[order] = np.arange(len(order))
-    return place
 
 
 def _mode(state: State, now: Mode) -> str:
@@ -216,8 +205,7 @@ def _layer(state: State, now: Layer) -> str:
             f"Gathered: node {called} has ({said}). W is the identity here and nothing is negative, so ReLU leaves it."
         )
     heard, correct = int(np.count_nonzero(reached(state))), right(state)
-    text = f"Layer {now.layer}: the labels have reached {'all ' if heard == n else ''}{heard:,} of {n:,} nodes"
-    text = text.replace(f"all {n:,} of {n:,} nodes", f"all {n:,} nodes")
+    text = f"Layer {now.layer}: the labels have reached {'all' if heard == n else f'{heard:,} of'} {n:,} nodes"
     text += "" if correct is None else f"; {correct:,} are right"
     return f"{text}. {percent(apart(state))} of the features still tell nodes apart."
 

@@ -10,7 +10,7 @@ from workbench.geometry.alignment import MotionError
 from workbench.geometry.motions import apply, inverse
 from workbench.geometry.polylines import between
 from workbench.numerals import angle, length
-from workbench.scene import Chart, Classes, Color, Curve, Label, Points, Primitive, Role, Scalar, Scene, Segments
+from workbench.scene import Chart, Classes, Color, Curve, Label, Points, Primitive, Role, Scene, Segments
 
 MOST_LINES = 750, 200  # of small clouds and of large ones, whose recordings the lines would fill
 LARGE = 5000
@@ -18,6 +18,7 @@ TIP, DIAL = 0.62, 0.7  # metres of the picture from its middle: of the arrows, a
 ARROW = np.array([[[0.0, 0.0, 0.0], [TIP, 0.0, 0.0]], [[TIP, 0.0, 0.0], [0.54, 0.035, 0.0]],
                   [[TIP, 0.0, 0.0], [0.54, -0.035, 0.0]]])  # fmt: skip
 RMSE, OVERLAP = Chart("RMSE", unit="m"), Chart("Overlap", unit="%")
+TURN, SHIFT = Chart("Rotation error", unit="deg"), Chart("Translation error", unit="m")
 BASIN_TURNS = Chart("Basin: final rotation error", "start angle (deg)", "deg")
 BASIN_METRES = Chart("Basin: final RMSE and final distance", "start angle (deg)", "m")
 HALF = np.radians(0.42 * (ANGLES[1] - ANGLES[0]))  # of a start's arc on the dial
@@ -103,10 +104,8 @@ def _curves(state: State) -> dict[str, Primitive]:
     if params.fit == "point-to-plane":
         curves["residual"] = RMSE.scalar(now.residual, "to tangent planes", "other")
     if state.known:  # the truth stands beside what is minimised
-        curves["rotation error"] = Scalar(state.error.rotation, "rotation error", "Rotation error", "deg", "truth")
-        curves["translation error"] = Scalar(
-            state.error.translation, "translation error", "Translation error", "m", "truth"
-        )
+        curves["rotation error"] = TURN.scalar(state.error.rotation, "rotation error", "truth")
+        curves["translation error"] = SHIFT.scalar(state.error.translation, "translation error", "truth")
     curves["kept"] = OVERLAP.scalar(100 * now.overlap, "kept")
     if state.known:
         guessed = now.iteration == 1 and now.phase == "match"  # a question asks for it

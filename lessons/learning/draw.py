@@ -28,7 +28,7 @@ ALONG = Chart("Weights along the ray", "distance from the camera (m)", "weight")
 T_WORLD_FIELD = np.diag([1.0, -1.0, -1.0, 1.0])  # rows of the picture run along -y
 GAP, STRIP = 2.3, 6
 LIFT = np.array([0.0, 0.0, 0.02])
-UNIT = np.column_stack([circle(), np.zeros(65)])
+UNIT = at_height(circle())
 
 
 def draw(state: State) -> Scene:

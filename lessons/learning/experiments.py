@@ -9,6 +9,7 @@ from lessons.learning.words import shares_right
 from workbench.algorithms.point_net import Classified
 from workbench.algorithms.rotation_regression import Regressed
 from workbench.algorithms.set_regression import SetLearned
+from workbench.certain import as_a
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import angle, fixed, percent
 
@@ -99,7 +100,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "stray", "One stray point",
-        "One point of each cloud is moved away. Drag it. Purple points are those that the maximum listens to.",
+        "One point of each cloud is moved away. Purple points are those that the maximum listens to.",
         STRAY, 0, ROW, breaks=True,
     ),
     Preset(
@@ -119,7 +120,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "many", "Twenty-four photographs",
-        "From all around: what fits all of them has hardly a choice left. Click a pixel of the new view.",
+        "From all around: what fits all of them has hardly a choice left. Look at the weights along a ray of the new view.",
         MANY, 0, FLAT,
     ),
 )  # fmt: skip
@@ -127,9 +128,7 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 def regressed(states: Sequence[State]) -> tuple[Turns, Regressed]:
     """Return the last state of a run on turns."""
-    about, now = states[-1].about, states[-1].now
-    assert isinstance(about, Turns)
-    assert isinstance(now, Regressed)
+    about, now = as_a(Turns, states[-1].about), as_a(Regressed, states[-1].now)
     return about, now
 
 
@@ -147,23 +146,18 @@ def _cut_why(states: Sequence[State]) -> str:
 
 
 def _radius(states: Sequence[State]) -> tuple[float, float]:
-    now = states[-1].now
-    assert isinstance(now, SetLearned)
+    now = as_a(SetLearned, states[-1].now)
     radii = np.linalg.norm(now.p, axis=1)
     return float(radii.mean()), float(radii.std())
 
 
 def _named(states: Sequence[State]) -> tuple[float, float]:
-    now, about = states[-1].now, states[-1].about
-    assert isinstance(now, Classified)
-    assert isinstance(about, Clouds)
+    now, about = as_a(Classified, states[-1].now), as_a(Clouds, states[-1].about)
     return shares_right(now, about)
 
 
 def _signals(states: Sequence[State]) -> Looks:
-    about = states[-1].about
-    assert isinstance(about, Looks)
-    return about
+    return as_a(Looks, states[-1].about)
 
 
 QUESTIONS: tuple[Question[Params, State], ...] = (

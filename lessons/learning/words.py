@@ -35,11 +35,10 @@ def _told(state: State) -> tuple[str, float, float, float]:
     """Return the sentence, and a number with where it is right and where it is wrong."""
     now, params, about = state.now, state.params, state.about
     done = "Untrained" if now.updates == 0 else f"After {counted(now.updates, 'update')}"
-    match now:
-        case Regressed():
-            assert isinstance(about, Turns)
+    match now, about:
+        case Regressed(), Turns():
             return f"{done}: {_of_turns(params, about, now)}", float(now.errors.max()), NEAR, FAR
-        case SetLearned():
+        case SetLearned(), _:
             radii = np.linalg.norm(now.p, axis=1)
             text = (
                 f"{done}: {params.set_loss} loss {fixed(now.loss, 3)} m². The {len(now.p)} points have radii from"
@@ -47,16 +46,14 @@ def _told(state: State) -> tuple[str, float, float, float]:
                 f" spread of {fixed(radii.std(), 3)} m."
             )
             return text, float(radii.std()), ROUND, SMEARED
-        case MeshFitted():
-            assert isinstance(about, Target)
+        case MeshFitted(), Target():
             text = (
                 f"{done}: {brief(1e6 * now.to_given, 3)} mm² from the given points of {about.name},"
                 f" {brief(1e6 * now.to_truth, 3)} mm² from its true surface (Chamfer). Folded by over 90°:"
                 f" {percent(now.folded)} of the edges."
             )
             return text, now.folded, SMOOTH, CRUMPLED
-        case Classified():
-            assert isinstance(about, Clouds)
+        case Classified(), Clouds():
             plain, changed = shares_right(now, about)
             if now.updates == 0:
                 return (
@@ -69,13 +66,13 @@ def _told(state: State) -> tuple[str, float, float, float]:
             if changes := changes_of(params):
                 text += f". {changes}: {percent(changed, 0)}"
             return f"{text}.", changed, KNOWN, LOST
-        case Reconstructed():
-            assert isinstance(about, Looks)
+        case Reconstructed(), Looks():
             text = (
                 f"{done}: the {params.views} photographs are matched with {fixed(about.trained, 1)} dB, new views with"
                 f" {fixed(about.unseen, 1)} dB. Density and discs share {percent(about.overlap, 0)} of what they cover."
             )
             return text, about.unseen, CLEAR, BLIND
+    raise AssertionError
 
 
 def _of_turns(params: Params, about: Turns, now: Regressed) -> str:

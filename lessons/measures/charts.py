@@ -10,14 +10,12 @@ from workbench.numerals import percent
 from workbench.scene import Chart, Primitive, Role, Table
 
 FLOOR = 1e-4  # per cent: what lies below is rounding
-LOG_ERROR, CELLS = "log₁₀ error (%)", "log₂ cells across"
-
 LANTERN = Chart("Area over that of the cylinder", "log₁₀ sectors", "log₁₀ times")
-FINER = Chart("Error of ever finer meshes", "log₁₀ faces", LOG_ERROR)
-OFF_VOLUME = Chart("Error of the volume", CELLS, LOG_ERROR)
-AREAS = Chart("Area over the true area", CELLS, "times")
-FROM_MIDDLE = Chart("Distance from the surface's middle", unit="% of the diagonal")
-IN_HALF = Chart("Points in the half of small faces", unit="%")
+FINER = Chart("Error of ever finer meshes", "log₁₀ faces", "log₁₀ error (%)")
+CELLS = Chart("Error of the volume", "log₂ cells across", "log₁₀ error (%)")
+AREAS = Chart("Area over the true area", "log₂ cells across", "times")
+GAP = Chart("Distance from the surface's middle", unit="% of the diagonal")
+HALF = Chart("Points in the half of small faces", unit="%")
 HITS = Chart("Hits by dimension", "dimensions", "log₁₀ hits")
 
 
@@ -38,9 +36,8 @@ def beside(state: State) -> dict[str, Primitive]:
 
 
 def _running(state: State, volume: float, area: float) -> dict[str, Primitive]:
-    subject = state.subject
+    subject, scene = state.subject, dict[str, Primitive]()
     volumes, areas = Chart("Volume", unit=f"{subject.unit}³"), Chart("Area", unit=f"{subject.unit}²")
-    scene: dict[str, Primitive] = {}
     if np.isfinite(subject.volume):
         scene["volume"] = volumes.scalar(volume, "volume")
         scene["true volume"] = volumes.scalar(subject.volume, "truth", "truth")
@@ -70,7 +67,7 @@ def _finer(study: Study, lantern: bool) -> dict[str, Primitive]:
     x, chart = np.log10(study.faces), LANTERN if lantern else FINER
     scene: dict[str, Primitive] = {}
     for (name, values), role in zip(study.errors.items(), roles, strict=False):
-        y = np.log10(values) if lantern else _log_error(values)
+        y = np.log10(values) if lantern else _log(values)
         scene[f"finer {name}"] = chart.curve(x, np.round(y, 9) + 0.0, name, role)
     if lantern:
         scene["finer truth"] = chart.curve(x, np.zeros(len(x)), "truth", "truth")
@@ -79,31 +76,30 @@ def _finer(study: Study, lantern: bool) -> dict[str, Primitive]:
 
 def _cells(state: State, now: Cells) -> dict[str, Primitive]:
     subject, x = state.subject, np.log2(now.across)
-    off_volume = np.abs(np.array(now.volumes) / subject.volume - 1)
     return {
-        "volume errors": OFF_VOLUME.dots(x, _log_error(off_volume), "volume"),
+        "volume errors": CELLS.dots(x, _log(np.abs(np.array(now.volumes) / subject.volume - 1)), "volume"),
         "wall areas": AREAS.curve(x, np.array(now.areas) / subject.area, "walls of cells"),
         "marched areas": AREAS.curve(x, np.array(now.marched) / subject.area, "marching cubes", "other"),
         "true areas": AREAS.curve(x, np.ones(len(x)), "truth", "truth"),
     }
 
 
-def _log_error(error: np.ndarray) -> np.ndarray:
+def _log(error: np.ndarray) -> np.ndarray:
     return np.log10(np.maximum(100 * error, FLOOR))
 
 
 def _by_chance(estimates: Estimates, true: float, what: str, unit: str, drawn: str) -> dict[str, Primitive]:
+    sums = Chart(f"{what} by {drawn}", f"log₁₀ {drawn}", unit)
+    off_by = Chart(f"Error by {drawn}", f"log₁₀ {drawn}", "log₁₀ error (%)")
     x, values, errors = np.log10(estimates.counts), np.array(estimates.values), np.array(estimates.errors)
-    chart = Chart(f"{what} by {drawn}", f"log₁₀ {drawn}", unit)
-    error = Chart(f"Error by {drawn}", f"log₁₀ {drawn}", LOG_ERROR)
     expected = np.where(errors > 0, errors, np.nan) / true
     return {
-        "estimate": chart.curve(x, values, "estimate"),
-        "upper": chart.curve(x, values + SURE * errors, "95 % interval", "correspondence"),
-        "lower": chart.curve(x, values - SURE * errors, "its lower end", "correspondence"),
-        "truth": chart.curve(x, np.full(len(x), true), "truth", "truth"),
-        "errors": error.dots(x, _log_error(np.abs(values / true - 1)), "error", "wrong"),
-        "standard errors": error.curve(x, np.log10(100 * expected), "standard error, random"),
+        "estimate": sums.curve(x, values, "estimate"),
+        "upper": sums.curve(x, values + SURE * errors, "95 % interval", "correspondence"),
+        "lower": sums.curve(x, values - SURE * errors, "its lower end", "correspondence"),
+        "truth": sums.curve(x, np.full(len(x), true), "truth", "truth"),
+        "errors": off_by.dots(x, _log(np.abs(values / true - 1)), "error", "wrong"),
+        "standard errors": off_by.curve(x, np.log10(100 * expected), "standard error, random"),
     }
 
 
@@ -114,16 +110,15 @@ def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
         return {"quarters table": Table("Points in the quarters", ("", "share", "of the area"), rows)}
     gap = 100 * float(np.linalg.norm(now.mean - state.middle)) / state.subject.diagonal
     return {
-        "gap": FROM_MIDDLE.scalar(gap, "mean of the points", "wrong"),
-        "half": IN_HALF.scalar(100 * state.half_hits, "points"),
-        "true half": IN_HALF.scalar(100 * state.half_share, "area", "truth"),
+        "gap": GAP.scalar(gap, "mean of the points", "wrong"),
+        "half": HALF.scalar(100 * state.half_hits, "points"),
+        "true half": HALF.scalar(100 * state.half_share, "area", "truth"),
     }
 
 
 def _balls(now: Balls) -> dict[str, Primitive]:
     x, hits = np.array(now.dimensions, float), np.array(now.hits, float)
-    expected = np.log10(now.throws * np.array(now.shares))
     return {
-        "expected hits": HITS.curve(x, expected, "expected", "truth"),
+        "expected hits": HITS.curve(x, np.log10(now.throws * np.array(now.shares)), "expected", "truth"),
         "hits": HITS.dots(x, np.log10(np.where(hits > 0, hits, np.nan)), "hits"),
     }

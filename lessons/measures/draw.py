@@ -5,12 +5,14 @@ import functools
 import numpy as np
 
 from lessons.measures.charts import beside
-from lessons.measures.samples import TRIANGLE
+from lessons.measures.samples import TRIANGLE, at_corners
 from lessons.measures.state import State, Subject
 from lessons.measures.words import caption
 from workbench.algorithms.measures import Cells, Sums
 from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
-from workbench.geometry.meshes import edges
+from workbench.data.thinning import every
+from workbench.geometry.meshes import boundary_edges, edges
+from workbench.geometry.polylines import between
 from workbench.geometry.voxels import counted_surface
 from workbench.scene import Classes, Label, Mesh, Points, Primitive, Scene, Segments
 
@@ -71,13 +73,12 @@ def _faces(state: State, now: Sums) -> dict[str, Primitive]:
         scene["border"] = Segments(_rim(subject), "highlight", 4, name="border of the hole")
     new = now.order[now.count - now.new : now.count]
     if len(new) and now.count < len(faces):
-        few = new[:: -(-3 * len(new) // MOST_RAYS)]
+        few = new[every(3 * len(new), MOST_RAYS)]
         corners = p.reshape(-1, 3, 3)[few].reshape(-1, 3)
         sign = Classes(
             np.repeat(added[few] == 2, 3).astype(np.uint8), ("target", "wrong"), ("counts plus", "counts minus")
         )
-        rays = np.stack([np.broadcast_to(origin, corners.shape), corners], axis=1)
-        scene["tetrahedra"] = Segments(rays, sign, 1.5, name="tetrahedra")
+        scene["tetrahedra"] = Segments(between(origin, corners), sign, 1.5, name="tetrahedra")
     return scene
 
 
@@ -89,18 +90,16 @@ def _edges(subject: Subject) -> np.ndarray:
 @functools.lru_cache(maxsize=4)
 def _rim(subject: Subject) -> np.ndarray:
     """Return the edges of the whole mesh that have a face on one side only here."""
-    ends = np.sort(subject.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    edges, times = np.unique(ends, axis=0, return_counts=True)
-    return subject.scale * subject.p[edges[times == 1]]
+    return _shown(subject)[np.unique(np.sort(boundary_edges(subject.faces), axis=1), axis=0)]
 
 
 def _cells(state: State, now: Cells) -> dict[str, Primitive]:
     subject = state.subject
     bits, grid = now.bits, now.grid
-    every = -(-max(bits.shape) // MOST_SHOWN)
-    if every > 1:
-        bits = bits[every // 2 :: every, every // 2 :: every, every // 2 :: every]
-        grid = type(grid)(grid.low, every * grid.spacing, bits.shape)
+    step = -(-max(bits.shape) // MOST_SHOWN)
+    if step > 1:
+        bits = bits[step // 2 :: step, step // 2 :: step, step // 2 :: step]
+        grid = type(grid)(grid.low, step * grid.spacing, bits.shape)
     scene: dict[str, Primitive] = {"surface": _faint(subject, 0.3)}
     if bits.any():
         p, faces = counted_surface(bits, grid)
@@ -140,9 +139,7 @@ def _lines(state: State, now: Lines) -> dict[str, Primitive]:
 
 def _triangle(now: Sampled) -> dict[str, Primitive]:
     a, b, c = TRIANGLE
-    inner = np.array([a + b, b + c, c + a]) / 2
-    weights = np.linalg.lstsq(np.stack([b - a, c - a], axis=1), (now.q - a).T)[0].T
-    corner = np.column_stack([1 - weights.sum(axis=1), weights]) > 0.5
+    inner, corner = np.array([a + b, b + c, c + a]) / 2, at_corners(now.q)
     which = np.where(corner.any(axis=1), corner.argmax(axis=1), 3).astype(np.uint8)
     color = Classes(which, ("source", "other", "highlight", "neutral"), ("at a", "at b", "at c", "in the middle"))
     back, middle = np.array([0.0, 0.01, 0.0]), TRIANGLE.mean(axis=0)

@@ -7,6 +7,7 @@ import numpy as np
 from lessons.measures.state import Params, State
 from workbench.algorithms.measures import Cells, Sums
 from workbench.algorithms.monte_carlo import Balls, Throws
+from workbench.certain import as_a
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import brief, fixed, percent
 
@@ -32,7 +33,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "hole", "A hole",
         "1 % of the triangles is cut out, on the side you see. From an origin one diagonal behind, 7 % of the volume go with"
-        " them. Drag the origin: every place has its own number.",
+        " them. Every origin has its own number.",
         HOLE, 15, BEHIND, breaks=True,
     ),
     Preset(
@@ -119,15 +120,12 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 def sums_of(states: Sequence[State]) -> Sums:
     """Return all faces added up."""
-    now = next(state.now for state in reversed(states) if state.study is None)
-    assert isinstance(now, Sums)
-    return now
+    return as_a(Sums, next(state.now for state in reversed(states) if state.study is None))
 
 
 def _walls(states: Sequence[State]) -> list[float]:
     """Return the area of the walls over the true area, grid by grid."""
-    now = states[-1].now
-    assert isinstance(now, Cells)
+    now = as_a(Cells, states[-1].now)
     return [area / states[-1].subject.area for area in now.areas]
 
 
@@ -146,8 +144,7 @@ def _walls_why(states: Sequence[State]) -> str:
 
 def _tenth(states: Sequence[State]) -> float:
     """Return how many times as many throws divide the standard error of a thousand by ten."""
-    now = states[-1].now
-    assert isinstance(now, Throws)
+    now = as_a(Throws, states[-1].now)
     counts, errors = np.array(now.estimates.counts), np.array(now.estimates.errors)
     start = int(np.argmin(np.abs(counts - 1000)))
     end = int(np.argmin(np.abs(errors - errors[start] / 10)))
@@ -155,8 +152,7 @@ def _tenth(states: Sequence[State]) -> float:
 
 
 def _tenth_why(states: Sequence[State]) -> str:
-    now = states[-1].now
-    assert isinstance(now, Throws)
+    now = as_a(Throws, states[-1].now)
     share = dict(zip(now.estimates.counts, np.array(now.estimates.errors) / states[-1].subject.volume, strict=True))
     return (
         f"{brief(_tenth(states), 2)} times: the standard error falls from {percent(share[1000])} at 1,000 throws to"
@@ -165,8 +161,7 @@ def _tenth_why(states: Sequence[State]) -> str:
 
 
 def _hits(states: Sequence[State]) -> int:
-    now = states[-1].now
-    assert isinstance(now, Balls)
+    now = as_a(Balls, states[-1].now)
     return now.hits[-1]
 
 

@@ -58,10 +58,15 @@ def numbers_of(params: Params, areas: np.ndarray, rng: np.random.Generator) -> C
 
 def quarters(q: np.ndarray) -> np.ndarray:
     """Return which share of points of the triangle lies in each of its three corner quarters, and in the middle one."""
+    corner = at_corners(q)
+    return np.append(corner.mean(axis=0), 1 - corner.any(axis=1).mean())
+
+
+def at_corners(q: np.ndarray) -> np.ndarray:
+    """Tell for points of the triangle whether they lie in each of its three corner quarters, (n, 3)."""
     a, b, c = TRIANGLE
     weights = np.linalg.lstsq(np.stack([b - a, c - a], axis=1), (q - a).T)[0].T
-    corner = np.column_stack([1 - weights.sum(axis=1), weights]) > 0.5
-    return np.append(corner.mean(axis=0), 1 - corner.any(axis=1).mean())
+    return np.column_stack([1 - weights.sum(axis=1), weights]) > 0.5
 
 
 def with_small_half(p: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -5,6 +5,7 @@ import numpy as np
 from lessons.measures.state import State, Subject
 from workbench.algorithms.measures import Cells, Sums
 from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
+from workbench.certain import sure
 from workbench.geometry.measures import encloses
 from workbench.numerals import brief, counted, fixed, fixed_or_power, percent
 from workbench.scene import Caption
@@ -101,9 +102,7 @@ def _all_faces(state: State, now: Sums) -> Caption:
     if not np.isfinite(subject.volume):
         return Caption(f"{text}. It encloses nothing, so no volume is its own.")
     text += f", volume {volume(subject, now.volume)} ({off(state.volume_error)}). {_origin(subject)}"
-    if right(state):
-        return Caption(text, "good")
-    return Caption(text, "wrong")
+    return Caption(text, "good" if right(state) else "wrong")
 
 
 def right(state: State) -> bool:
@@ -186,8 +185,7 @@ def _share(share: float) -> str:
 
 
 def _finer(state: State) -> Caption:
-    study = state.study
-    assert study is not None
+    study = sure(state.study)
     if state.params.shape == "lantern":
         straight, square, cube = (values[-1] for values in study.errors.values())
         return Caption(

@@ -172,7 +172,7 @@ def _back(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict
 
 def _rays(state: State, xy: np.ndarray, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     seen, k = np.isfinite(xy).all(axis=1), state.params.point
-    rays = between(np.broadcast_to(T_world_camera[:3, 3], state.now.p_world.shape), state.now.p_world)
+    rays = between(T_world_camera[:3, 3], state.now.p_world)
     z = state.now.p_camera[k, 2]
     if z < 0 and np.isfinite(xy[k]).all():  # divided all the same: on through the camera, to the plane in front of it
         rays[k, 0] += (rays[k, 1] - rays[k, 0]) / z

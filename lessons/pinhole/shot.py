@@ -60,7 +60,6 @@ def _shot(params: Params) -> Shot:
         picture=picture,
         uv=project(points, T_camera_world, K, lens),
         xy=normalize(project(points, T_camera_world, K), K),
-        subject_depth=distance * params.dolly,
         crate=_height(CRATE_EDGE, T_camera_world, K, lens),
         tower=_height(TOWER_EDGE, T_camera_world, K, lens),
         crate_before=_height(CRATE_EDGE, T_near, K_before, lens),

@@ -63,7 +63,6 @@ class Shot:
         picture: The photograph after the edit, (h, w, 3).
         uv: Pixels of the followed points, NaN where it does not see them.
         xy: Ideal normalised coordinates of the points, NaN likewise.
-        subject_depth: Depth of the target, metres: the plane whose size the dolly keeps.
         crate, tower: Heights of an edge in this picture, pixels; NaN where an end of it has no pixel.
         crate_before, tower_before: The same at a dolly of 1.
         ball_ratio: Length over width of the ball's outline, without the lens; NaN where it is not in the picture.
@@ -80,7 +79,6 @@ class Shot:
     picture: np.ndarray
     uv: np.ndarray
     xy: np.ndarray
-    subject_depth: float
     crate: float
     tower: float
     crate_before: float

@@ -7,7 +7,7 @@ import numpy as np
 from lessons.pinhole.state import Shot, State, name_of
 from workbench.geometry.distortion import invertible_radius
 from workbench.geometry.motions import apply
-from workbench.numerals import coordinates, fixed, fixed_or_power, length, pixels
+from workbench.numerals import coordinates, counted, fixed, fixed_or_power, length, pixels
 from workbench.scene import Caption
 
 VISIBLE = 0.5  # px: a smaller median error is not blamed on anybody
@@ -44,7 +44,7 @@ def blame(state: State) -> str:
     if state.missed:
         parts.append(f"{state.missed} of {len(now.p_world)} points lose their pixel")
     if state.false:
-        parts.append(f"{_many(state.false)} a pixel that the true camera does not give")
+        parts.append(f"{counted(state.false, 'point has', 'points have')} a pixel that the true camera does not give")
     if not parts and back > MISPLACED:
         parts.append(f"the points that come back are off by {length(back)} (median)")
     size = "; ".join(parts)
@@ -168,10 +168,6 @@ def _heights(shot: Shot) -> str:
         if math.isfinite(before) and math.isfinite(now)
     ]
     return f" T{'; '.join(said)[1:]}." if said else ""
-
-
-def _many(n: int) -> str:
-    return "1 point has" if n == 1 else f"{n} points have"
 
 
 def depth(metres: float) -> str:

@@ -9,6 +9,7 @@ from lessons.pose.state import Repeated, State, Subject, Target
 from lessons.pose.words import caption
 from workbench.algorithms import ransac
 from workbench.algorithms.camera_search import Searched
+from workbench.certain import as_a
 from workbench.geometry.cameras import camera_center, project
 from workbench.geometry.metrics import rms
 from workbench.geometry.motions import apply, inverse
@@ -67,8 +68,7 @@ def draw(state: State) -> Scene:
     """Return the picture of one step."""
     subject, now = state.subject, state.now
     scene: dict[str, Primitive] = {"caption": caption(state), **_still(subject)}
-    photograph = scene["picture"]
-    assert isinstance(photograph, Picture)
+    photograph = as_a(Picture, scene["picture"])
     scene |= _pixels(state, photograph)
     if subject.T_true is not None:
         scene["truth"] = _camera(subject, subject.T_true, "truth", "true camera")
@@ -82,14 +82,10 @@ def draw(state: State) -> Scene:
         return scene | _repeated(subject, now)
     if state.T is not None and is_rigid(state.T):
         scene["estimate"] = _camera(subject, state.T, "source", "estimate")
-        if (
-            not (isinstance(now, Searched) and now.phase == "root")
-            and subject.T_true is not None
-            and subject.body is not None
-        ):
-            scene["seen"] = Segments(
-                _as_seen(subject, state.T), "source", 2.5, name="target, if the camera stood still"
-            )
+        root = isinstance(now, Searched) and now.phase == "root"
+        if not root and subject.T_true is not None and subject.body is not None:
+            seen = _as_seen(subject, state.T)
+            scene["seen"] = Segments(seen, "source", 2.5, name="target, if the camera stood still")
     return scene | _numbers(state)
 
 
@@ -164,9 +160,7 @@ def _three(state: State, now: Searched) -> dict[str, Primitive]:
         )
     if subject.T_true is not None and now.phase in ("rays", "quartic"):
         eye = subject.frame.shown(camera_center(subject.T_true))
-        scene["rays"] = Segments(
-            between(np.tile(eye, (3, 1)), subject.p_shown[:3]), "highlight", 2.0, name="three rays"
-        )
+        scene["rays"] = Segments(between(eye, subject.p_shown[:3]), "highlight", 2.0, name="three rays")
     if len(now.quartic):
         scene |= _curve(now)
     return scene
@@ -179,11 +173,8 @@ def _curve(now: Searched) -> dict[str, Primitive]:
     v = np.linspace(max(low - pad, 0.0), high + pad, 121)
     y = np.polyval(now.quartic, v)
     y = y / max(float(np.abs(y).max()), 1e-300)
-    marks = (
-        tuple(float(root) for root in roots[len(now.candidates) - 1 : len(now.candidates)])
-        if now.phase == "root"
-        else ()
-    )
+    k = len(now.candidates)
+    marks = tuple(float(root) for root in roots[k - 1 : k]) if now.phase == "root" else ()
     scene: dict[str, Primitive] = {
         "quartic": QUARTIC.curve(v, y, "quartic", "target", marks=marks),
         "quartic/zero": QUARTIC.curve(v[[0, -1]], np.zeros(2), "zero", "correspondence"),
@@ -209,7 +200,7 @@ def _candidates(state: State, now: Searched) -> dict[str, Primitive]:
             scene[f"candidates/{k}/seen"] = Segments(seen, "other", 2.5, name="what it would see" if k == 1 else "")
         elif state.params.method == "P3P":
             eye, last = subject.frame.shown(camera_center(T)), k == len(now.candidates) and now.phase == "root"
-            ends = between(np.tile(eye, (3, 1)), subject.p_shown[:3])
+            ends = between(eye, subject.p_shown[:3])
             scene[f"candidates/{k}/rays"] = Segments(
                 ends, "highlight" if last else "correspondence", 2.0 if last else 1.0
             )
@@ -239,7 +230,7 @@ def _repeated(subject: Subject, now: Repeated) -> dict[str, Primitive]:
     if subject.kind == "marker":
         assert subject.T_true is not None
         tips = np.stack([(inverse(subject.T_true) @ T)[:3, :3] @ [0.0, 0.0, 0.12] for T in now.Ts])
-        scene["normals"] = Segments(between(np.zeros_like(tips), tips), color, 1.5, name="normals of the marker")
+        scene["normals"] = Segments(between(np.zeros(3), tips), color, 1.5, name="normals of the marker")
     else:
         near = np.linalg.norm(centres, axis=1) < 20.0
         if near.any():

@@ -9,6 +9,7 @@ from lessons.pose.draw import ABOVE
 from lessons.pose.state import Params, Repeated, State
 from lessons.pose.trials import TRIPLES
 from workbench.algorithms.ransac import iterations_needed
+from workbench.certain import as_a, sure
 from workbench.lesson import Preset, Question
 from workbench.numerals import angle, fixed, percent
 
@@ -108,15 +109,12 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 def others(states: Sequence[State]) -> Repeated:
     """Return what was found in other pictures."""
-    found = states[-1].now
-    assert isinstance(found, Repeated)
-    return found
+    return as_a(Repeated, states[-1].now)
 
 
 def most_frequent(states: Sequence[State]) -> int:
     """Return how many solutions most random triples have."""
-    counts = others(states).counts
-    assert counts is not None
+    counts = sure(others(states).counts)
     return int(np.argmax(counts))
 
 

@@ -7,6 +7,7 @@ from lessons.ransac.state import State, Subject
 from lessons.ransac.words import caption
 from workbench.algorithms.ransac import Fit
 from workbench.geometry.clipping import plane_in_box
+from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import between, fan
 from workbench.numerals import brief
 from workbench.scene import Chart, Classes, Curve, Label, Mesh, Picture, Points, Primitive, Role, Scene, Segments
@@ -20,9 +21,8 @@ RIVAL_COLORS: dict[str, Role] = {"least squares": "other", "Huber": "neutral"}
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    scene: dict[str, Primitive] = {"caption": caption(state)}
-    scene |= _background(state.subject) | _rows(state) | _sample(state) | _models(state) | _curves(state)
-    return scene
+    parts = _background(state.subject) | _rows(state) | _sample(state) | _models(state) | _curves(state)
+    return {"caption": caption(state)} | parts
 
 
 def _rows(state: State) -> dict[str, Primitive]:
@@ -134,9 +134,7 @@ def _photograph(image: np.ndarray, place) -> Picture:
     h, w = image.shape[:2]
     corner, right = place(np.array([[0.0, 0.0], [w - 1.0, 0.0]]))
     centre = place(np.array([[(w - 1.0) / 2.0, (h - 1.0) / 2.0]]))[0]
-    T_world_image = np.eye(4)
-    T_world_image[:3, :3] = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]  # columns right, rows down
-    T_world_image[:3, 3] = centre + np.array([0.0, 0.01, 0.0])
+    T_world_image = motion(R_UPRIGHT, centre + np.array([0.0, 0.01, 0.0]))
     return Picture(image, width=float(right[0] - corner[0]) * w / (w - 1.0), T_world_object=T_world_image)
 
 

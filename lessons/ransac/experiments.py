@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 
 from lessons.ransac.state import Params, State
 from workbench.algorithms.ransac import iterations_needed
+from workbench.certain import sure
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import length, percent
 
@@ -31,12 +32,14 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "thirty", "30 % outliers: a dozen or two",
-        "A third of all samples is clean, so a dozen or two are enough; the same outliers drag least squares 15 cm off.",
+        "A third of all samples is clean, so a dozen or two are enough; the same outliers drag least squares 15 cm off"
+        " (RMS).",
         THIRTY, 2,
     ),
     Preset(
         "seventy", "70 % outliers: over a hundred",
-        "Only one sample in 37 is clean, so over a hundred are drawn; the plane is still within 3 mm. Half is no limit.",
+        "Only one sample in 37 is clean, so over a hundred are drawn; the plane is still within 3 mm (RMS)."
+        " Half is no limit.",
         SEVENTY, 2,
     ),
     Preset(
@@ -47,7 +50,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "loose", "Inlier distance too large",
-        "0.3 m is 20 sigma: clutter votes too, a dozen samples satisfy the formula, and the plane ends 4 cm off.",
+        "0.3 m is 20 sigma: clutter votes too, a dozen samples satisfy the formula, and the plane ends 4 cm off (RMS).",
         LOOSE, -1, breaks=True,
     ),
     Preset(
@@ -113,9 +116,7 @@ def first(states: Iterable[State], phase: str) -> State:
 
 def share_reached(state: State) -> float:
     """Return the share of the true inliers that the model under test reaches."""
-    known, trial = state.subject.is_inlier, state.now.trial
-    assert known is not None
-    assert trial is not None
+    known, trial = sure(state.subject.is_inlier), sure(state.now.trial)
     return float(trial.inliers[known].mean())
 
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from lessons.ransac.state import State
 from workbench.algorithms.ransac import Stop
+from workbench.certain import sure
 from workbench.numerals import counted, length, percent, pixels
 from workbench.scene import Caption
 
@@ -56,8 +57,7 @@ def _model(state: State) -> Caption:
 
 
 def _inliers(state: State) -> Caption:
-    now, trial, noun = state.now, state.now.trial, state.subject.noun
-    assert trial is not None
+    now, trial, noun = state.now, sure(state.now.trial), state.subject.noun
     who = "Your sample" if state.chosen else f"Sample {now.iteration}"
     text = f"{who}: {trial.count:,} of {len(trial.inliers):,} {noun} lie within {_limit(state)} of its"
     text += f" {state.subject.model.name}{_score(state, trial.score)}."
@@ -67,8 +67,7 @@ def _inliers(state: State) -> Caption:
 
 
 def _best(state: State) -> Caption:
-    now, best = state.now, state.now.best
-    assert best is not None
+    now, best = state.now, sure(state.now.best)
     share = best.count / len(best.inliers)
     text = f"New best after {counted(now.iteration, 'sample')}: {_points(state, best)}, {percent(share, 0)} of all."
     asked = f"{100.0 * state.params.confidence:g} % confidence that one of them is free of outliers"
@@ -83,8 +82,7 @@ def _best(state: State) -> Caption:
 
 
 def _refit(state: State) -> Caption:
-    best, before = state.now.best, state.before
-    assert best is not None
+    best, before = sure(state.now.best), state.before
     text = "Refit: "
     if before is not None:
         text += f"least squares on the {before.count:,} inliers, then counted anew: {before.count:,} → {best.count:,}"

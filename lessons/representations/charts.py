@@ -5,6 +5,7 @@ import numpy as np
 from lessons.representations.state import Built, Cells, Fitted, Growth, Joined, Searched, State
 from lessons.representations.words import field_error, form_of, size
 from workbench.algorithms.octree import Level
+from workbench.certain import sure
 from workbench.numerals import angle, length, percent
 from workbench.scene import Chart, Primitive, Role, Table
 
@@ -77,8 +78,7 @@ def _log(errors: np.ndarray) -> np.ndarray:
 
 
 def _table(state: State) -> Table:
-    surface = state.surface
-    assert surface is not None
+    surface = sure(state.surface)
     rows = [
         ("bytes", size(state.bytes)),
         ("error, mean", length(surface.mean, 2) if len(surface.p) else "no surface"),
@@ -93,8 +93,7 @@ def _table(state: State) -> Table:
 
 
 def _field(state: State) -> dict[str, Primitive]:
-    subject = state.subject
-    assert subject is not None
+    subject = sure(state.subject)
     x = np.linspace(-1, 1, 81)
     q = np.stack([x, 0 * x, 0 * x], axis=1)
     return {

@@ -10,6 +10,7 @@ from lessons.representations.words import caption, subject_name
 from workbench.algorithms.kd_tree import Tree
 from workbench.algorithms.octree import Level
 from workbench.data.thinning import every
+from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import at_height, segments, sphere_rings
 from workbench.geometry.voxels import Grid, counted_surface
 from workbench.scene import Field, Mesh, Picture, Points, Primitive, Scene, Segments
@@ -19,7 +20,6 @@ ASIDE = np.array([0.0, 1.1, 0.85])  # m: a slice that is out of the way is behin
 REACH = 0.5  # m: the end of the colour bar of distances
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 RIMS = CUBE[[[a, b] for a in range(8) for b in range(a) if np.abs(CUBE[a] - CUBE[b]).sum() == 1]]
-UPRIGHT = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # columns along x, rows along -z
 
 
 def draw(state: State) -> Scene:
@@ -85,9 +85,9 @@ def _slice(values: np.ndarray, grid: Grid, *, aside: bool) -> Picture:
     """Return the distances in the layer of cells behind y = 0, as an upright picture there, or out of the way."""
     layer = grid.shape[1] // 2
     shown = Field(values[:, layer, ::-1].T.astype(float), -REACH, REACH, "Stored distance", "m", "diverging")
-    pose = UPRIGHT.copy()
-    pose[:3, 3] = ASIDE if aside else (0.0, grid.low[1] + grid.spacing[1] * (layer + 0.5), 0.0)
-    return Picture(shown, "Slice through the middle", float(grid.spacing[0] * grid.shape[0]), pose)
+    place = ASIDE if aside else np.array([0.0, grid.low[1] + grid.spacing[1] * (layer + 0.5), 0.0])
+    width = float(grid.spacing[0] * grid.shape[0])
+    return Picture(shown, "Slice through the middle", width, motion(R_UPRIGHT, place))
 
 
 def _level(now: Level) -> dict[str, Primitive]:

@@ -7,6 +7,7 @@ import numpy as np
 from lessons.representations.state import Params, State
 from lessons.representations.words import field_error
 from workbench.algorithms.octree import Level
+from workbench.certain import sure
 from workbench.lesson import Preset, Question, View
 from workbench.numerals import brief, length, percent
 
@@ -96,7 +97,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "clamp", "A loss that dies",
-        "Distances clamped at 10 cm, as DeepSDF does: where the output is beyond that, its gradient is zero. Turn the seed.",
+        "Distances clamped at 10 cm, as DeepSDF does: where the output is beyond that, its gradient is zero. What is left of"
+        " the surface?",
         Params(form="neural", shape="box", target="clamped", seed=1), -1, breaks=True,
     ),
     Preset(
@@ -121,20 +123,16 @@ def _areas(states: Sequence[State]) -> list[float]:
 
 
 def _looked(states: Sequence[State]) -> tuple[float, float]:
-    growth = states[-1].growth
-    assert growth is not None
+    growth = sure(states[-1].growth)
     return float(growth.looked[1]), float(growth.looked[-1])
 
 
 def _middle(states: Sequence[State]) -> tuple[float, float]:
-    found = field_error(states[-1])
-    assert found is not None
-    return found
+    return sure(field_error(states[-1]))
 
 
 def _patch_error(states: Sequence[State]) -> float:
-    surface = states[-1].surface
-    assert surface is not None
+    surface = sure(states[-1].surface)
     return surface.worst
 
 

@@ -17,6 +17,7 @@ from lessons.representations.state import (
     Surface,
 )
 from workbench.algorithms.octree import Level
+from workbench.certain import sure
 from workbench.numerals import angle, brief, counted, fixed, length, percent
 from workbench.scene import Caption
 
@@ -104,8 +105,7 @@ def _joined(state: State, now: Joined) -> Caption:
 
 
 def _cells(state: State, now: Cells) -> Caption:
-    n, subject = now.grid.shape[0], state.subject
-    assert subject is not None
+    n, subject = now.grid.shape[0], sure(state.subject)
     if now.values.dtype == bool:
         full = int(np.count_nonzero(now.values))
         return Caption(
@@ -214,8 +214,7 @@ def _patches(state: State, now: Patches) -> Caption:
 
 
 def _fitted(state: State, now: Fitted) -> Caption:
-    trained, surface = now.trained, state.surface
-    assert surface is not None
+    trained, surface = now.trained, sure(state.surface)
     text = f"{counted(trained.iterations, 'iteration')}, loss {loss(trained.loss)}"
     if not len(surface.p):
         low, high = float(now.values.min()), float(now.values.max())
@@ -231,8 +230,7 @@ def loss(value: float) -> str:
 
 
 def _others(state: State) -> Caption:
-    subject, now, surface = state.subject, state.now, state.surface
-    assert subject is not None
+    subject, now, surface = sure(state.subject), state.now, state.surface
     names = ", ".join(_NAMES[name] for name in state.others)
     if surface is not None and not len(surface.p):
         return Caption(f"{size(state.bytes)}, and no surface came back. Beside it in the chart: {names}.", "wrong")

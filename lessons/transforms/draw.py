@@ -20,11 +20,14 @@ from workbench.geometry.rotations import (
     quaternion_from_matrix,
 )
 from workbench.numerals import ROUND_OFF, angle, fixed, fixed_row, length, percent
-from workbench.scene import Axes, Chart, Curve, Label, Mesh, Primitive, Role, Scalar, Scene, Segments, Table, is_rigid
+from workbench.scene import Axes, Chart, Curve, Label, Mesh, Primitive, Role, Scene, Segments, Table, is_rigid
 
-TURNED = Chart("Turned so far", "t", "deg")
+TURNED, SPEED = Chart("Turned so far", "t", "deg"), Chart("Turning speed", "t", "deg per unit of t")
+DET, MOVED = Chart("det T"), Chart("Distance", unit="m")
+OFF, VOLUME = Chart("Error to truth", unit="deg"), Chart("Volume", unit="%")
+GIMBAL = Chart("Gimbal lock", "middle angle (deg)", "sine between axes")
 MIDDLE = np.arange(-180.0, 181.0, 5.0)  # degrees
-GROUND = ground_grid(0.5, 0.0, 2.5)
+GROUND = Segments(ground_grid(0.5, 0.0, 2.5), "neutral", 1, opacity=0.2, name="grid 0.5 m")
 AXIS_ROLES: tuple[Role, ...] = ("x", "y", "z")
 
 
@@ -36,18 +39,15 @@ def draw(state: State) -> Scene:
 def _draw_build(state: Built) -> Scene:
     body, T, T_body = state.body, state.T, state.T_world_body
     scene: dict[str, Primitive] = {
-        **_ground(),
+        "ground": GROUND,
         **_shown("start", body, np.eye(4), "target", 0.15),
         **_shown("body", body, T, "source", 0.85),
         "world": Axes(None, 0.4, name="world axes"),
         "start name": _above("start", body, np.eye(4)),
         "vertex": Label(f"vertex {body.point}", state.trail[-1], "highlight"),
-        "volume": Scalar(float(np.linalg.det(T[:3, :3])) if is_affine(T) else np.nan, "det T", "det T", "", "source"),
-        "moved": Scalar(
-            float(np.linalg.norm(state.trail[-1] - state.trail[0])),
-            f"vertex {body.point} from its start",
-            "Distance",
-            "m",
+        "volume": DET.scalar(float(np.linalg.det(T[:3, :3])) if is_affine(T) else np.nan, "det T"),
+        "moved": MOVED.scalar(
+            float(np.linalg.norm(state.trail[-1] - state.trail[0])), f"vertex {body.point} from its start"
         ),
         "matrix": _matrix(T, "T, all factors so far"),
         "measured": _invariants(state),
@@ -61,7 +61,7 @@ def _draw_build(state: Built) -> Scene:
             segments(state.trail), "highlight", 2.5, name=f"vertex {body.point}, factor by factor"
         )
     if is_affine(T):
-        scene["front"] = _arrow(transform(T, body.p_door[None])[0], T, "highlight", "front: a direction, w = 0")
+        scene["front"] = _front(body, T)
     if state.params.compare == "direction with w = 1":
         wrong = transform(T, FRONT[None])[0]
         p_door = transform(T, body.p_door[None])[0]
@@ -70,8 +70,8 @@ def _draw_build(state: Built) -> Scene:
         scene |= _turning_axes(state)
     for i, ghost in enumerate(state.ghosts):
         scene |= _ghost(i, ghost, body)
-    if state.left == state.left:
-        scene["left"] = Scalar(state.left, "left after taking it back", "Distance", "m", "truth")
+    if np.isfinite(state.left):
+        scene["left"] = MOVED.scalar(state.left, "left after taking it back", "truth")
     if state.factor.kind not in ("start", "undo"):
         scene["frame"] = Axes(T_body, 0.35, name="body axes")
     return scene
@@ -81,7 +81,7 @@ def _draw_move(state: Moved) -> Scene:
     body, way = state.body, state.way
     x = state.shortest.times
     scene: dict[str, Primitive] = {
-        **_ground(),
+        "ground": GROUND,
         **_shown("start", body, state.T_world_start, "target", 0.15),
         **_shown("end", body, state.T_world_end, "target", 0.15),
         **_shown("body", body, state.T_world_body, "source", 0.85, f"by {state.params.method}"),
@@ -91,8 +91,8 @@ def _draw_move(state: Moved) -> Scene:
         "shortest path": Segments(segments(state.shortest.path), "truth", 2),
         **_axes_of_turns(state),
         "vertex": Label(f"vertex {body.point}", way.path[-1], "highlight"),
-        "off": Scalar(state.off, "from the shortest turn", "Error to truth", "deg", "truth"),
-        "volume": Scalar(100 * state.volume, "volume", "Volume", "%"),
+        "off": OFF.scalar(state.off, "from the shortest turn", "truth"),
+        "volume": VOLUME.scalar(100 * state.volume, "volume"),
         "matrix": _matrix(state.T_world_body, f"T at t = {state.t:.2f}"),
         "measured": _invariants(state),
         "numbers": _in_other_numbers(state.T_world_body, state.T_world_body, state.params.order),
@@ -102,13 +102,8 @@ def _draw_move(state: Moved) -> Scene:
     }
     if len(way.path) > 1:
         scene["path"] = Segments(segments(way.path), "source", 3, name=f"path of vertex {body.point}")
-        speed = np.diff(way.turned) / np.diff(way.times)
-        scene["speed"] = Curve(way.times[1:], speed, state.params.method, "Turning speed", "t", "deg per unit of t")
+        scene["speed"] = SPEED.curve(way.times[1:], np.diff(way.turned) / np.diff(way.times), state.params.method)
     return scene
-
-
-def _ground() -> dict[str, Primitive]:
-    return {"ground": Segments(GROUND, "neutral", 1, opacity=0.2, name="grid 0.5 m")}
 
 
 def _above(word: str, body: Body, T: np.ndarray) -> Label:
@@ -172,11 +167,13 @@ def _ghost(i: int, ghost: Ghost, body: Body) -> dict[str, Primitive]:
     }
 
 
-def _arrow(p: np.ndarray, T: np.ndarray, color: Role, name: str) -> Segments:
+def _front(body: Body, T: np.ndarray) -> Segments:
     v = 0.5 * transform_directions(T, FRONT[None])[0]
     side = 0.08 * np.cross(v, [0.0, 0.0, 1.0] if abs(v[2]) < 0.4 else [1.0, 0.0, 0.0])
-    tip = p + v
-    return Segments(np.array([[p, tip], [tip, tip - 0.2 * v + side], [tip, tip - 0.2 * v - side]]), color, 3, name=name)
+    p = transform(T, body.p_door[None])[0]
+    tip, neck = p + v, p + v - 0.2 * v
+    ends = np.array([[p, tip], [tip, neck + side], [tip, neck - side]])
+    return Segments(ends, "highlight", 3, name="front: a direction, w = 0")
 
 
 def _turning_axes(state: Built) -> dict[str, Primitive]:
@@ -205,9 +202,8 @@ def _margins(order: EulerOrder) -> np.ndarray:
 
 
 def _gimbal_curve(state: Built) -> Curve:
-    chart = Chart("Gimbal lock", "middle angle (deg)", "sine between axes")
     name, marks = "0: the first and third axis are one", (state.params.angles[1],)
-    return chart.curve(MIDDLE, _margins(state.params.order), name, "highlight", marks=marks)
+    return GIMBAL.curve(MIDDLE, _margins(state.params.order), name, "highlight", marks=marks)
 
 
 def _matrix(T: np.ndarray, title: str) -> Table:

@@ -177,6 +177,20 @@ BROKEN = [
     # the page
     (PAGE, "## Pitfalls", "## Traps", "page.md: the page has no part 'Pitfalls'"),
     (PAGE, "r = \\sqrt{c", "r = \\wurzel{c", "page.md, line N: \\wurzel is a TeX command that is not known"),
+    (
+        PAGE,
+        "## Pitfalls",
+        "Drag the points.\n\n## Pitfalls",
+        "page.md, line N: it says 'Drag the'; a published page and",
+    ),
+    (PAGE, "## Pitfalls", "{{live: Drag the points.}}\n\n## Pitfalls", None),
+    (
+        RUNS,
+        "Points all around",
+        "Click a point",
+        "preset 'whole' says 'Click'; a published page and a notebook cannot do it",
+    ),
+    (DRAW, "; the points lie", "; click a point; they lie", "step 0: the caption says 'click'; a published page and"),
     (PAGE, "## Watch", "![A circle](circle.png)\n\n## Watch", "there is no picture 'circle.png'"),
     # the exercise
     (

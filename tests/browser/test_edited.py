@@ -59,14 +59,16 @@ def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
         me.page.locator("#notice").wait_for(state="hidden")
         me.says("Step of Gauss-Newton 2 gives radius 1.045 m")
         me.page.get_by_role("button", name="Answer").first.wait_for()
+        for one in (me, other, late):
+            one.page.close()  # a page whose server is gone asks for it
     finally:
         server.stop()
 
 
 def turn(server: Server, eye: tuple[float, float, float]) -> None:
-    for client in server._viser.get_clients().values():
+    for client in server._inner.viser.get_clients().values():
         client.camera.position = eye
 
 
 def eyes(server: Server) -> set[tuple[float, ...]]:
-    return {tuple(client.camera.position.round(6).tolist()) for client in server._viser.get_clients().values()}
+    return {tuple(client.camera.position.round(6).tolist()) for client in server._inner.viser.get_clients().values()}

@@ -178,6 +178,9 @@ def test_the_scene_is_really_drawn_and_follows_the_theme(opened, out):
     target = Timeline(catalog()["icp"], catalog()["icp"].params())
     target.extend()
     assert any(isinstance(one, Points) for one in target[0].scene.values())
+    notices = page.frame_locator("#scene iframe").get_by_text("Software WebGL")
+    notices.first.wait_for(state="attached")  # viser says it wherever there is no graphics card
+    assert not any(notice.is_visible() for notice in notices.all())
     dark = seen(page)
     assert (np.abs(dark - [20, 21, 23]).max(-1) < 12).mean() > 0.5  # most of it is backdrop
     assert ((dark[..., 0] - dark[..., 2]) > 60).sum() > 20  # orange points
@@ -294,6 +297,14 @@ def test_one_run_alone_plays_and_takes_neither_focus_nor_scrolls_its_host(opened
 def test_what_can_be_taken_along_is_there(opened, out):
     page = opened(f"{(out / 'fake' / 'index.html').as_uri()}#run=half&step=2")
     mine = page.locator("#this-run")
+    shown = {name: page.locator(name).first for name in ("h1", "#caption", "#bar", "#view", "#this-run", "#theme")}
+    assert all(part.is_visible() for part in shown.values())
+    page.emulate_media(media="print")
+    assert [name for name, part in shown.items() if part.is_visible()] == ["h1", "#caption"]
+    assert not any(
+        control.is_visible() for control in page.locator("#side button, #side input, #side select, form button").all()
+    )
+    page.emulate_media(media="screen")
     with page.expect_download() as download:
         mine.get_by_role("link", name="Download recording").click()
     assert download.value.suggested_filename == "fake-half.rrd"

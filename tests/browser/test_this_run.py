@@ -64,6 +64,7 @@ def test_a_run_that_fails_is_said_and_not_recorded(visit):
         me.page.locator("#this-run output", has_text="no step").wait_for()
         assert "422" in me.errors.pop()
         assert me.button("Download recording").is_enabled()
+        me.page.close()  # a page whose server is gone asks for it
     finally:
         server.stop()
 

@@ -1,6 +1,10 @@
 """A page that is open in a real browser, and what a student does in it."""
 
+import io
 from typing import Any
+
+import numpy as np
+from PIL import Image
 
 from workbench.viewer.server import Server
 
@@ -16,6 +20,28 @@ SELDOM = """if (parent !== self && (location.pathname.includes("/scene/") || par
   }, 50);
 }"""
 """Lets viser draw a few pictures a second or fewer: without a graphics card they are what a visit costs most."""
+
+MOST = 200  # pictures
+ALIKE = 6  # pictures in a row that are the same: surfaces are decoded beside the frames
+
+
+def at_rest(page: Any) -> np.ndarray:
+    """Return what a scene looks like as soon as it stays as it is, by the means over tiles of ten pixels.
+
+    Thin lines of a grid are not drawn the same twice.
+    """
+    view = page.locator("#view").bounding_box()
+    between = {"x": view["x"] + 10, "y": view["y"] + 40, "width": view["width"] - 20, "height": view["height"] - 90}
+    before, alike = b"", 0
+    for _ in range(MOST):
+        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        now = page.screenshot(clip=between)
+        alike = alike + 1 if now == before else 0
+        if alike == ALIKE:
+            image = Image.open(io.BytesIO(now)).convert("RGB")
+            return np.asarray(image.resize((image.width // 10, image.height // 10), Image.Resampling.BOX)).astype(int)
+        before = now
+    raise AssertionError("the scene does not come to rest")
 
 
 class Visit:

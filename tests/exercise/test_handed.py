@@ -116,6 +116,11 @@ def test_a_student_has_one_row_and_it_counts_out_of_all_that_was_handed_in(tmp_p
     assert "my_middle.py, line 1" in found["bob"]["trouble"]
     assert (found["eve"]["points"], found["eve"]["possible"], found["eve"]["middle"]) == ("0", "4", "")
     assert "'" not in found["eve"]["middle"]
+    checks = {row["student"]: row for row in rows(tmp_path, "matrix.csv")}
+    asked = [name for name in checks["eve"] if name.startswith("middle.")]
+    assert asked
+    assert {checks["eve"][name] for name in asked} == {""}  # a check that nobody asked of her, and no 0
+    assert "" not in {checks["ada"][name] for name in asked}
     jsonschema = pytest.importorskip("jsonschema")
     for place in (tmp_path / "out" / "students").iterdir():
         jsonschema.validate(json.loads(place.read_text()), json.loads(reports.SCHEMA.read_text()))

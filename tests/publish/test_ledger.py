@@ -11,6 +11,7 @@ import pytest
 
 from tests.publish.conftest import TINY
 from workbench import atomic
+from workbench.cli import main
 from workbench.errors import InputError
 from workbench.publish import site
 from workbench.publish.ledger import KEPT
@@ -108,6 +109,18 @@ def test_one_lesson_more_leaves_the_others_and_what_people_put_there(out):
     assert index.index('href="fake/index.html"') < index.index('href="other/index.html"')
     assert {"fake/runs/default.js", "other/runs/default.js"} <= set(files)
     assert "fake/notes.txt" not in files
+
+
+def test_the_command_leaves_other_lessons_where_lessons_are_named_and_else_there_are_none(out, monkeypatch, capsys):
+    before = contents(out / "fake")
+    monkeypatch.setattr("workbench.cli.lesson_given", lambda name: {"other": OTHER}[name])
+    monkeypatch.setattr("workbench.cli.catalog", lambda: {"other": OTHER})
+    assert main(["publish", str(out), "--lesson", "other"]) == 0, capsys.readouterr().err
+    assert contents(out / "fake") == before
+    assert (out / "other" / "index.html").exists()
+    assert main(["publish", str(out)]) == 0, capsys.readouterr().err
+    assert not (out / "fake").exists()
+    assert (out / "other" / "index.html").exists()
 
 
 def test_a_lesson_that_is_no_more_goes_and_what_others_put_there_stays(out):

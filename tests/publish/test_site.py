@@ -136,16 +136,25 @@ def test_a_run_is_seen_by_the_camera_of_its_preset():
     own = replace(SMALL, presets=(replace(SMALL.presets[0], view=view),))
     with Renderer() as renderer:
         seen = [renderer.scene(Timeline(own, params).complete())[1] for params in (own.params(), own.presets[0].params)]
-    cameras = [camera_of(data) for data in seen]
-    assert cameras == [list(own.view.eye), list(view.eye)]
+    assert [said(data, "SetCameraPositionMessage")["position"] for data in seen] == [list(own.view.eye), list(view.eye)]
 
 
-def camera_of(data: str) -> list[float]:
-    """Return where the camera stands in a recording of viser's."""
+@pytest.mark.parametrize("up", [(0.0, 1.0, 0.0), (0.0, -1.0, 0.0)])
+def test_what_is_up_in_a_lesson_is_up_in_its_published_runs(up):
+    lesson = replace(SMALL, view=View(eye=(2.0, 1.0, 0.5), up=up, grid=0.5, grid_height=0.4))
+    with Renderer() as renderer:
+        data = renderer.scene(Timeline(lesson, lesson.params()).complete())[1]
+    assert said(data, "SetCameraUpDirectionMessage")["position"] == list(up)
+    assert said(data, "SetCameraPositionMessage")["position"] == [2.0, 1.0, 0.5]
+    assert said(data, "GridMessage")["props"]["plane"] == "xz"
+
+
+def said(data: str, kind: str) -> dict:
+    """Return the first message of a kind in a recording of viser's."""
     packed = base64.b64decode(data)
     inner = zstandard.ZstdDecompressor().decompress(packed[8:], max_output_size=int.from_bytes(packed[:8], "little"))
-    said = msgspec.msgpack.decode(inner[8 : 8 + int.from_bytes(inner[:8], "little")])
-    return next(m["position"] for _, m in said["messages"] if m["type"] == "SetCameraPositionMessage")
+    recorded = msgspec.msgpack.decode(inner[8 : 8 + int.from_bytes(inner[:8], "little")])
+    return next(message for _, message in recorded["messages"] if message["type"] == kind)
 
 
 def test_what_repeats_is_kept_once():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import rerun.blueprint as rrb
 
 from workbench.lesson import View, catalog
 from workbench.recording.contents import Canvas, Contents
@@ -63,6 +64,22 @@ def test_charts_stand_beside_each_other_where_their_titles_can_be_read(length, a
     column = one_run(View(), Contents(charts=charts), {"a": np.zeros(3)}).root_container.contents[1]
     rows = column.contents[0].contents if at_once == 2 else column.contents
     assert [view.name for view in rows] == titles
+
+
+@pytest.mark.parametrize(
+    ("values", "corner"),
+    [
+        (np.linspace(1.0, 0.0, 40), "RightTop"),
+        (np.linspace(0.0, 1.0, 40), "LeftTop"),
+        (np.append(np.linspace(0.0, 1.0, 10), np.ones(30)), "RightBottom"),
+        (np.append(np.ones(30), np.linspace(1.0, 0.0, 10)), "LeftBottom"),
+    ],
+)
+def test_the_legend_of_a_plot_stands_where_no_curve_runs(values, corner):
+    contents = Contents(scalars={"a": {"a": Scalar(0.5, "a", chart="a")}, "b": {"b": Scalar(0.5, "b", chart="b")}})
+    first, _ = one_run(View(), contents, {"a": values, "b": np.zeros(40)}).root_container.contents[1].contents
+    stands = first.properties["PlotLegend"].corner.as_arrow_array().to_pylist()
+    assert stands == [getattr(rrb.Corner2D, corner).value]
 
 
 def test_the_unit_of_a_plot_reads_well_and_its_lowest_value_stands_clear_of_the_first_step():

@@ -1,5 +1,6 @@
 """Replaying: a page of this machine with Rerun's viewer, which can talk to nobody else."""
 
+import contextlib
 import http.client
 import json
 import socket
@@ -71,6 +72,33 @@ def test_nothing_else_is_handed_out(replay, name):
 def test_only_this_machine_can_reach_it(replay):
     assert replay.address.startswith("http://127.0.0.1:")
     assert replay._server.server_address[0] == "127.0.0.1"
+
+
+def answered(port: int, name: str, host: str | None) -> int:
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+    connection.putrequest("GET", name, skip_host=True)
+    if host is not None:
+        connection.putheader("Host", host)
+    connection.endheaders()
+    with contextlib.closing(connection):
+        return connection.getresponse().status
+
+
+@pytest.mark.parametrize("name", ["/", "/0.rrd", "/nothing"])
+def test_it_answers_to_this_machine_s_names_alone(replay, name):
+    """A site that gives its own name this machine's address reads no recording."""
+    for host in ("127.0.0.1", f"127.0.0.1:{replay.port}", f"localhost:{replay.port}", f"[::1]:{replay.port}"):
+        assert answered(replay.port, name, host) == (404 if name == "/nothing" else 200), host
+    for host in ("evil.example", f"evil.example:{replay.port}", f"127.0.0.1.evil.example:{replay.port}", "", None,
+                 f"192.168.1.7:{replay.port}", f"127.0.0.1:{replay.port}@evil.example"):  # fmt: skip
+        assert answered(replay.port, name, host) == 403, host
+
+
+def test_where_others_may_reach_it_it_answers_to_addresses_and_to_its_own_name(fake_file):
+    with Replay({"a.rrd": fake_file}, "t", host="0.0.0.0", port=0) as public:
+        for host in ("127.0.0.1", f"192.168.1.7:{public.port}", f"{socket.gethostname()}:{public.port}", "0.0.0.0"):
+            assert answered(public.port, "/0.rrd", host) == 200, host
+        assert answered(public.port, "/0.rrd", "evil.example") == 403
 
 
 def test_a_taken_port_is_said(fake_file):

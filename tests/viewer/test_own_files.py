@@ -100,6 +100,31 @@ def test_a_file_sets_its_field_stays_through_reset_and_goes_with_its_page(server
     gone(tmp_path)
 
 
+def test_a_question_s_run_puts_a_file_aside_until_the_next_preset_or_reset(server, tmp_path):
+    for verb, more in (("reset", {}), ("run", {"run": "half"}), ("run", {"run": "default", "step": 0})):
+        with opened(server) as page:
+            assert page.give(points(7)).status_code == 204
+            page.until(lambda told: told["tell"] == "step" and "7 points" in told["step"]["caption"])
+            page.say(verb="predict", question="end", given=None)
+            aside = page.until(lambda told: told["tell"] == "run" and told["aside"])
+            assert aside["files"] == {"scan": "scan.npy"}
+            page.until(lambda told: told["tell"] == "step" and "200 points" in told["step"]["caption"])
+            page.say(verb=verb, **more)
+            assert not page.until(lambda told: told["tell"] == "run")["aside"]
+            page.until(lambda told: told["tell"] == "step" and "7 points" in told["step"]["caption"])
+    with opened(server) as page:
+        assert page.give(points(7)).status_code == 204
+        page.say(verb="predict", question="end", given=None)
+        page.until(lambda told: told["tell"] == "run" and told["aside"])
+        page.say(verb="forget", field="scan")  # for good
+        assert not page.until(lambda told: told["tell"] == "run" and told["files"] == {})["aside"]
+        page.say(verb="run", run="half")
+        half = page.until(lambda told: told["tell"] == "run" and told["params"]["angle"] == 180.0)
+        assert half["files"] == {}
+        page.until(lambda told: told["tell"] == "step" and "200 points" in told["step"]["caption"])
+    gone(tmp_path)
+
+
 def gone(folder: Path) -> None:
     for _ in range(200):
         if not list(folder.iterdir()):

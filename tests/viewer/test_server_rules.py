@@ -10,7 +10,8 @@ import websockets
 from tests.fake_page import FakePage
 from tests.loops import run_apart
 from workbench.errors import InputError
-from workbench.viewer.addresses import addresses, is_loopback
+from workbench.hosts import Hosts, is_loopback
+from workbench.viewer.addresses import addresses
 from workbench.viewer.rules import Rules
 from workbench.viewer.server import Server
 
@@ -192,6 +193,11 @@ def test_all_addresses_of_a_page_are_relative(local):
 def test_which_hosts_are_of_this_machine():
     assert all(is_loopback(host) for host in ("127.0.0.1", "127.1.2.3", "localhost", "::1", "[::1]"))
     assert not any(is_loopback(host) for host in ("0.0.0.0", "::", "", "192.168.1.7", "example.org"))
+    assert Hosts("127.1.2.3").know("127.1.2.3:8080"), "where it listens is where it is"
+    assert Hosts("::1").know("[::1]:8080")
+    assert Hosts("class.example.org").know("Class.Example.org")
+    assert not Hosts("127.1.2.3").know("127.1.2.4")
+    assert not Hosts("class.example.org").know("evil.example")
     assert addresses("192.168.1.7") == ["192.168.1.7"]
     assert addresses("fe80::7") == ["[fe80::7]"]
 

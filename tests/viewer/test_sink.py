@@ -114,6 +114,16 @@ def test_whatever_was_at_a_path_before_leaves_nothing_in_the_browser(server, mon
             sink.repaint((255, 255, 255))
 
 
+def test_how_far_a_picture_is_seen_through_is_sent(server, sink):
+    sent = {}
+    for opacity in (1.0, 0.5, 0.2, 1.0):
+        sink.show({"x": Picture(PHOTO, width=0.5, opacity=opacity)})
+        node = nodes(server)[f"{ROOT}x"]
+        again = sent.setdefault(opacity, node["_data"])
+        assert node["_data"] == again
+    assert len(set(sent.values())) == 3
+
+
 def test_an_empty_scene_leaves_nothing(server, sink, scenes):
     sink.show(scenes[2])
     assert nodes(server)

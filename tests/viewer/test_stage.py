@@ -2,6 +2,7 @@ import contextlib
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
@@ -40,6 +41,23 @@ def test_the_camera_is_fitted_to_another_width_unless_somebody_has_moved_it(monk
     camera.image_width = 860
     aim.fit(client)
     assert camera.position is moved
+
+
+@pytest.mark.parametrize("up", [(0.0, 1.0, 0.0), (0.0, -1.0, 0.0)])
+def test_what_is_up_in_a_lesson_is_up_on_its_live_page(up):
+    camera = SimpleNamespace(image_width=860, image_height=530, up_direction=None, position=None, look_at=None, fov=0.0)
+    added: dict[str, dict] = {}
+    scene = MagicMock()
+    scene.add_grid.side_effect = lambda name, **how: added.update({name: how})
+    client: Any = SimpleNamespace(camera=camera, atomic=contextlib.nullcontext, scene=scene)
+    view = View(eye=(2.0, 1.0, 0.5), up=up, grid=0.5, grid_height=0.4)
+    lesson, aim = replace(catalog()["icp"], view=view, presets=()), Aim()
+    aim.open(lesson, lesson.params())
+    aim.show(client, lesson, lesson.params())
+    np.testing.assert_array_equal(camera.up_direction, up)
+    np.testing.assert_allclose(camera.position, eye_of(view, 860 / 530))
+    assert added["/grid"]["plane"] == "xz"
+    np.testing.assert_allclose(added["/grid"]["position"], 0.4 * np.array(up))
 
 
 def test_a_knob_that_leads_to_something_of_another_size_turns_the_camera_and_no_other_does(monkeypatch):

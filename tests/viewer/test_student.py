@@ -6,10 +6,12 @@ import threading
 from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import viser
 
 from tests import fake
 from tests.loops import run_apart
+from workbench import links
 from workbench.lesson import Lesson, Preset, View
 from workbench.timeline import Timeline
 from workbench.viewer.runs import Runs
@@ -120,6 +122,32 @@ def test_what_is_no_wish_is_ignored_and_files_are_not_set():
         assert step["step"]["caption"]
         assert me.student.session is not None
         assert me.student.session.params == fake.Params()
+
+    talk(script)
+
+
+def test_after_an_answer_a_preset_has_the_file_of_the_command_line_again(tmp_path):
+    np.save(tmp_path / "cloud.npy", np.eye(3))
+    mine = fake.Params(scan=tmp_path / "cloud.npy")
+
+    async def script(me: Talk) -> None:
+        async def caption(points: str) -> None:
+            await me.until(lambda told: told["tell"] == "step" and f" {points} points" in told["step"]["caption"])
+            me.told.clear()
+
+        me.student.start = links.Place(fake.lesson, mine)
+        me.say(verb="open", query="?lesson=fake", lesson="fake")
+        await caption("3")
+        for name in ("end", "which", "end"):
+            me.say(verb="predict", question=name, given=None)
+            await caption("200")
+            me.say(verb="change", values={"seed": 3})
+            me.say(verb="run", run="", step=1)
+            step = await me.until(lambda told: told["tell"] == "step" and told["k"] == 1)
+            assert "200 points" in step["step"]["caption"]
+            me.told.clear()
+            me.say(verb="run", run="short")
+            await caption("3")
 
     talk(script)
 

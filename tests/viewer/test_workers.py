@@ -19,6 +19,7 @@ import pytest
 
 from tests.fake_page import FakePage
 from tests.loops import run_apart
+from tests.viewer.test_inner import enters
 from workbench.cli import main
 from workbench.lesson import catalog
 from workbench.timeline import Timeline
@@ -43,9 +44,14 @@ def running(*words: str) -> Iterator[tuple[psutil.Popen, str]]:
 
 
 @pytest.fixture(scope="module")
-def served() -> Iterator[str]:
-    with running() as (_, address):
-        yield address
+def several() -> Iterator[tuple[psutil.Popen, str]]:
+    with running() as process_and_address:
+        yield process_and_address
+
+
+@pytest.fixture
+def served(several) -> str:
+    return several[1]
 
 
 @contextlib.asynccontextmanager
@@ -108,6 +114,21 @@ def test_another_host_and_another_origin_are_refused_by_each(served):
                 await bad.open()
 
     run_apart(visit())
+
+
+def test_none_leaves_its_viser_open(several):
+    process, address = several
+    own = {
+        one.laddr.port
+        for part in (process, *process.children(recursive=True))
+        for one in part.net_connections("tcp")
+        if one.status == psutil.CONN_LISTEN
+    }
+    own.remove(urlsplit(address).port)
+    assert len(own) >= 2, "each has one"
+    for port in own:
+        assert httpx.get(f"http://127.0.0.1:{port}/").status_code == 403
+        assert not run_apart(enters(f"127.0.0.1:{port}", {"Origin": "http://evil.example"}))
 
 
 def test_one_token_opens_all():

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, TypeAlias
 
+from workbench.authoring.live_words import elsewhere, live_words, on_page
 from workbench.authors import at, place
 from workbench.errors import InputError
 from workbench.flags import RESERVED
@@ -31,6 +32,7 @@ CAPTION = (10, 340)
 """What a phone shows of a caption without a need to scroll."""
 LINE = (20, 220)
 LEAST_PRESETS = 3
+ONLY_LIVE = "a published page and a notebook cannot do it"
 MOST_STEPS = 12
 """Steps looked at where a run at the end of a range would take long."""
 SECONDS = 60.0
@@ -120,6 +122,8 @@ def _captions(where: str, run: Timeline) -> Found:
     for k, step in enumerate(run.known()):
         text = step.caption.text
         yield _length(f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters")
+        asked = next(live_words(text, run.lesson), None) if k == 0 or text != run.known()[k - 1].caption.text else None
+        yield None if asked is None else f"{where}step {k}: the caption says {asked[1]!r}; {ONLY_LIVE}"
 
 
 @promise
@@ -316,6 +320,18 @@ def the_page_has_its_parts(subject: Subject) -> Found:
         yield None
     except InputError as error:
         yield f"{subject.who}: {error}"
+
+
+@promise
+def nothing_is_asked_for_that_a_published_page_cannot(subject: Subject) -> Found:
+    """Where nothing can be computed, no text asks for a click, a drag, a file or a knob that no sweep publishes."""
+    for what, text in elsewhere(subject.lesson).items():
+        asked = next(live_words(text, subject.lesson), None)
+        yield None if asked is None else f"{subject.who}, {what} says {asked[1]!r}; {ONLY_LIVE}"
+    if subject.lesson.page is not None:
+        page = str(subject.lesson.page)
+        told = [f"{place(page, line)}: it says {said!r}" for line, said in on_page(subject.lesson)]
+        yield from [f"{subject.who}: {one}; {ONLY_LIVE}: write {{{{live: ...}}}}" for one in told] or [None]
 
 
 @promise

@@ -9,6 +9,11 @@ Reference: Solà, Deray and Atchuthan, A micro Lie theory for state estimation i
 import numpy as np
 from jaxtyping import Float
 
+R_ROWS_DOWN = np.diag([1.0, -1.0, -1.0])
+"""Lays a picture into the plane z = 0, its rows along -y, so that it is seen from above as it is."""
+R_UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+"""Stands a picture up, its rows along -z; a camera looks along +y."""
+
 
 def motion(R: Float[np.ndarray, "3 3"], t: Float[np.ndarray, "3"]) -> Float[np.ndarray, "4 4"]:
     """Return the 4x4 motion with this rotation and this translation in metres.

@@ -12,13 +12,13 @@ def segments(p: Float[np.ndarray, "n d"], *, closed: bool = False) -> Float[np.n
 
 
 def between(p: Float[np.ndarray, "*n d"], q: Float[np.ndarray, "*k d"]) -> Float[np.ndarray, "m 2 d"]:
-    """Return the segments from each point (n, d) to its partner in the same row; single points may be (d,).
+    """Return the segments from each point (n, d) to its partner in the same row; a single point (d,) is partner of all.
 
     Examples:
         >>> between(np.array([0.0, 0.0]), np.array([1.0, 2.0])).tolist()
         [[[0.0, 0.0], [1.0, 2.0]]]
     """
-    return np.stack([np.atleast_2d(p), np.atleast_2d(q)], axis=1)
+    return np.stack(np.broadcast_arrays(np.atleast_2d(p), np.atleast_2d(q)), axis=1)
 
 
 def at_height(p: Float[np.ndarray, "*n d"], height: float = 0.0) -> Float[np.ndarray, "*n 3"]:

@@ -18,7 +18,7 @@ SCRIPTS = (
     "tools.js", "curves.js", "stage.js", "transport.js", "beside.js", "article.js", "knobs.js", "exercise.js",
     "run.js", "progress.js", "text.js", "page.js",
 )  # fmt: skip
-LIVE = ("files.js", "edited.js", "live.js")
+LIVE = ("files.js", "edited.js", "returning.js", "live.js")
 """The scripts that feed the page from a server."""
 RECORDED = ("viserfile.js", "feed.js", "ghosts.js", "shelf.js", "sweeps.js", "recorded.js")
 """The scripts that feed the page from recorded runs, on a site and in a notebook."""

@@ -1,14 +1,12 @@
 """One run as a replay: the 3D scene as viser's own export, and all that stands beside it as plain data."""
 
-import contextlib
-import io
 import re
 
 import numpy as np
-import viser
 
 from workbench.errors import InputError
 from workbench.timeline import Timeline
+from workbench.viewer.inner import Inner
 from workbench.viewer.sink import ViserSink
 from workbench.viewer.stage import add_floor
 
@@ -16,19 +14,18 @@ _DATA = re.compile(r'window\.__VISER_EMBED_DATA__="([^"]*)"')
 
 
 class Renderer:
-    """A viser server that nobody connects to, through which runs are exported one after the other."""
+    """A viser server that nobody can connect to, through which runs are exported one after the other."""
 
     def __init__(self) -> None:
-        with contextlib.redirect_stdout(io.StringIO()):
-            self._server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+        self._inner = Inner()
+        self._server = self._inner.viser
 
     def __enter__(self) -> "Renderer":
         return self
 
     def __exit__(self, *exception: object) -> None:
         """Stop the server."""
-        with contextlib.redirect_stdout(io.StringIO()):
-            self._server.stop()
+        self._inner.stop()
 
     def scene(self, timeline: Timeline) -> tuple[str, str]:
         """Return the 3D scene of a run: viser's page without its data, and the data, base64.

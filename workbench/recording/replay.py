@@ -1,4 +1,4 @@
-"""Plays recordings in Rerun's viewer: in the browser, served from this machine only, or in Rerun's own window."""
+"""Plays recordings in Rerun's viewer: in the browser, under the names of this machine only, or in Rerun's own window."""
 
 import contextlib
 import errno
@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from workbench.errors import InputError
+from workbench.hosts import Hosts
 from workbench.recording.viewer_files import binary, quiet_environment, rerun_version, web_viewer
 
 POLICY = (
@@ -91,7 +92,7 @@ class Replay:
         recordings = {f"/{i}.rrd": content for i, content in enumerate(files.values())}
         page = _page(title, list(viewer), list(recordings))
         contents: dict[str, Path | bytes] = {"/": page.encode(), **viewer, **recordings}
-        handler = type("Handler", (_Handler,), {"contents": contents})
+        handler = type("Handler", (_Handler,), {"contents": contents, "hosts": Hosts(host)})
         try:
             self._server = _server_class(host)((host, port), handler)
         except OSError as error:
@@ -113,9 +114,10 @@ class Replay:
 
 
 class _Handler(BaseHTTPRequestHandler):
-    """Answers with one of a fixed set of files, and nothing else."""
+    """Answers with one of a fixed set of files, and nothing else, where it is asked by this machine's name."""
 
     contents: ClassVar[Mapping[str, Path | bytes]] = {}
+    hosts: ClassVar[Hosts] = Hosts("localhost")
     protocol_version = "HTTP/1.1"
 
     def do_GET(self) -> None:
@@ -127,6 +129,9 @@ class _Handler(BaseHTTPRequestHandler):
         self._answer(body=False)
 
     def _answer(self, *, body: bool) -> None:
+        if not self.hosts.know(self.headers.get("Host", "")):
+            self.send_error(403, explain="This server is not known under that name.")
+            return
         name = self.path.partition("?")[0]
         content = self.contents.get(name)
         try:

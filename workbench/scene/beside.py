@@ -76,15 +76,15 @@ class Chart:
         """Return y over x as a line."""
         return Curve(x, y, name, self.title, self.x_label, self.unit, color, "line", marks)
 
-    def dots(self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "source") -> Curve:
-        """Return y over x as dots."""
-        return Curve(x, y, name, self.title, self.x_label, self.unit, color, "dots")
-
-    def bars(
+    def dots(
         self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "source", *, marks: tuple[float, ...] = ()
     ) -> Curve:
+        """Return y over x as dots."""
+        return Curve(x, y, name, self.title, self.x_label, self.unit, color, "dots", marks)
+
+    def bars(self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "source") -> Curve:
         """Return y over x as bars."""
-        return Curve(x, y, name, self.title, self.x_label, self.unit, color, "bars", marks)
+        return Curve(x, y, name, self.title, self.x_label, self.unit, color, "bars")
 
     def histogram(
         self,
@@ -97,7 +97,8 @@ class Chart:
     ) -> Curve:
         """Return how many of the values lie in each of so many bins, or between edges, as bars at their middles."""
         counts, edges = np.histogram(values, bins)
-        return self.bars((edges[1:] + edges[:-1]) / 2, counts.astype(float), name, color, marks=marks)
+        x = (edges[1:] + edges[:-1]) / 2
+        return Curve(x, counts.astype(float), name, self.title, self.x_label, self.unit, color, "bars", marks)
 
     def scalar(self, value: float, name: str, color: Role = "source", *, log: bool = False) -> Scalar:
         """Return the number of this step."""

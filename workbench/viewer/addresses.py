@@ -1,9 +1,9 @@
 """Where a live server listens, and under which addresses browsers find it."""
 
-import ipaddress
 import socket
 
 from workbench.errors import InputError
+from workbench.hosts import is_loopback
 
 KEY = "key"
 """The name of the token in a link."""
@@ -62,14 +62,6 @@ def listening(host: str, port: int) -> socket.socket:
             raise InputError(f"port {port} is in use: {free}") from None
         raise InputError(f"cannot listen on {host}:{port}: {error.strerror or error}") from None
     return made
-
-
-def is_loopback(host: str) -> bool:
-    """Tell whether only this machine reaches what listens on a host."""
-    try:
-        return ipaddress.ip_address(host.strip("[]")).is_loopback
-    except ValueError:
-        return host.lower() == "localhost"
 
 
 def addresses(host: str) -> list[str]:

@@ -1,14 +1,12 @@
 """Who may talk to the live server: by the Host that a browser names, the Origin of the page it shows, and a token.
 
-On loopback a browser must name this machine, so that no page of the internet can get in by giving its own name this
-machine's address (DNS rebinding). Where others are let in, they bring a token: in the link at the first visit, in a cookie
-from then on. A page of another origin opens no websocket and reads nothing, and no other site shows a page in a frame.
+A browser must name this machine (`workbench.hosts`). Where others are let in, they bring a token: in the link at the
+first visit, in a cookie from then on. A page of another origin opens no websocket and reads nothing, and no other site
+shows a page in a frame.
 """
 
-import ipaddress
 import re
 import secrets
-import socket
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qsl, urlencode
 
@@ -18,9 +16,9 @@ from starlette.responses import HTMLResponse, PlainTextResponse, RedirectRespons
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from workbench.errors import InputError
-from workbench.viewer.addresses import KEY, is_loopback
+from workbench.hosts import Hosts, name_in
+from workbench.viewer.addresses import KEY
 
-_HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9._-]+)(?::(\d{1,5}))?")
 _PAGE = (
     "default-src 'none'; script-src 'self' 'nonce-{nonce}'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "font-src 'self' data:; connect-src 'self'; frame-src 'self'; form-action 'self'; base-uri 'none'; "
@@ -57,24 +55,17 @@ class Rules:
     """
 
     def __init__(self, host: str, *, open_to_all: bool = False, behind: str | None = None, token: str | None = None):
-        if behind is not None and not _HOST.fullmatch(behind.lower()):
+        if behind is not None and name_in(behind) is None:
             raise InputError(
                 f"--behind {behind}: the name under which browsers find the server, such as class.example.org"
             )
-        self.local = is_loopback(host)
+        self._hosts = Hosts(host)
         self.behind = None if behind is None else behind.lower()
-        self.token = None if self.local or open_to_all else token or secrets.token_urlsafe(12)
-        own = socket.gethostname().lower()
-        self._names = {"localhost", "127.0.0.1", "[::1]"} | (set() if self.local else {own, f"{own}.local"})
+        self.token = None if self._hosts.local or open_to_all else token or secrets.token_urlsafe(12)
 
     def knows(self, host: str) -> bool:
         """Tell whether a browser that names this host has come to the right place."""
-        found = _HOST.fullmatch(host.lower())
-        if found is None:
-            return False
-        if found[1] in self._names or self._is_behind(host.lower()):
-            return True
-        return not self.local and _is_address(found[1])  # an address cannot be made to mean another machine
+        return self._hosts.know(host) or (name_in(host) is not None and self._is_behind(host.lower()))
 
     def same_origin(self, origin: str, host: str) -> bool:
         """Tell whether a page of an origin is one that this server gave a browser that names this host."""
@@ -193,10 +184,3 @@ def page_response(request: Request, html: str) -> HTMLResponse:
     return HTMLResponse(
         re.sub(r"<script(?=[ >])", f'<script nonce="{nonce}"', html), headers={"cache-control": "no-store"}
     )
-
-
-def _is_address(name: str) -> bool:
-    try:
-        return bool(ipaddress.ip_address(name.strip("[]")))
-    except ValueError:
-        return False

@@ -1,7 +1,8 @@
 """Hands a scene through between a browser and viser: all that viser sends, and of what comes in what a scene needs.
 
-viser listens on loopback and trusts what it is sent: it would keep forms, take files and open a public tunnel. So a
-browser's messages are read here, and those of the few kinds that turn, click or drag a scene are written anew.
+viser lets in nobody but this proxy (`workbench.viewer.inner`), and trusts what it is sent: it would keep forms, take files
+and open a public tunnel. So a browser's messages are read here, and those of the few kinds that turn, click or drag a
+scene are written anew.
 """
 
 import asyncio
@@ -16,6 +17,8 @@ import websockets
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from workbench.viewer.inner import Inner
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -94,10 +97,10 @@ class SceneProxy:
     """Passes scenes through.
 
     Args:
-        inner: Host and port where viser listens.
+        inner: viser.
     """
 
-    def __init__(self, inner: str):
+    def __init__(self, inner: Inner):
         self._inner = inner
         self._page: tuple[int, bytes, dict[str, str]] | None = None
         self.open = 0  # sockets
@@ -105,7 +108,9 @@ class SceneProxy:
     @contextlib.asynccontextmanager
     async def running(self) -> AsyncIterator[None]:
         """Hold what is needed as long as the server runs."""
-        async with httpx.AsyncClient(base_url=f"http://{self._inner}") as self._http:
+        async with httpx.AsyncClient(
+            base_url=f"http://{self._inner.where}", headers=self._inner.key, trust_env=False
+        ) as self._http:
             yield
 
     async def fetch(self) -> tuple[int, bytes, dict[str, str]]:
@@ -139,9 +144,16 @@ class SceneProxy:
 
     async def _pass(self, socket: WebSocket) -> None:
         wanted = [websockets.Subprotocol(name) for name in socket.scope.get("subprotocols") or ()][:3]
-        address = f"ws://{self._inner}/{socket.path_params['token']}"
+        address = f"ws://{self._inner.where}/{socket.path_params['token']}"
         async with websockets.connect(
-            address, subprotocols=wanted or None, max_size=None, max_queue=2, compression=None, ping_interval=None
+            address,
+            additional_headers=self._inner.key,
+            subprotocols=wanted or None,
+            max_size=None,
+            max_queue=2,
+            compression=None,
+            ping_interval=None,
+            proxy=None,
         ) as inner:
             await socket.accept(inner.subprotocol)
             coming = asyncio.create_task(self._inwards(socket, inner))

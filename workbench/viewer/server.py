@@ -1,4 +1,5 @@
-"""The live home of the page: the only thing that listens where people can reach it. viser stands behind it, on loopback.
+"""The live home of the page: the only thing that listens where people can reach it. viser stands behind it, on loopback,
+and answers to nobody else.
 
 One port, one origin: `/` is the page, `/live` its websocket of JSON, `/scene/TOKEN/` is viser's client and its websocket,
 handed through. The token ties a scene to the page that shows it; it is made here, and says nothing of anybody.
@@ -7,7 +8,6 @@ handed through. The token ties a scene to the page that shows it; it is made her
 import asyncio
 import contextlib
 import functools
-import io
 import re
 import secrets
 import sys
@@ -36,6 +36,7 @@ from workbench.typeset import math_font_css
 from workbench.viewer.addresses import Doors, listening
 from workbench.viewer.documents import LessonPages, course_page, lesson_page, start_address
 from workbench.viewer.following import Following
+from workbench.viewer.inner import Inner
 from workbench.viewer.patience import Patience, more_files
 from workbench.viewer.rules import Gate, Rules, page_response
 from workbench.viewer.runs import MOST_BYTES, Runs
@@ -107,13 +108,11 @@ class Server:
         self._scenes: dict[str, viser.ClientHandle] = {}
         self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
         self.following = start and Following(start.lesson, watched, edited, self._replace, self._pages)
-        with contextlib.redirect_stdout(io.StringIO()):  # its banner
-            self._viser = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-        self._viser.request_share_url = lambda *args, **kwargs: None  # type: ignore[method-assign]
-        self._viser.on_client_connect(self._joined)
-        self._viser.on_client_disconnect(self._left)
-        self._connections = _connections_of(self._viser)
-        self.scenes = SceneProxy(f"127.0.0.1:{self._viser.get_port()}")
+        self._inner = Inner()
+        self._inner.viser.on_client_connect(self._joined)
+        self._inner.viser.on_client_disconnect(self._left)
+        self._connections = _connections_of(self._inner.viser)
+        self.scenes = SceneProxy(self._inner)
         config = uvicorn.Config(
             Gate(self._app(), self.rules, f"workbench-{self.port}", once=share is not None),
             http="h11",
@@ -145,8 +144,7 @@ class Server:
         self._uvicorn.should_exit = True
         self._thread.join(10)
         self.runs.close()
-        with contextlib.redirect_stdout(io.StringIO()):
-            self._viser.stop()
+        self._inner.stop()
 
     # the page -------------------------------------------------------------------------------------------------------
 

@@ -240,7 +240,7 @@ class Student:
             self.session.unpin() if self.session.pinned else self.session.pin()
 
     async def predict(self, message: Mapping[str, Any]) -> None:
-        """Compare a prediction with the run that answers, tell the page, and show that run."""
+        """Compare a prediction with the run that answers, tell the page, and show that run; own files are put aside."""
         session = self.session
         if session is None:
             return
@@ -325,7 +325,7 @@ class Student:
         if session is None or session.lesson is not before:
             return
         view = before.view_of(session.params)
-        session.go_on(after, carried(session.params, after))
+        session.go_on(after, carried(session.params, after), carried(session.own, after))
         if view != after.view_of(session.params):
             self._scene.aim.open(after, session.params)
         self._tell_where(after, news or {"tell": "notice", "text": ""})

@@ -85,7 +85,8 @@ class Telling:
             "params": values_of(params),
             "known": look.known,
             "finished": look.finished,
-            "files": files_of(params),
+            "files": files_of(look.own),
+            "aside": look.own is not params,
             "mark": first_difference(look.timeline.known())
             if watched is not None and watched.lesson is lesson
             else None,

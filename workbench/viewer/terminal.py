@@ -4,7 +4,7 @@ import sys
 import threading
 import traceback
 
-from workbench.errors import AuthorError, InputError
+from workbench.errors import AuthorError, InputError, written_out
 
 _told: set[str] = set()
 _lock = threading.Lock()
@@ -19,5 +19,5 @@ def tell_terminal(error: Exception) -> None:
             return
         _told.add(str(error))
     trace = error.trace if isinstance(error, AuthorError) else "".join(traceback.format_exception(error))
-    sys.stderr.write(f"{trace}workbench: {error}\n")
+    sys.stderr.write(written_out(f"{trace}workbench: {error}\n"))
     sys.stderr.flush()

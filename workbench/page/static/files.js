@@ -2,7 +2,8 @@
 "use strict";
 
 const files = {
-  boxes: {},  // name -> {said, forget, shown} of each field
+  boxes: {},  // name -> {said, forget, input} of each field
+  lost: false,  // whether some went with a server that is gone
 
   rows() {
     this.boxes = {};
@@ -19,6 +20,13 @@ const files = {
       element("div", {}, said, forget));
   },
 
+  handed() { return Object.values(this.boxes).some(({ input }) => input.files.length > 0); },
+
+  say(text) {
+    this.line ??= $("#view").appendChild(element("p", { id: "aside", role: "status" }));
+    if (this.line.textContent !== text) this.line.textContent = text;
+  },
+
   async hand(field, input, said) {
     said.textContent = "Handing it over …";
     try {
@@ -30,8 +38,11 @@ const files = {
     }
   },
 
-  // names of the files that are open, by field: of one that came from the command line the page has no input
-  show(open) {
+  // names of the files that are open or put aside, by field: of one that came from the command line the page has no input
+  show(open, aside) {
+    this.lost &&= !Object.keys(open).length;
+    this.say(aside ? "This run is of the lesson's own data. A preset or Reset (R) goes back to yours."
+      : this.lost ? "Files that were handed over went with the server. Hand them over again." : "");
     for (const [name, { said, forget, input }] of Object.entries(this.boxes)) {
       forget.hidden = !(name in open);
       if (name in open) said.textContent = input.files.length ? "" : open[name];

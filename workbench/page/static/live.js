@@ -14,16 +14,17 @@ const source = {
     socket.onopen = () => {
       this.send({ verb: "open", query: location.search, lesson: LESSON.name });
       for (const text of this.waiting.splice(0)) socket.send(text);
+      returning.opened();
     };
     socket.onmessage = (event) => this.heard(JSON.parse(event.data));
-    socket.onclose = () => page.say("The server is gone. Reload the page when it is back.", "wrong");
+    socket.onclose = () => returning.wait();
   },
 
   heard(message) {
     const { tell, run, ...more } = message;
     if (tell === "run") {
       page.told({ id: run, ...more });
-      if (more.files) files.show(more.files);
+      if (more.files) files.show(more.files, more.aside);
     } else if (tell === "step") page.came(run, more.k, more.step, more.things);
     else if (tell === "answer") article.answered({ ...more, given: this.given[more.question] ?? null });
     else if (tell === "trouble") page.say(more.text, "wrong");

@@ -1,0 +1,56 @@
+"""Which hosts a browser may name that asks a server of this machine.
+
+On loopback it must name this machine, so that no page of the internet can get in by giving its own name this machine's
+address (DNS rebinding).
+"""
+
+import ipaddress
+import re
+import socket
+
+_HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9._-]+)(?::(\d{1,5}))?")
+
+
+class Hosts:
+    """The hosts under which a server is known.
+
+    Args:
+        listens: The host where it listens.
+
+    Attributes:
+        local: Whether only this machine reaches it.
+    """
+
+    def __init__(self, listens: str):
+        self.local = is_loopback(listens)
+        own = socket.gethostname().lower()
+        self._names = {"localhost", "127.0.0.1", "[::1]"} | (set() if self.local else {own, f"{own}.local"})
+        self._names.add(f"[{listens.strip('[]')}]" if ":" in listens else listens.lower())
+
+    def know(self, host: str) -> bool:
+        """Tell whether a browser that names this host, with a port or without, has come to the right place."""
+        found = name_in(host)
+        if found is None:
+            return False
+        return found in self._names or (not self.local and _is_address(found))  # an address means one machine
+
+
+def name_in(host: str) -> str | None:
+    """Return the name or address of what a browser names as host, in small letters; None where it is none."""
+    found = _HOST.fullmatch(host.lower())
+    return None if found is None else found[1]
+
+
+def is_loopback(host: str) -> bool:
+    """Tell whether only this machine reaches what listens on a host."""
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return host.lower() == "localhost"
+
+
+def _is_address(name: str) -> bool:
+    try:
+        return bool(ipaddress.ip_address(name.strip("[]")))
+    except ValueError:
+        return False
