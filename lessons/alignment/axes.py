@@ -12,6 +12,7 @@ from workbench.algorithms.jacobi import jacobi
 from workbench.certain import sure
 from workbench.data.thinning import every
 from workbench.geometry.alignment import degrees_between, nearest_rotation
+from workbench.geometry.metrics import rms
 from workbench.geometry.motions import apply, motion
 from workbench.geometry.principal_axes import (
     canonical_signs,
@@ -113,8 +114,7 @@ def outcome_of(state: AxesState) -> Outcome:
 def gap(T_target_source: np.ndarray, scans: Scans) -> float:
     """Return the root mean square distance from the moved source to the nearest points of the target, metres."""
     p = scans.p_source[every(len(scans.p_source), MOST_ASKED)]
-    distances = scipy.spatial.KDTree(scans.p_target).query(apply(T_target_source, p))[0]
-    return float(np.sqrt(np.mean(np.square(distances))))
+    return rms(np.asarray(scipy.spatial.KDTree(scans.p_target).query(apply(T_target_source, p))[0]))
 
 
 def box_ratio(state: AxesState) -> float:

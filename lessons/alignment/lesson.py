@@ -38,14 +38,11 @@ def run(
 def pairs_stage(params: Params, similarity_scale: Scale) -> Iterator[PairsState]:
     """Yield the steps of the least-squares similarity, in the end with the scale that goes back."""
     scans = scans_of(params)
-    p, q = scans.p_target, scans.p_source
+    p, q, true = scans.p_target, scans.p_source, scans.T_target_source
     sizes = float(np.sqrt(np.trace(np.cov(p.T)) / np.trace(np.cov(q.T))))
     before = float("nan")
     for now in procrustes(p, q, similarity_scale, params.flip):
         T = now.T_target_source
-        known = scans.T_target_source is not None
-        rotation = degrees_between(T, scans.T_target_source) if scans.T_target_source is not None else float("nan")
-        mirrored = np.linalg.det(T[:3, :3]) < 0
         yield PairsState(
             params=params,
             scans=scans,
@@ -53,7 +50,7 @@ def pairs_stage(params: Params, similarity_scale: Scale) -> Iterator[PairsState]
             before=before,
             outcome=Outcome(
                 T_target_source=T,
-                rotation=float("nan") if mirrored and known else rotation,
+                rotation=float("nan") if true is None or np.linalg.det(T[:3, :3]) < 0 else degrees_between(T, true),
                 axes=None,
                 gap=gap(T, scans),
             ),

@@ -10,7 +10,7 @@ import numpy as np
 from lessons.alignment.state import Params, Scans
 from workbench.data.clouds import box_surface, vase
 from workbench.data.files import read_cloud, read_pose, stamp
-from workbench.data.framing import FAR, UPRIGHT, Up, box, extent
+from workbench.data.framing import FAR, Frame, Up, extent, frame
 from workbench.data.rabbit import rabbit
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
@@ -89,7 +89,8 @@ def _defective(p: np.ndarray, sample: Sample, params: Params, rng: np.random.Gen
 def _sampler(params: Params) -> Sample:
     """Return what draws points of the shape; of an own cloud some of its points, or all that it has."""
     if params.source is not None:
-        p, _, _ = _framed(params.source, params.up)
+        p_file, how = _framed(params.source, params.up)
+        p = how.shown(p_file)
         return lambda count, rng: some_points(p, count, rng)
     if params.shape in ("rabbit", "vase"):
         return rabbit if params.shape == "rabbit" else vase
@@ -97,22 +98,20 @@ def _sampler(params: Params) -> Sample:
     return lambda count, rng: box_surface(count, size, rng)
 
 
-def _framed(path: Path, up: Up, scale: float | None = None) -> tuple[np.ndarray, np.ndarray, float]:
-    """Return an own cloud upright about the middle of its box, that middle in the file, and how much larger it was made."""
+def _framed(path: Path, up: Up) -> tuple[np.ndarray, Frame]:
+    """Return the points of an own file, and how they stand in the picture: upright about their middle, 1 m long."""
     p_file = read_cloud(path, 4)
-    low, high = box(p_file, FAR)
     if not extent(p_file, FAR) > 0:
         raise InputError(f"{path.name}: all its points lie at one place")
-    scale = scale or 1.0 / extent(p_file, FAR)
-    centre = (low + high) / 2
-    return scale * (p_file - centre) @ UPRIGHT[up].T, centre, scale
+    return p_file, frame(p_file, 1.0, up=up, far=FAR)
 
 
 def _own_pair(params: Params) -> Scans:
     assert params.source is not None
     assert params.target is not None
-    p_target, c_target, scale = _framed(params.target, params.up)
-    p_source, c_source, _ = _framed(params.source, params.up, scale)
+    p_target, how = _framed(params.target, params.up)
+    p_source, theirs = _framed(params.source, params.up)
+    p_target, p_source = how.shown(p_target), replace(theirs, scale=how.scale).shown(p_source)
     rng = np.random.default_rng(params.seed)
     if params.stage == "pairs":
         if len(p_target) != len(p_source):
@@ -126,9 +125,9 @@ def _own_pair(params: Params) -> Scans:
         p_target, p_source = (some_points(p, params.points, rng) for p in (p_target, p_source))
     T_shown = None
     if params.truth is not None:
-        T, R_up = read_pose(params.truth, params.target, params.source), UPRIGHT[params.up]
-        moved = T[:3, :3] @ c_source + T[:3, 3] - c_target
-        T_shown = motion(R_up @ T[:3, :3] @ R_up.T, scale * R_up @ moved)
+        T, R_up = read_pose(params.truth, params.target, params.source), how.R_world_file
+        moved = T[:3, :3] @ theirs.centre + T[:3, 3] - how.centre
+        T_shown = motion(R_up @ T[:3, :3] @ R_up.T, how.scale * R_up @ moved)
     return replace(_beside(p_target, p_source, T_shown, params), own=True)
 
 

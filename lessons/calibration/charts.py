@@ -4,7 +4,7 @@ import numpy as np
 
 from lessons.calibration.state import Ending, State
 from lessons.calibration.views import GRID, places
-from workbench.algorithms.board_adjustment import SHARED
+from workbench.algorithms.board_adjustment import SHARED, shared_numbers
 from workbench.numerals import brief, fixed, pixels
 from workbench.scene import Chart, Field, Picture, Primitive, Table
 
@@ -38,9 +38,9 @@ def _camera(state: State) -> Table:
     """Return the numbers that all views share, their ±, and the true ones."""
     now, truth = state.now, state.subject.K
     assert now.K is not None
-    found = np.array([*now.K[[0, 1, 0, 1], [0, 1, 2, 2]], *now.lens])
+    found = shared_numbers(now.K, now.lens)
     sd = np.full(9, np.nan) if now.adjustment is None else now.adjustment.deviations
-    true = None if truth is None else np.array([*truth[[0, 1, 0, 1], [0, 1, 2, 2]], *state.subject.lens])
+    true = None if truth is None else shared_numbers(truth, state.subject.lens)
     rows = []
     for i, name in enumerate(SHARED):
         places_ = 1 if i < 4 else 4

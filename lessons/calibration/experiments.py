@@ -107,17 +107,12 @@ def _closed_forms(states: Sequence[State]) -> str:
     return ", ".join(said) or "none"
 
 
-def _flat_answer(states: Sequence[State]) -> float:
-    sigma = states[-1].params.noise
-    return float(np.digitize(states[-1].rms / (np.sqrt(2) * sigma), [1.5, 4.0]))
-
-
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "flat-rms",
         "Boards are tilted by 2° instead of 30°, all else is the same. What becomes of the rms at the end of the"
         " calibration?",
-        answer=_flat_answer,
+        answer=lambda states: float(np.digitize(states[-1].rms / (np.sqrt(2) * states[-1].params.noise), [1.5, 4.0])),
         why=lambda states: (
             f"{pixels(states[-1].rms)}, while f is off by {pixels(abs(f_error(states)))} (± {pixels(f_deviation(states))})."
             " Corners fit because f and the distances make up for each other. The rms measures noise, not knowledge."

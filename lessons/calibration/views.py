@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.calibration.state import COEFFICIENTS, Params, Subject
-from workbench.algorithms.board_adjustment import linearised, shared_information
+from workbench.algorithms.board_adjustment import linearised, shared_information, shared_numbers
 from workbench.data import boards
 from workbench.data.corners import find_corners, pictures_below, read_corners
 from workbench.data.framing import METRES
@@ -134,7 +134,7 @@ def deviations(size: tuple[int, int], K: np.ndarray, lens: Distortion, covarianc
     if covariance is None:
         return np.full(GRID[::-1], np.nan)
     p = np.column_stack([xy, np.ones(len(xy))])
-    shared = np.array([K[0, 0], K[1, 1], K[0, 2], K[1, 2], *lens])
+    shared = shared_numbers(K, lens)
     J = linearised(shared, np.eye(3)[None], np.zeros((1, 3)), p, np.zeros((1, len(p), 2)))[0, : len(covariance)]
     J = J.reshape(len(covariance), 2, -1)
     C = np.einsum("iap,ij,jbp->pab", J, covariance, J)
@@ -152,7 +152,7 @@ def over_tilt(params: Params) -> tuple[np.ndarray, np.ndarray]:
 @functools.lru_cache(maxsize=64)
 def _over_tilt(params: Params) -> tuple[np.ndarray, np.ndarray]:
     free = np.arange(9) < 4 + COEFFICIENTS[params.lens]
-    shared = np.array([*boards.K_TRUE[[0, 1, 0, 1], [0, 1, 2, 2]], *boards.LENS_TRUE])
+    shared = shared_numbers(boards.K_TRUE, boards.LENS_TRUE)
     shared[~free] = 0.0
     p_board, found = boards.board_points(), []
     for tilt in TILTS:

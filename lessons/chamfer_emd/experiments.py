@@ -83,11 +83,6 @@ def nearer_side(side: Side) -> float:
     return float(np.mean(side.flow.p_moving[:, 0] < 0))
 
 
-def _spread_answer(states: Sequence[State]) -> float:
-    left = nearer_side(states[-1].left)
-    return 0.0 if left < 0.6 else 1.0 if left < 0.99 else 2.0
-
-
 def _spread_why(states: Sequence[State]) -> str:
     left, right = states[-1].left, states[-1].right
     return (
@@ -147,7 +142,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-spread",
         "A blob inside the ring, left of its middle, flows down the two-sided Chamfer distance until it settles. How will"
         " its points lie on the ring?",
-        answer=_spread_answer,
+        answer=lambda states: float(np.digitize(nearer_side(states[-1].left), [0.6, 0.99])),
         why=_spread_why,
         params=CLUMP,
         choices=("Spread evenly", "Most of them on the nearer half", "All of them on the nearer half"),

@@ -115,10 +115,6 @@ def typical(values: np.ndarray) -> float:
     return float(np.nanmedian(values))
 
 
-def _mean_of_a_cylinder(states: Sequence[State]) -> float:
-    return float(abs(typical(at_stage(states, "gaussian").now.K)) > 0.01)
-
-
 def _why_cylinder(states: Sequence[State]) -> str:
     K, H = typical(at_stage(states, "gaussian").now.K), typical(at_stage(states, "mean").now.H)
     return (
@@ -133,10 +129,6 @@ def _size_ratio(states: Sequence[State]) -> float:
     return float(np.nanmedian(now.K / gaussian_curvature(now.p / DOUBLE.size, now.faces)))
 
 
-def _size_choice(states: Sequence[State]) -> float:
-    return float(np.argmin(np.abs(np.array([1.0, 0.5, 0.25, 0.125]) - _size_ratio(states))))
-
-
 def _signs(states: Sequence[State]) -> tuple[bool, bool]:
     """Return whether K and H at the vertex have another sign than on the surface as it was made."""
     state = at_stage(states, "mean")
@@ -145,17 +137,9 @@ def _signs(states: Sequence[State]) -> tuple[bool, bool]:
     return bool(K[v] * surface.gaussian[v] < 0), bool(H[v] * -surface.mean[v] < 0)
 
 
-def _sign_choice(states: Sequence[State]) -> float:
-    return float({(True, False): 0, (False, True): 1, (True, True): 2, (False, False): 3}[_signs(states)])
-
-
 def _finer_ratio(states: Sequence[State]) -> float:
     study = sure(at_stage(states, "finer").study)
     return float(study.K[0] / study.K[-1])
-
-
-def _finer_choice(states: Sequence[State]) -> float:
-    return float(np.argmin(np.abs(np.log(np.array([16.0, 4.0, 1.0]) / _finer_ratio(states)))))
 
 
 def _why_finer(states: Sequence[State]) -> str:
@@ -170,7 +154,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "which-rolled",
         "A sheet of paper is rolled into a tube of radius 0.5 m. What is its Gaussian curvature?",
-        _mean_of_a_cylinder,
+        lambda states: float(abs(typical(at_stage(states, "gaussian").now.K)) > 0.01),
         _why_cylinder,
         CYLINDER,
         choices=("0: it can be laid flat", "1 to 4 m⁻²: it is bent"),
@@ -179,7 +163,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "which-double",
         "The torus is made twice as large. What happens to its Gaussian curvature?",
-        _size_choice,
+        lambda states: float(np.argmin(np.abs(np.array([1.0, 0.5, 0.25, 0.125]) - _size_ratio(states)))),
         lambda states: (
             f"It is {_size_ratio(states):.3f} times what it was: the angles stay, and each vertex has four times the"
             " area. H would be halved."
@@ -191,7 +175,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "which-sides",
         "All triangles are turned round, so that inside is outside. Which of K and H changes its sign?",
-        _sign_choice,
+        lambda states: float({(True, False): 0, (False, True): 1, (True, True): 2, (False, False): 3}[_signs(states)]),
         lambda states: (
             "H turns with the normal. K is the product of k₁ and k₂, which both turn: minus times minus leaves it."
         ),
@@ -203,7 +187,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "which-finer",
         "A torus with irregular triangles, vertices exactly on it. Edges become four times shorter: the error of K from"
         " angle defects …",
-        _finer_choice,
+        lambda states: float(np.argmin(np.abs(np.log(np.array([16.0, 4.0, 1.0]) / _finer_ratio(states))))),
         _why_finer,
         IRREGULAR,
         choices=("falls sixteenfold", "falls fourfold", "hardly changes"),

@@ -138,12 +138,11 @@ def last_choice(states: Sequence[State]) -> State:
     return states[LAST_CHOICE]
 
 
-def near_edges(state: State, reach: int = 10) -> tuple[float, float]:
-    """Return the share of the wrong pixels, and of all pixels, within `reach` px of a jump of the true disparity."""
+def near_edges(state: State) -> tuple[float, float]:
+    """Return the share of the wrong pixels, and of all pixels, within 10 px of a jump of the true disparity."""
     truth, visible = sure(state.setup.pair.disparity), sure(state.setup.pair.visible)
-    size = (2 * reach + 1,) * 2
     jump = scipy.ndimage.maximum_filter(truth, 3) - scipy.ndimage.minimum_filter(truth, 3) > 2.0
-    near = scipy.ndimage.maximum_filter(jump, size)
+    near = scipy.ndimage.maximum_filter(jump, (21, 21))
     wrong = (np.abs(state.disparity - truth) > 1.0) & visible
     return float(near[wrong].mean()) if wrong.any() else 0.0, float(near[visible].mean())
 
@@ -157,10 +156,6 @@ def hidden(params: Params) -> float:
 def boards(state: State) -> dict[float, float]:
     """Return the median depth that was found for every board, by its true depth, metres."""
     return {round(true): true + float(np.median(off)) for true, off in flat_parts(state).items()}
-
-
-def _quarter(states: Sequence[State]) -> float:
-    return boards(states[DEPTH])[20]
 
 
 def _quarter_why(states: Sequence[State]) -> str:
@@ -204,18 +199,6 @@ def _averages_why(states: Sequence[State]) -> str:
     )
 
 
-def _hidden(states: Sequence[State]) -> float:
-    times = hidden(states[0].setup.params) / hidden(PLANES)
-    return 0.0 if times < 0.75 else 1.0 if times < 1.5 else 2.0
-
-
-def _hidden_why(states: Sequence[State]) -> str:
-    return (
-        f"{percent(hidden(PLANES), 1)} became {percent(hidden(states[0].setup.params), 1)}. The depths of the rest are"
-        " about twice as exact: a longer baseline is a trade, not a gain."
-    )
-
-
 def _edges(states: Sequence[State]) -> float:
     of_wrong, of_all = near_edges(last_choice(states))
     return 1.0 if of_wrong > 0.8 and of_wrong > 1.5 * of_all else 0.0
@@ -233,7 +216,7 @@ def _edges_why(states: Sequence[State]) -> str:
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "quarter", "A board 5 m away has a disparity of 16 px. Another has 4 px, a quarter of that. How far away is it?",
-        _quarter, _quarter_why, BOARDS, unit="m", tolerance=1.0, step=DEPTH,
+        lambda states: boards(states[DEPTH])[20], _quarter_why, BOARDS, unit="m", tolerance=1.0, step=DEPTH,
     ),
     Question(
         "nearer",
@@ -250,7 +233,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "baseline", "The cameras move apart to twice the baseline. How many pixels does the right camera not see now?",
-        _hidden, _hidden_why, DOUBLE, choices=("about half as many", "about as many", "about twice as many"), step=CHECKED,
+        lambda states: float(np.digitize(hidden(states[0].setup.params) / hidden(PLANES), [0.75, 1.5])),
+        lambda states: f"{percent(hidden(PLANES), 1)} became {percent(hidden(states[0].setup.params), 1)}. The depths of the"
+        " rest are about twice as exact: a longer baseline is a trade, not a gain.",
+        DOUBLE, choices=("about half as many", "about as many", "about twice as many"), step=CHECKED,
     ),
     Question(
         "window", "A window of 21 px instead of 3 against noise, without paths. Where are the pixels that stay wrong?",

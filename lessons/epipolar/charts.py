@@ -7,7 +7,6 @@ from workbench.algorithms.two_views import Followed, Related
 from workbench.certain import sure
 from workbench.geometry.cameras import camera_center
 from workbench.geometry.motions import rotation_angle
-from workbench.geometry.triangulation import camera_matrix, triangulation_covariances
 from workbench.numerals import angle, brief, coordinates, fixed
 from workbench.scene import Chart, Primitive, Table
 
@@ -74,14 +73,13 @@ def _motions(now: Related) -> Table:
 
 def _depths(state: State, now: Related) -> dict[str, Primitive]:
     """Return how far the depths of the points are off, and how far noise alone would put them."""
-    true, T = sure(state.views.p_first), sure(state.T_true)
+    true = sure(state.views.p_first)
     assert now.p_first is not None
     order = np.argsort(true[:, 2])
     z, off = true[order, 2], (state.length * now.p_first[:, 2] - true[:, 2])[order]
     top = 2.0 * z[-1]  # what is farther off is drawn there
     scene: dict[str, Primitive] = {"depth errors": DEPTH.dots(z, np.minimum(np.abs(off), top), "points", "source")}
     if state.moved:
-        Ps = camera_matrix(state.views.K_first, np.eye(4)), camera_matrix(state.views.K_second, T)
-        sigma = np.sqrt(triangulation_covariances(*Ps, true[order], state.params.noise)[:, 2, 2])
-        scene["depth sigma"] = DEPTH.curve(z, np.minimum(sigma, top), "σ from the pixels' noise", "truth")
+        sigma = np.minimum(state.depth_sigma(true[order]), top)
+        scene["depth sigma"] = DEPTH.curve(z, sigma, "σ from the pixels' noise", "truth")
     return scene

@@ -7,7 +7,6 @@ import numpy as np
 from lessons.epipolar.state import Params, State
 from workbench.algorithms.two_views import Related
 from workbench.certain import as_a
-from workbench.geometry.triangulation import camera_matrix, triangulation_covariances
 from workbench.lesson import Preset, Question
 from workbench.numerals import angle, fixed, pixels
 
@@ -99,9 +98,7 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 def depth_sigma(state: State) -> float:
     """Return how uncertain the depth of a point 8 m before the first camera is, metres, from the true cameras."""
-    assert state.T_true is not None
-    Ps = camera_matrix(state.views.K_first, np.eye(4)), camera_matrix(state.views.K_second, state.T_true)
-    return float(np.sqrt(triangulation_covariances(*Ps, np.array([[0.0, 0.0, DEPTH]]), state.params.noise)[0, 2, 2]))
+    return float(state.depth_sigma(np.array([[0.0, 0.0, DEPTH]]))[0])
 
 
 def in_front(states: Sequence[State]) -> tuple[int, ...]:

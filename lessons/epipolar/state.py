@@ -8,12 +8,15 @@ from typing import Annotated
 import numpy as np
 
 from workbench.algorithms.two_views import Followed, Related, Route
+from workbench.certain import sure
 from workbench.data.two_views import LARGEST, TwoViews, What
 from workbench.geometry.alignment import degrees_between
 from workbench.geometry.cameras import project
 from workbench.geometry.epipolar import sampson_distances
 from workbench.geometry.homography import transform_pixels
+from workbench.geometry.metrics import rms
 from workbench.geometry.motions import angle_between, motion
+from workbench.geometry.triangulation import camera_matrix, triangulation_covariances
 from workbench.knobs import Knob, Pick
 
 MOST_MATCHES = 1500  # of a person's file
@@ -120,6 +123,11 @@ class State:
             return None
         return self.moved and self.turn_error < GOOD_TURN and self.direction_error < GOOD_DIRECTION
 
+    def depth_sigma(self, p_first: np.ndarray) -> np.ndarray:
+        """Return how uncertain the noise of the pixels makes the depths of points, metres, through the true cameras."""
+        Ps = camera_matrix(self.views.K_first, np.eye(4)), camera_matrix(self.views.K_second, sure(self.T_true))
+        return np.sqrt(triangulation_covariances(*Ps, p_first, self.params.noise)[:, 2, 2])
+
     def to_lines(self, matches: np.ndarray) -> float:
         """Return the root mean square distance of matches to the lines of F, pixels; NaN where there is no F or no match."""
         if not isinstance(self.now, Related) or not len(matches):
@@ -134,8 +142,3 @@ class State:
             return None
         uv = self.views.matches
         return transform_pixels(found.H_first, uv[:, :2]) - transform_pixels(found.H_second, uv[:, 2:])
-
-
-def rms(values: np.ndarray) -> float:
-    """Return the root mean square."""
-    return float(np.sqrt(np.square(values).mean()))

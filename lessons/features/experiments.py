@@ -122,26 +122,15 @@ def end(states: Sequence[State]) -> Scanned:
     return as_a(Scanned, states[-1].now)
 
 
-def _small_why(states: Sequence[State]) -> str:
-    return (
-        f"{percent(kept_share(states) / 100, 0)}. So near, a surface is almost flat, and all flat places look alike. A"
-        " larger neighbourhood tells more, until it reaches over the border of what both scans saw."
-    )
-
-
-def _vase_why(states: Sequence[State]) -> str:
-    return (
-        f"It ends {angle(end(states).error.rotation)} off. Each place of a vase has a ring of places that look the same,"
-        " so no descriptor can tell them apart: the data do not hold the answer."
-    )
-
-
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "radius",
         "With a radius of 15 cm about a quarter of the kept matches are right. How many per cent are with 7 cm?",
         answer=kept_share,
-        why=_small_why,
+        why=lambda states: (
+            f"{percent(kept_share(states) / 100, 0)}. So near, a surface is almost flat, and all flat places look alike. A"
+            " larger neighbourhood tells more, until it reaches over the border of what both scans saw."
+        ),
         params=SMALL,
         unit="%",
         tolerance=7.0,
@@ -163,7 +152,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "ring",
         "The vase starts 140° away, with no noise that matters. Does the registration come home?",
         answer=lambda states: 0.0 if end(states).home else 1.0,
-        why=_vase_why,
+        why=lambda states: (
+            f"It ends {angle(end(states).error.rotation)} off. Each place of a vase has a ring of places that look the"
+            " same, so no descriptor can tell them apart: the data do not hold the answer."
+        ),
         params=VASE,
         choices=("Yes, from any start", "No"),
     ),

@@ -19,7 +19,6 @@ STEEP = Params(stage="line", noise=0.1)
 EDGE = Params(stage="robust", loss="squares", points=300, noise=0.01, outliers=0.3, reach=2.0, side="both")
 TUKEY = Params(stage="robust", points=300, noise=0.01, outliers=0.5, loss="Tukey")
 LARGE = Params(arc=360.0, noise=0.3, method="Gauss-Newton", rest="a trillionth")
-SMALL = Params(arc=360.0, method="Gauss-Newton", rest="a trillionth")
 
 VIEW = View(eye=(0.2, -0.01, 3.4), target=(0.2, 0.0, 0.0), grid=None, axes=False)
 WIDE = View(eye=(0.0, -0.01, 9.5), target=(0.0, 0.0, 0.0), grid=None, axes=False)

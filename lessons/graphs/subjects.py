@@ -17,6 +17,7 @@ from workbench.data.rabbit import rabbit, rabbit_mesh
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
 from workbench.geometry import meshes
+from workbench.knobs import only
 
 MOST_CLOUD, MOST_NODES = 3000, 1000
 OWN_SIZE = 2.0  # metres: how long the longest side of own points is made
@@ -45,7 +46,7 @@ def _what_counts(params: Params) -> Params:
     """Return the params with nothing but what makes a built-in graph, so that it is made once."""
     chance = params.graph in ("dumbbell", "uneven sphere", "rabbit") or (params.graph == "sphere" and params.jitter > 0)
     kept = ("graph", "points", "share", "bridge", "columns", "jitter", "weighted")
-    return Params(**{name: getattr(params, name) for name in kept}, seed=params.seed if chance else 0)
+    return only(params, *kept, *(("seed",) if chance else ()))
 
 
 @functools.lru_cache(maxsize=16)

@@ -125,10 +125,6 @@ def _matches_why(states: Sequence[State]) -> str:
     )
 
 
-def _far_answer(states: Sequence[State]) -> float:
-    return 0.0 if end(states).home else 2.0 if rmse_falls(states) else 1.0
-
-
 def _far_why(states: Sequence[State]) -> str:
     last = end(states)
     return (
@@ -166,7 +162,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "predict-far",
         "The source starts 120° away. What will ICP do?",
-        answer=_far_answer,
+        answer=lambda states: 0.0 if end(states).home else 2.0 if rmse_falls(states) else 1.0,
         why=_far_why,
         params=FAR,
         step=END,

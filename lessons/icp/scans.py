@@ -2,33 +2,25 @@
 
 import functools
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from lessons.icp.state import Params, Planes, Scans, Thinning
+from lessons.icp.state import Params, Planes, Scans
 from workbench.data.clouds import pair
 from workbench.data.files import read_cloud, read_pose, stamp
-from workbench.data.framing import FAR, METRES, Frame, Unit, Up, extent, frame, ground_grid, round_below
+from workbench.data.framing import FAR, METRES, Frame, Up, extent, frame, ground_grid, round_below
 from workbench.data.lidar import lidar_pair
 from workbench.data.thinning import some_points, spacing, voxel_means
 from workbench.errors import InputError
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 from workbench.geometry.normals import point_normals
+from workbench.knobs import only
 
 RINGS, COLUMNS = 32, 900
 WIDTH = 1.2  # metres of the picture that large or small scans are shown wide
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Thin:
-    """How large scans are thinned."""
-
-    how: Thinning
-    voxel: float
-    most: int
-    seed: int
+LARGE = ("thinning", "voxel", "own_points", "seed", "planes")  # what becomes of scans of any size depends on these
 
 
 def scans_of(params: Params) -> Scans:
@@ -45,10 +37,6 @@ def scans_of(params: Params) -> Scans:
     return replace(scans, T_start=T_start)
 
 
-def _thin_of(params: Params) -> _Thin:
-    return _Thin(how=params.thinning, voxel=params.voxel, most=params.own_points, seed=params.seed)
-
-
 def _true_motion(params: Params) -> np.ndarray:
     turn = exp_so3(np.array([0.0, 0.0, np.radians(params.start_angle)]))
     return motion(turn, np.array([params.start_shift, 0.0, 0.0]))
@@ -56,16 +44,17 @@ def _true_motion(params: Params) -> np.ndarray:
 
 def _built_in(params: Params) -> Scans:
     T_truth = _true_motion(params)
-    home = _sampled(params.shape, params.points, params.overlap, params.noise, params.outliers, params.seed)
+    home = _sampled(only(params, "shape", "points", "overlap", "noise", "outliers", "seed"))
     p_source = apply(inverse(T_truth), home.p_source)
     return replace(home, p_source=p_source, p_source_shown=p_source, T_truth=T_truth)
 
 
 @functools.lru_cache(maxsize=16)
-def _sampled(shape: str, points: int, overlap: float, noise: float, outliers: float, seed: int) -> Scans:
+def _sampled(params: Params) -> Scans:
     """Return the scans before the source is turned away: the same arrays whatever the start."""
-    rng = np.random.default_rng(seed)
-    scans = pair(shape, points, np.eye(4), rng, overlap=overlap, noise=noise, outliers=outliers)
+    rng = np.random.default_rng(params.seed)
+    wrong = {"overlap": params.overlap, "noise": params.noise, "outliers": params.outliers}
+    scans = pair(params.shape, params.points, np.eye(4), rng, **wrong)
     p, q = scans.p_target, scans.p_source
     return Scans(
         p_target=p,
@@ -84,16 +73,16 @@ def _sampled(shape: str, points: int, overlap: float, noise: float, outliers: fl
 
 
 def _lidar(params: Params) -> Scans:
-    return _driven(params.start_angle, params.start_shift, params.noise, _thin_of(params), params.planes)
+    return _driven(only(params, "start_angle", "start_shift", "noise", *LARGE))
 
 
 @functools.lru_cache(maxsize=8)
-def _driven(start_angle: float, start_shift: float, noise: float, thin: _Thin, planes: Planes) -> Scans:
+def _driven(params: Params) -> Scans:
     """Return the scans before and after the scanner has moved: other rings on the same street."""
-    T_truth = _true_motion(Params(start_angle=start_angle, start_shift=start_shift))
-    rng = np.random.default_rng(thin.seed)
-    p_target, p_source = lidar_pair(T_truth, rng, rings=RINGS, columns=COLUMNS, noise=noise)
-    return replace(_framed(*_thinned(p_target, p_source, thin), "z", planes), T_truth=T_truth)
+    T_truth = _true_motion(params)
+    rng = np.random.default_rng(params.seed)
+    p_target, p_source = lidar_pair(T_truth, rng, rings=RINGS, columns=COLUMNS, noise=params.noise)
+    return replace(_framed(*_thinned(p_target, p_source, params), "z", params.planes), T_truth=T_truth)
 
 
 def _own(params: Params) -> Scans:
@@ -104,27 +93,26 @@ def _own(params: Params) -> Scans:
     T_truth = None if params.truth is None else read_pose(params.truth, params.target, params.source).copy()
     if T_truth is not None:
         T_truth[:3, 3] *= METRES[params.unit]
-    read = functools.partial(_read, unit=params.unit, up=params.up, planes=params.planes, thin=_thin_of(params))
-    return replace(read(params.target, params.source, stamp(params.target), stamp(params.source)), T_truth=T_truth)
+    files = params.target, params.source
+    made = _read(*files, only(params, "unit", "up", *LARGE), *(stamp(path) for path in files))
+    return replace(made, T_truth=T_truth)
 
 
 @functools.lru_cache(maxsize=8)
-def _read(
-    target: Path, source: Path, *_stamps: tuple[int, int], unit: Unit, up: Up, planes: Planes, thin: _Thin
-) -> Scans:
+def _read(target: Path, source: Path, params: Params, *_stamps: tuple[int, int]) -> Scans:
     """Thin own scans and bring them into the picture; anew when a file has changed."""
-    p_target, p_source = (METRES[unit] * read_cloud(scan) for scan in (target, source))
+    p_target, p_source = (METRES[params.unit] * read_cloud(scan) for scan in (target, source))
     if not extent(p_target, FAR) > 0:
         raise InputError(f"{target.name}: all its points lie at one place")
-    return _framed(*_thinned(p_target, p_source, thin), up, planes)
+    return _framed(*_thinned(p_target, p_source, params), params.up, params.planes)
 
 
-def _thinned(p_target: np.ndarray, p_source: np.ndarray, thin: _Thin) -> tuple[np.ndarray, np.ndarray]:
+def _thinned(p_target: np.ndarray, p_source: np.ndarray, params: Params) -> tuple[np.ndarray, np.ndarray]:
     """Thin both scans by the same voxels, and draw at most so many points of the source by chance."""
-    if thin.how == "voxel":
-        size = thin.voxel / 100.0 * extent(p_target, FAR)
+    if params.thinning == "voxel":
+        size = params.voxel / 100.0 * extent(p_target, FAR)
         p_target, p_source = voxel_means(p_target, size), voxel_means(p_source, size)
-    return p_target, some_points(p_source, thin.most, np.random.default_rng(thin.seed))
+    return p_target, some_points(p_source, params.own_points, np.random.default_rng(params.seed))
 
 
 def _framed(p_target: np.ndarray, p_source: np.ndarray, up: Up, planes: Planes) -> Scans:

@@ -141,11 +141,6 @@ def tower_ratio(states: Sequence[State]) -> float:
     return states[-1].shot.tower / states[-1].shot.tower_before
 
 
-def _dolly_answer(states: Sequence[State]) -> float:
-    ratio = tower_ratio(states)
-    return 0.0 if ratio > 1.05 else 2.0 if ratio < 0.95 else 1.0
-
-
 def _dolly_why(states: Sequence[State]) -> str:
     shot = states[-1].shot
     return (
@@ -194,11 +189,6 @@ def shift_of_vanishing(states: Sequence[State]) -> float:
     return float((vanishing_points(np.array([[0.0, 1.0, 0.0]]), stepped, shot.K) - shot.vanishing)[0, 0])
 
 
-def _rails_answer(states: Sequence[State]) -> float:
-    shift = shift_of_vanishing(states)
-    return 1.0 if abs(shift) < 0.5 else 0.0 if shift < 0 else 2.0
-
-
 def _rails_why(states: Sequence[State]) -> str:
     state = states[-1]
     shot, near = state.shot, state.now.p_world[3:4]
@@ -217,7 +207,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-dolly",
         "The camera backs off to three times its distance from the crate, and f becomes three times as long. The crate"
         " keeps its size. What does the tower behind it do in the picture?",
-        answer=_dolly_answer,
+        answer=lambda states: 0.0 if tower_ratio(states) > 1.05 else 2.0 if tower_ratio(states) < 0.95 else 1.0,
         why=_dolly_why,
         params=DOLLY,
         choices=("It grows", "It keeps its size too", "It shrinks"),
@@ -244,7 +234,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "predict-rails",
         "The camera steps 2 m to its right without turning. Where does the point go in which the rails seem to meet?",
-        answer=_rails_answer,
+        answer=lambda states: 1.0 if abs(shift := shift_of_vanishing(states)) < 0.5 else 0.0 if shift < 0 else 2.0,
         why=_rails_why,
         params=RAILS,
         choices=("To the left in the picture", "Nowhere: it stays", "To the right in the picture"),

@@ -32,7 +32,7 @@ def run(
     shot = shot_of(params)
     model = model_of(params, shot, project, distort, camera_center)
     picture = overlaid(shot, model, params.point)
-    for now in model.follow(street().points):
+    for now in model(street().points):
         error, found, missed, false = compare(shot, now)
         yield State(
             params=params,

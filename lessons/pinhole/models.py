@@ -1,80 +1,52 @@
 """The camera as it is calculated: the given functions, or one of them replaced by a classic mistake."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
 from lessons.pinhole.shot import wires
 from lessons.pinhole.state import Params, Shot
-from workbench.algorithms.pinhole import Center, Distort, Project, follow
+from workbench.algorithms.pinhole import Center, Distort, Project, State, follow
 from workbench.data.street import street
 from workbench.geometry.cameras import OPENGL_FROM_OPENCV
-from workbench.geometry.distortion import Distortion
 from workbench.geometry.motions import apply, inverse
 from workbench.geometry.raster import PointItem, SegmentItem, render
 from workbench.scene import Role, color_rows
 
 SWAP = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 
+Model = Callable[[np.ndarray], Iterator[State]]
+"""model(p_world) -> the stages of these points."""
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Model:
-    """What `follow` is given: motion, intrinsics, lens, the three functions, and what counts as depth."""
 
-    T_camera_world: np.ndarray
-    K: np.ndarray
-    lens: Distortion
-    project: Project
-    distort: Distort
-    camera_center: Center
-    takes_ray_length: bool = False
-
-    def follow(self, p_world: np.ndarray):
-        """Yield the stages of these points."""
-        p_camera = apply(self.T_camera_world, p_world)
-        return follow(
-            p_world,
-            self.T_camera_world,
-            self.K,
-            self.lens,
-            project=self.project,
-            distort=self.distort,
-            camera_center=self.camera_center,
-            depth=np.linalg.norm(p_camera, axis=1) if self.takes_ray_length else None,
-        )
-
-    def pixels(self, p_world: np.ndarray) -> np.ndarray:
-        """Return where the calculation puts these points in the picture."""
-        return next(state.uv for state in self.follow(p_world) if state.stage == "pixels")
+def pixels(model: Model, p_world: np.ndarray) -> np.ndarray:
+    """Return where the calculation puts these points in the picture."""
+    return next(state.uv for state in model(p_world) if state.stage == "pixels")
 
 
 def model_of(params: Params, shot: Shot, project: Project, distort: Distort, camera_center: Center) -> Model:
     """Return the calculation with the given functions, changed by the mistake that is asked for."""
     K = shot.K if params.k_follows else shot.K_first
-    model = Model(
-        T_camera_world=shot.T_camera_world,
-        K=K,
-        lens=shot.lens,
-        project=project,
-        distort=distort,
-        camera_center=camera_center,
+    T, f = shot.T_camera_world, K[0, 0]
+    model = partial(
+        follow, T_camera_world=T, K=K, lens=shot.lens, project=project, distort=distort, camera_center=camera_center
     )
-    f = K[0, 0]
     match params.mistake:
         case "pose inverted":
-            return replace(model, T_camera_world=inverse(shot.T_camera_world))
+            return partial(model, T_camera_world=inverse(T))
         case "divides behind too":
-            return replace(model, project=divide_anyway)
+            return partial(model, project=divide_anyway)
         case "OpenGL axes":
-            return replace(model, T_camera_world=OPENGL_FROM_OPENCV @ shot.T_camera_world, project=divide_anyway)
+            return partial(model, T_camera_world=OPENGL_FROM_OPENCV @ T, project=divide_anyway)
         case "row before column":
-            return replace(model, K=SWAP @ K)
+            return partial(model, K=SWAP @ K)
         case "lens on pixels":
-            return replace(model, distort=lambda xy, k1, k2, p1, p2: distort(f * xy, k1, k2, p1, p2) / f)
+            return partial(model, distort=lambda xy, k1, k2, p1, p2: distort(f * xy, k1, k2, p1, p2) / f)
         case "t for the centre":
-            return replace(model, camera_center=lambda T_camera_world: T_camera_world[:3, 3].copy())
+            return partial(model, camera_center=lambda T_camera_world: T_camera_world[:3, 3].copy())
         case "ray length for depth":
-            return replace(model, takes_ray_length=True)
+            return lambda p_world: model(p_world, depth=np.linalg.norm(apply(T, p_world), axis=1))
     return model
 
 
@@ -91,9 +63,9 @@ def overlaid(shot: Shot, model: Model, point: int) -> np.ndarray:
     lines = wires(shot.T_camera_world)
     drawn = render(
         [SegmentItem(lines, color_rows("source", len(lines)))],
-        shot.T_camera_world, shot.K, w, h, shot.lens, to_pixels=model.pixels,
+        shot.T_camera_world, shot.K, w, h, shot.lens, to_pixels=partial(pixels, model),
     )  # fmt: skip
-    uv = model.pixels(street().points)
+    uv = pixels(model, street().points)
     spots = [_flat(uv, "source", 3), _flat(shot.uv[point : point + 1], "truth", 9), _flat(uv[[point]], "highlight", 7)]
     picture = shot.picture.copy()
     for layer in (drawn, *(render([spot], np.eye(4), np.eye(3), w, h) for spot in spots)):

@@ -24,6 +24,7 @@ from workbench.geometry.cameras import (
 from workbench.geometry.distortion import Distortion
 from workbench.geometry.polylines import segments
 from workbench.geometry.raster import render
+from workbench.knobs import only
 
 WIDTH, HEIGHT = 320, 240
 CROP_LEFT, CROP_TOP = 60, 40
@@ -34,28 +35,19 @@ TOWER_EDGE = np.array([[-3.7, 13.2, 0.0], [-3.7, 13.2, 5.0]])
 
 def shot_of(params: Params) -> Shot:
     """Return the shot of these params; knobs that do not touch the camera find it taken already."""
-    lens = Distortion(params.k1, params.k2, params.p1, params.p2)
-    return _shot(
-        camera=params.camera,
-        target=params.target,
-        f=params.f,
-        factor=params.dolly,
-        lens=lens,
-        edit=params.edit,
-    )
+    return _shot(only(params, "camera", "target", "f", "dolly", "k1", "k2", "p1", "p2", "edit"))
 
 
 @functools.lru_cache(maxsize=64)
-def _shot(
-    camera: tuple[float, ...], target: tuple[float, ...], f: float, factor: float, lens: Distortion, edit: Edit
-) -> Shot:
-    p_world_eye, p_world_target = np.array(camera), np.array(target)
+def _shot(params: Params) -> Shot:
+    lens, edit = Distortion(params.k1, params.k2, params.p1, params.p2), params.edit
+    p_world_eye, p_world_target = np.array(params.camera), np.array(params.target)
     distance = float(np.linalg.norm(p_world_target - p_world_eye))
     if distance < 1e-6:
         raise InputError("the camera is at its own target: move one of the two")
     T_near = look_at(p_world_eye, p_world_target)
-    K_near = intrinsics(f, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
-    T_camera_world, K_first = dolly(T_near, K_near, distance, factor)
+    K_near = intrinsics(params.f, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
+    T_camera_world, K_first = dolly(T_near, K_near, distance, params.dolly)
     photo = render(street_items(), T_camera_world, K_first, WIDTH, HEIGHT, lens, background=(238, 243, 248))
     picture = _edited(photo.colors, edit)
     K, K_before = _edited_intrinsics(K_first, edit), _edited_intrinsics(K_near, edit)
@@ -75,7 +67,7 @@ def _shot(
         ball_ratio=_ball_ratio(T_camera_world, K_first),
         vanishing=vanishing_points(np.array([[0.0, 1.0, 0.0]]), T_camera_world, K, lens)[0],
         gaps=np.array([_gap(*dolly(T_near, K_near, distance, by), distance * by) for by in FACTORS]),
-        gap=_gap(T_camera_world, K_first, distance * factor),
+        gap=_gap(T_camera_world, K_first, distance * params.dolly),
     )
 
 

@@ -11,6 +11,7 @@ from workbench.algorithms import ransac
 from workbench.algorithms.camera_search import Searched
 from workbench.certain import as_a
 from workbench.geometry.cameras import camera_center, project
+from workbench.geometry.metrics import rms
 from workbench.geometry.motions import apply, inverse
 from workbench.geometry.polylines import between
 from workbench.lesson import View
@@ -126,7 +127,7 @@ def _pixels(state: State, photograph: Picture) -> dict[str, Primitive]:
     if not front.any():
         return scene
     errors = subject.pixel_errors(T)[front]
-    factor = ENLARGED if np.sqrt(np.square(errors).mean()) < SMALL else 1
+    factor = ENLARGED if rms(errors) < SMALL else 1
     start, end = subject.given.uv[front], uv[front]
     ends = between(*(_on(photograph, subject, at) for at in (start, start + factor * (end - start))))
     times = f", drawn {factor} times as long" if factor > 1 else ""

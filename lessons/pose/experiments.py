@@ -5,15 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from lessons.pose.draw import ABOVE, VIEW
+from lessons.pose.draw import ABOVE
 from lessons.pose.state import Params, Repeated, State
 from lessons.pose.trials import TRIPLES
 from workbench.algorithms.ransac import iterations_needed
 from workbench.certain import as_a, sure
 from workbench.lesson import Preset, Question
 from workbench.numerals import angle, fixed, percent
-
-__all__ = ["PRESETS", "QUESTIONS", "VIEW"]
 
 FOUR = Params(target="triangle", camera=(0.1, 0.05, 2.0), noise=0.0, refine=False)
 MARKER = Params(target="marker", method="IPPE", noise=0.5)
@@ -143,21 +141,6 @@ def _most_why(states: Sequence[State]) -> str:
     )
 
 
-def _wrong_why(states: Sequence[State]) -> str:
-    return (
-        f"In {fixed(swapped(states), 0)} % of the pictures. It is not looking straight at it that makes a marker"
-        " ambiguous:"
-        " at 20 pixels the two poses differ by less than the noise, however it is turned."
-    )
-
-
-def _samples_why(states: Sequence[State]) -> str:
-    return (
-        f"0.5³ of the samples of three are clean, 0.5⁶ of those of six: {needed(states, 3):.0f} and"
-        f" {needed(states, 6):.0f} samples for 99 %. Draw as few points as determine a pose."
-    )
-
-
 def _few_why(states: Sequence[State]) -> str:
     far = [percent(share, 0) for share in others(states).far]
     return (
@@ -165,10 +148,6 @@ def _few_why(states: Sequence[State]) -> str:
         " on their weights begins at a linear guess, so it may end in another mix. From six points on there is one"
         " vector, and nothing to mix."
     )
-
-
-def _plane_answer(states: Sequence[State]) -> float:
-    return float(np.digitize(np.median(others(states).degrees), [2.0, 20.0]))
 
 
 def _plane_why(states: Sequence[State]) -> str:
@@ -195,7 +174,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         text="A marker is 20 pixels wide and turned away by 60°; the noise is half a pixel. In how many per cent of"
         " such pictures does the wrong one of its two poses fit better?",
         answer=swapped,
-        why=_wrong_why,
+        why=lambda states: (
+            f"In {fixed(swapped(states), 0)} % of the pictures. It is not looking straight at it that makes a marker"
+            " ambiguous: at 20 pixels the two poses differ by less than the noise, however it is turned."
+        ),
         params=TILTED,
         unit="%",
         tolerance=15.0,
@@ -205,7 +187,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         text="Half of the points are wrong. Samples of three need 35 draws for 99 % confidence that one is clean. How"
         " many would samples of six need, which the linear transform takes?",
         answer=lambda states: needed(states, 6),
-        why=_samples_why,
+        why=lambda states: (
+            f"0.5³ of the samples of three are clean, 0.5⁶ of those of six: {needed(states, 3):.0f} and"
+            f" {needed(states, 6):.0f} samples for 99 %. Draw as few points as determine a pose."
+        ),
         params=HALF,
         tolerance=60.0,
     ),
@@ -223,7 +208,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         name="predict-plane",
         text="All points lie in one plane, and the linear transform makes a pose of them; then it is refined. How far"
         " is the rotation off?",
-        answer=_plane_answer,
+        answer=lambda states: float(np.digitize(np.median(others(states).degrees), [2.0, 20.0])),
         why=_plane_why,
         params=PLANE,
         choices=("by less than 2°", "by 2° to 20°", "by more: it means nothing"),

@@ -15,6 +15,7 @@ from workbench.data.solids import Solid
 from workbench.geometry.alignment import degrees_between
 from workbench.geometry.camera_motions import reprojection_errors
 from workbench.geometry.cameras import camera_center, normalize
+from workbench.geometry.metrics import rms
 from workbench.knobs import Gizmo, Knob
 
 Target = Literal["box", "marker", "street", "triangle"]
@@ -190,12 +191,12 @@ class State:
     def rms(self) -> float:
         """Its root mean square error in the picture, px; infinite where a point is behind it."""
         assert self.T is not None
-        return float(np.sqrt(np.square(self.subject.pixel_errors(self.T)).mean()))
+        return rms(self.subject.pixel_errors(self.T))
 
     def judged(self, T: np.ndarray) -> float:
         """Return the error by which a motion is chosen or not, px: of the fourth point, or of all points of a plane."""
         rows = slice(3, 4) if self.params.method == "P3P" else slice(None)
-        return float(np.sqrt(np.square(self.subject.pixel_errors(T)[rows]).mean()))
+        return rms(self.subject.pixel_errors(T)[rows])
 
     @property
     def right(self) -> bool:

@@ -10,6 +10,7 @@ from workbench.algorithms import ransac
 from workbench.algorithms.camera_search import Searched
 from workbench.geometry.alignment import degrees_between
 from workbench.geometry.cameras import camera_center
+from workbench.geometry.metrics import rms
 from workbench.geometry.motions import angle_between
 from workbench.geometry.planar_motions import is_flat
 from workbench.geometry.three_points import unit_rays
@@ -87,7 +88,7 @@ def _root(state: State, now: Searched) -> str:
     k, subject = len(now.candidates), state.subject
     if state.T is None:
         return f"Solution {k} of {len(now.lengths)}: its pose holds numbers that are not finite. It is wrong."
-    miss = float(np.sqrt(np.square(subject.pixel_errors(state.T)[:3]).mean()))
+    miss = rms(subject.pixel_errors(state.T)[:3])
     sees = "exactly where they were seen" if miss < SEES_EXACTLY else f"{_px(miss)} from where they were seen"
     rays = ", ".join(length(s) for s in now.lengths[k - 1])
     where = coordinates(subject.frame.shown(camera_center(state.T)), 2)

@@ -15,7 +15,7 @@ from workbench.geometry.polylines import at_height, segments, sphere_rings
 from workbench.geometry.voxels import Grid, counted_surface
 from workbench.scene import Field, Mesh, Picture, Points, Primitive, Scene, Segments
 
-MOST_POINTS, MOST_BOXES, MOST_QUADS, MOST_EDGES = 8000, 260, 26_000, 12_000
+MOST_POINTS, MOST_BOXES, MOST_EDGES = 8000, 260, 12_000
 ASIDE = np.array([0.0, 1.1, 0.85])  # m: a slice that is out of the way is behind and above
 REACH = 0.5  # m: the end of the colour bar of distances
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])

@@ -155,9 +155,14 @@ def voxels(params: Params, subject: Subject, functions: Functions) -> Steps:
         now = Cells(grid=grid, values=bits, walls=counted_area(bits, grid.spacing))
         state = replace(state, now=now, surface=None, bytes=size)
         yield state
-        surface = measured(subject, *(marched_surface(bits, grid) if bits.any() else _nothing()))
+        surface = measured(subject, *_marched(bits, grid))
         state = grown(replace(state, surface=surface), size, surface.mean)
         yield state
+
+
+def _marched(bits: np.ndarray, grid: Grid) -> tuple[np.ndarray, np.ndarray]:
+    """Return the surface around full cells, which has no faces where none is full."""
+    return marched_surface(bits, grid) if bits.any() else (np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
 
 
 def distances(params: Params, subject: Subject, functions: Functions) -> Steps:
@@ -188,7 +193,7 @@ def octree(params: Params, subject: Subject, functions: Functions) -> Steps:
     for now in grow_octree(subject.field, LOW, EDGE, params.depth):
         state = replace(state, now=now, surface=None, bytes=now.packed_bytes)
         if now.depth >= 3:
-            surface = measured(subject, *(marched_surface(now.bits, now.grid) if now.bits.any() else _nothing()))
+            surface = measured(subject, *_marched(now.bits, now.grid))
             state = grown(replace(state, surface=surface), now.packed_bytes, surface.mean)
         yield state
         state = replace(state, mixed=(*state.mixed, int(now.mixed.sum())))
@@ -309,10 +314,6 @@ def _growth(seed: int) -> Growth:
         dimensions=dimensions,
         shares=np.array([mean_looked(4000, int(d)) for d in dimensions]) / 4000,
     )
-
-
-def _nothing() -> tuple[np.ndarray, np.ndarray]:
-    return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)
 
 
 FORMS: dict[Form, Callable[..., Steps]] = {

@@ -10,7 +10,7 @@ import scipy
 from lessons.representations.state import Form, Params, Shape, Subject, Surface
 from workbench.data import solids, surfaces
 from workbench.data.files import read_cloud, stamp
-from workbench.data.framing import UPRIGHT, Upward, box, extent, own_points, upward
+from workbench.data.framing import Upward, own_points
 from workbench.data.own_meshes import read_welded
 from workbench.data.rabbit import rabbit_mesh
 from workbench.data.thinning import some_points
@@ -20,7 +20,7 @@ from workbench.geometry.containment import windings
 from workbench.geometry.measures import encloses, signed_volume, surface_area
 from workbench.geometry.meshes import face_normals
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.sampling import points_on_faces, unit_points
+from workbench.geometry.sampling import places_on_faces, points_on_faces, unit_points
 from workbench.geometry.signed_distances import face_tree, mesh_sdf, torus_sdf
 
 BoxSdf = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -118,8 +118,7 @@ def spread_numbers() -> np.ndarray:
 def _tilt(subject: Subject, p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> float:
     """Return the mean angle between face normals and the gradient of the true distance, degrees."""
     normals = face_normals(p, faces)
-    area = np.cumsum(np.linalg.norm(np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]]), axis=1))
-    k = np.minimum(np.searchsorted(area, u[:, 0] * area[-1], side="right"), len(faces) - 1)
+    k, _ = places_on_faces(p, faces, u)
     q = points_on_faces(p, faces, u)
     steps = [subject.distance(q + STEP * axis) - subject.distance(q - STEP * axis) for axis in np.eye(3)]
     gradient = np.stack(steps, axis=1)
@@ -192,10 +191,7 @@ def _of_mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
 @functools.lru_cache(maxsize=4)
 def _own(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
     p, faces = read_welded(path, MOST_OWN, "stored")
-    axis = upward(p, path, up)
-    low, high = box(p)
-    scale = OWN_SIZE / extent(p)
-    return _of_mesh(path.name, scale * (p - (low + high) / 2) @ UPRIGHT[axis].T, faces)
+    return _of_mesh(path.name, own_points(p, path, up, OWN_SIZE), faces)
 
 
 @functools.lru_cache(maxsize=4)

@@ -24,6 +24,11 @@ SHARED = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
 _POSE, _RESIDUAL = slice(9, 15), 15  # rows of a view's block
 
 
+def shared_numbers(K: Float[np.ndarray, "3 3"], lens: Distortion) -> Float[np.ndarray, "9"]:
+    """Return the values of `SHARED`, the first four in pixels."""
+    return np.array([K[0, 0], K[1, 1], K[0, 2], K[1, 2], *lens])
+
+
 class Stop(Enum):
     """Why the iteration ended."""
 
@@ -109,7 +114,7 @@ def adjust(
         for flat and as large as `p_board` says.
     """
     free = np.arange(9) < 4 + coefficients
-    shared = np.array([K[0, 0], K[1, 1], K[0, 2], K[1, 2], *lens])
+    shared = shared_numbers(K, lens)
     R, t = Ts_camera_board[:, :3, :3], Ts_camera_board[:, :3, 3]
     block, damping, accepted, stop, covariance = linearised(shared, R, t, p_board, uv), 1e-4, True, None, None
     cost, weights = loss(block, corner)

@@ -15,6 +15,7 @@ import scipy
 from jaxtyping import Bool, Float, Int
 
 from workbench.geometry.alignment import align_rigid, point_to_plane_step
+from workbench.geometry.metrics import rms
 from workbench.geometry.motions import apply
 from workbench.tracing import traced
 
@@ -268,12 +269,6 @@ def misfit(
     if n_match is not None:
         distances = np.einsum("ij,ij->i", p_match - p_moved, n_match)
     return rms(distances[kept])
-
-
-def rms(values: Float[np.ndarray, "n"]) -> float:
-    """Return the root mean square, NaN for no values."""
-    # not values @ values: BLAS wakes its threads for a long dot product, which takes 300 times as long
-    return float(np.sqrt(np.mean(values * values))) if len(values) else float("nan")
 
 
 def summary(

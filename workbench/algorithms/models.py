@@ -27,6 +27,7 @@ from workbench.geometry.homography import (
     transfer_distances,
 )
 from workbench.geometry.lines_planes import fit_hyperplane, hyperplane_distances, line_from_points, plane_from_points
+from workbench.geometry.metrics import rms
 
 SIDES_ALIKE = 0.9  # of a triangle and its match, the shorter as a share of the longer
 
@@ -84,7 +85,7 @@ def rms_distance(model: Model, estimate: Float[np.ndarray, "..."], p: Float[np.n
     Returns:
         In the unit of the model's distances.
     """
-    return float(np.sqrt(np.square(model.distances(estimate, p)).mean()))
+    return rms(model.distances(estimate, p))
 
 
 def _hyperplane_distances(hyperplane: np.ndarray, p: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Distances between points of a space, among them some that are no metrics, and the scatter that Mahalanobis' is made of.
+"""Distances between points of a space, among them some that are no metrics; the scatter that Mahalanobis' is made of; rms.
 
 Reference: Deza and Deza, Encyclopedia of distances, 4th ed., 2016, chapters 1, 17 and 19; Mahalanobis, On the generalised
 distance in statistics, 1936.
@@ -73,6 +73,17 @@ def mahalanobis(p: Points, mean: Float[np.ndarray, " d"], covariance: Covariance
     """
     white = (p - mean) @ whitening(covariance).T
     return np.sqrt(np.einsum("nd,nd->n", white, white))
+
+
+def rms(values: Float[np.ndarray, "*n"]) -> float:
+    """Return the root mean square, NaN for no values.
+
+    Examples:
+        >>> rms(np.array([3.0, 4.0, 0.0, 0.0]))
+        2.5
+    """
+    # not values @ values: BLAS wakes its threads for a long dot product, which takes 300 times as long
+    return float(np.sqrt(np.mean(values * values))) if len(values) else float("nan")
 
 
 def whitening(covariance: Covariance) -> Covariance:
