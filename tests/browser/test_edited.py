@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.browser.visits import at_rest
 from workbench import links
 from workbench.authoring.reloading import Edited
 from workbench.lesson import catalog
@@ -31,6 +32,7 @@ def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
         me.says("Gauss-Newton step 2 gives radius 1.045 m")
         other.says("The algebraic fit of 41 points")
         me.scene()
+        at_rest(me.page)  # the camera of the lesson has come
         turn(server, (5.0, 5.0, 5.0))
 
         save(folder / "draw.py", "Gauss-Newton step", "Step of Gauss-Newton")

@@ -86,7 +86,7 @@ def test_pages_are_shared_out_and_each_meets_its_scene_its_recording_and_its_fil
             for page in pages:
                 before = page.scene_bytes
                 await goes_on(page)
-                assert page.scene_bytes > before
+                await page.until(lambda page, before=before: page.scene_bytes > before)
             async with httpx.AsyncClient(base_url=served, timeout=300) as browser:
                 for page in (*pages, *pages):  # one after the other over one browser's connections
                     assert (await browser.get("page/page.css")).status_code == 200
