@@ -258,7 +258,7 @@ def only(params: P, *names: str) -> P:
 
 def paths_of(params: type) -> list[str]:
     """Return the names of the fields that take a person's own files."""
-    return [field.name for field in fields_of(params) if field.kind == "path"]
+    return [field.name for field in fields_of(params) if field.sensitive]
 
 
 def names_files(params: Any) -> bool:

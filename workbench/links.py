@@ -21,7 +21,7 @@ class Place:
 
 def write(place: Place) -> str:
     """Return the query of a place, starting with `?`; params at their defaults and file paths are left out."""
-    private = {field.name for field in knobs.fields_of(type(place.params)) if field.sensitive}
+    private = knobs.paths_of(type(place.params))
     query = {"lesson": place.lesson.name}
     query |= {name: text for name, text in knobs.changed(place.params).items() if name not in private}
     if place.step is not None:

@@ -119,11 +119,13 @@ def every_step_says_what_happened(subject: Subject) -> Found:
 
 
 def _captions(where: str, run: Timeline) -> Found:
+    before = None
     for k, step in enumerate(run.known()):
         text = step.caption.text
         yield _length(f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters")
-        asked = next(live_words(text, run.lesson), None) if k == 0 or text != run.known()[k - 1].caption.text else None
+        asked = None if text == before else next(live_words(text, run.lesson), None)
         yield None if asked is None else f"{where}step {k}: the caption says {asked[1]!r}; {ONLY_LIVE}"
+        before = text
 
 
 @promise

@@ -18,7 +18,7 @@ from workbench import links
 from workbench.authoring.reloading import carried
 from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
-from workbench.knobs import fields_of, with_own_files
+from workbench.knobs import paths_of, with_own_files
 from workbench.lesson import Lesson
 from workbench.motion import FRAMES, SECONDS
 from workbench.picking import picked_params
@@ -217,7 +217,7 @@ class Student:
         """Set params; files are not set from a browser."""
         values = message.get("values")
         if self.session is not None and isinstance(values, dict):
-            private = {field.name for field in fields_of(self.session.lesson.params) if field.sensitive}
+            private = paths_of(self.session.lesson.params)
             self.session.change(**{name: value for name, value in values.items() if name not in private})
 
     async def reset(self, message: Mapping[str, Any]) -> None:
@@ -229,9 +229,7 @@ class Student:
     async def forget(self, message: Mapping[str, Any]) -> None:
         """Go on without a file of one's own."""
         session, name = self.session, message.get("field")
-        if session is not None and name in {
-            field.name for field in fields_of(session.lesson.params) if field.sensitive
-        }:
+        if session is not None and name in paths_of(session.lesson.params):
             session.change(**{str(name): None})
 
     async def pin(self, message: Mapping[str, Any]) -> None:
@@ -302,7 +300,7 @@ class Student:
             InputError: If the lesson takes no such file, or it cannot be kept.
         """
         session = self.session
-        if session is None or field not in {one.name for one in fields_of(session.lesson.params) if one.sensitive}:
+        if session is None or field not in paths_of(session.lesson.params):
             raise InputError("this lesson takes no such file")
         path = await self.files.keep(field, name, parts)
         session.change(**{field: path})
