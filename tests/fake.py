@@ -14,7 +14,7 @@ import numpy as np
 
 from workbench.errors import InputError
 from workbench.knobs import Gizmo, Knob, Pick
-from workbench.lesson import Lesson, Preset, Question, View
+from workbench.lesson import Choice, Lesson, Preset, Question, View
 from workbench.scene import (
     PALETTE,
     PRIMITIVES,
@@ -183,11 +183,11 @@ lesson = Lesson(
     questions=(
         Question(
             "end", "How far is the cloud at the end?", lambda states: states[-1].error, lambda states: "It arrives.",
-            Params(), unit="m", tolerance=0.01,
+            Params(), unit="m", tolerance=0.01, wrong=((0.9, 1.1, "That is where it starts."),),
         ),
         Question(
             "which", "Which is larger?", lambda states: 1, lambda states: "The second is.", Params(),
-            choices=("the first", "the second"),
+            choices=(Choice("the first", why="It only looks larger."), "the second"),
         ),
     ),
 )  # fmt: skip

@@ -30,6 +30,22 @@ def test_a_prediction_is_compared_with_the_run(question, given, right, truth):
 
 
 @pytest.mark.parametrize(
+    ("question", "given", "reply"),
+    [
+        (NUMBER, 1.0, "That is where it starts."),
+        (NUMBER, 0.5, ""),
+        (NUMBER, 0.0, ""),
+        (NUMBER, None, ""),
+        (CHOICE, "the first", "It only looks larger."),
+        (CHOICE, "the second", ""),
+        (CHOICE, None, ""),
+    ],
+)
+def test_a_known_wrong_answer_is_answered_by_name(question, given, reply):
+    assert answer(lesson, question, given, KEPT).reply == reply
+
+
+@pytest.mark.parametrize(
     ("question", "given", "words"),
     [
         (CHOICE, "perhaps", "choose one"),

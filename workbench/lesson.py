@@ -101,6 +101,18 @@ class Sweep:
     values: tuple[Any, ...]
 
 
+class Choice(str):
+    """A text to choose as the answer of a question, and `why`: what is said to those who chose it though it is wrong."""
+
+    why: str
+
+    def __new__(cls, text: str, why: str = "") -> "Choice":
+        """Return the text with what is said to those who chose it wrongly."""
+        choice = super().__new__(cls, text)
+        choice.why = why
+        return choice
+
+
 @dataclass(frozen=True)
 class Question(Generic[P, S]):
     """Predict before reveal: a question whose right answer is read off a run.
@@ -108,13 +120,14 @@ class Question(Generic[P, S]):
     Args:
         name: Its key in a browser's memory.
         text: The question.
-        choices: The possible answers; empty means a number is asked for.
+        choices: The possible answers, plain texts or `Choice`s; empty means a number is asked for.
         answer: Reads the right answer off the run's states: an index into choices, or a number.
         why: The sentence shown after answering, computed from the same states.
         params: The run that answers it.
         unit: The unit asked for, for numbers.
         tolerance: How far off a number still counts as right.
         step: Where the revealed run opens; None is its last step.
+        wrong: Known wrong numbers as (lowest, highest, what is said to those who gave one); none is within the tolerance.
     """
 
     name: str
@@ -126,6 +139,13 @@ class Question(Generic[P, S]):
     unit: str = ""
     tolerance: float = 0.0
     step: int | None = None
+    wrong: tuple[tuple[float, float, str], ...] = ()
+
+    def reply(self, given: float) -> str:
+        """Return what is said to a known wrong answer, a number or the index of a choice; nothing where it is not known."""
+        if self.choices:
+            return getattr(self.choices[int(given)], "why", "")
+        return next((words for low, high, words in self.wrong if low <= given <= high), "")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,6 +19,7 @@ class Answer:
         value: The right answer: a number, or the index of a choice.
         truth: The right answer in words.
         why: The sentence that explains it.
+        reply: What is said to a known wrong answer; empty for others.
         step: Where the run that shows it opens.
     """
 
@@ -27,6 +28,7 @@ class Answer:
     truth: str
     why: str
     step: int
+    reply: str = ""
 
 
 def answer(lesson: Lesson, question: Question, given: Any, timelines: Timelines) -> Answer:
@@ -49,9 +51,11 @@ def answer(lesson: Lesson, question: Question, given: Any, timelines: Timelines)
         why = str(question.why(states))
     step = timeline.opening(who, -1 if question.step is None else question.step)
     if question.choices:
-        return Answer(predicted == value, value, question.choices[int(value)], why, step)
-    right = abs(predicted - value) <= question.tolerance
-    return Answer(right, value, f"{value:.4g} {question.unit}".rstrip(), why, step)
+        right, truth = predicted == value, str(question.choices[int(value)])
+    else:
+        right, truth = abs(predicted - value) <= question.tolerance, f"{value:.4g} {question.unit}".rstrip()
+    reply = "" if right or math.isnan(predicted) else question.reply(predicted)
+    return Answer(right=right, value=value, truth=truth, why=why, step=step, reply=reply)
 
 
 def _predicted(question: Question, given: Any) -> float:

@@ -167,6 +167,8 @@ BROKEN = [
     (RUNS, "states[0].circle[2],", "states[99].circle[2],", "question 'radius': circle/experiments.py, line N"),
     (RUNS, "states[0].circle[2],", "float('nan'),", "its answer is nan"),
     (RUNS, "tolerance=0.05", "tolerance=0.0", "question 'radius': its tolerance is 0"),
+    (RUNS, "tolerance=0.05", "tolerance=0.05, wrong=((2.0, 1.0, 'The other way round.'),)", "wants a lowest number"),
+    (RUNS, "tolerance=0.05", "tolerance=0.05, wrong=((0.0, 9.0, 'All of them.'),)", "meets the right one"),
     (RUNS, "states[0].error else 2", "states[0].error else 3", None),
     (
         RUNS,

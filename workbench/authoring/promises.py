@@ -17,7 +17,7 @@ from workbench.errors import InputError
 from workbench.flags import RESERVED
 from workbench.knobs import Field, changed, fields_of, from_json, to_json
 from workbench.lesson import Lesson, Preset, Question
-from workbench.questions import answer
+from workbench.questions import Answer, answer
 from workbench.scene import Scene, in_space, same
 from workbench.timeline import Timeline
 from workbench.typeset import inline_html, page_of
@@ -304,6 +304,21 @@ def _question(subject: Subject, question: Question) -> Found:
             yield said if said.startswith(who) else f"{who}: {said}"
     else:
         yield None if found.why.strip() else f"{who}: {at(question.why)}why says nothing"
+        yield from _known_wrong(who, question, found)
+
+
+def _known_wrong(who: str, question: Question, found: Answer) -> Found:
+    """What is said to a wrong answer is said to nobody who is right."""
+    if question.choices:
+        reply = question.reply(found.value)
+        yield f"{who}: {found.truth!r} is right, and its why is for who chose it wrongly" if reply else None
+    for low, high, words in question.wrong:
+        ends = f"{who}: its wrong answer from {low:g} to {high:g}"
+        yield f"{ends} belongs to numbers, and this question has choices" if question.choices else None
+        yield None if low <= high and words.strip() else f"{ends} wants a lowest number, a highest one, and words"
+        nearest = min(max(low, found.value), high)
+        right = abs(nearest - found.value) <= question.tolerance
+        yield f"{ends} meets the right one, {found.value:g} ± {question.tolerance:g}" if right else None
 
 
 @promise

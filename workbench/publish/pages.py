@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from workbench.exercise.finding import exercises_of
-from workbench.lesson import Lesson
+from workbench.lesson import Lesson, Question
 from workbench.page.article import article_html
 from workbench.page.course import Card, course_document
 from workbench.page.document import in_script, lesson_document
@@ -70,6 +70,13 @@ def lesson_page(lesson: Lesson, known: Mapping[str, Any], head: str = "") -> str
     )
 
 
+def replies(question: Question) -> list[tuple[float, float, str]] | dict[str, str]:
+    """Return what is said to known wrong answers: by the text of a choice, else as (lowest, highest, words)."""
+    if question.choices:
+        return {text: question.reply(i) for i, text in enumerate(question.choices)}
+    return list(question.wrong)
+
+
 def answers(lesson: Lesson, timelines: Timelines) -> dict[str, str]:
     """Return what is told when a question is answered, by its name: base64, so that nobody reads it by the way."""
     found = {}
@@ -79,6 +86,7 @@ def answers(lesson: Lesson, timelines: Timelines) -> dict[str, str]:
             "truth": told.truth,
             "right": told.truth if question.choices else [told.value, question.tolerance],
             "why": told.why,
+            "replies": replies(question),
             "run": question_run(lesson, question),
             "step": told.step,
         }

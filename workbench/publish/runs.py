@@ -272,7 +272,7 @@ def digest_of(lesson: Lesson, run: Run) -> str:
 def page_digest(lesson: Lesson, address: str) -> str:
     """Return what a lesson's page and picture must agree with."""
     questions = [
-        (one.name, one.text, one.choices, one.unit, one.tolerance, one.step, knobs.to_json(one.params))
+        (one.name, one.text, one.choices, one.unit, one.tolerance, one.step, one.wrong, knobs.to_json(one.params))
         for one in lesson.questions
     ]
     said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{lesson.sweeps}\0{questions}\0{address}\0"

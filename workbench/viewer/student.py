@@ -254,7 +254,8 @@ class Student:
             tell_terminal(error)
             await self._tell(tell="answer", question=question.name, trouble=str(error))
             return
-        await self._tell(tell="answer", question=question.name, right=found.right, truth=found.truth, why=found.why)
+        told = {"right": found.right, "truth": found.truth, "why": found.why, "reply": found.reply}
+        await self._tell(tell="answer", question=question.name, **told)
         session.open(lesson, question.params, found.step)
         self._scene.aim.open(lesson, question.params)
 

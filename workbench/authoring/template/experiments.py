@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from workbench.lesson import Preset, Question
+from workbench.lesson import Choice, Preset, Question
 
 from .state import Params, State
 
@@ -62,11 +62,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=EQUAL,
         unit="mm",
         tolerance=25.0,
+        wrong=((150.0, 400.0, "One fix of the bad sensor is that far off. The mean of many is nearer."),),
     ),
     Question(
         name="what-becomes",
         text="Two of 30 fixes are of another beacon, 85 cm away. The weights do not know. What becomes of the estimate?",
-        choices=("hardly moves", "moves by some 10 cm", "jumps to the other beacon"),
+        choices=(
+            Choice("hardly moves", why="It would if strays counted less. Their weight is that of a good fix."),
+            "moves by some 10 cm",
+            Choice("jumps to the other beacon", why="Two fixes would have to outweigh all the others for that."),
+        ),
         answer=lambda states: 1 if 0.03 < states[-1].error < 0.4 else 0 if states[-1].error <= 0.03 else 2,
         why=drop,
         params=STRAY,

@@ -45,11 +45,14 @@ const article = {
   },
 
   // what came of a prediction; it stays answered in this browser
-  answered({ question, given, right, truth, why, trouble }) {
-    const said = `${given === null ? `The answer: ${truth}.` : right ? `Right: ${truth}.` : `You said ${given}; the run says ${truth}.`} ${why}`;
+  answered({ question, given, right, truth, why, reply, trouble }) {
     const form = $(`form.question[data-question="${CSS.escape(question)}"]`);
     if (!form) return;
     if (trouble) return void ($("output", form).textContent = trouble);
+    const chosen = $("input[type=radio]", form), quoted = (answer) => chosen ? `“${answer}”` : answer;
+    const verdict = given === null ? `The answer: ${quoted(truth)}.` : `Right: ${quoted(truth)}.`;
+    const refuted = [`You said ${quoted(given)}.`, reply, `The run says ${quoted(truth)}.`];
+    const said = [...(given === null || right ? [verdict] : refuted), why].filter(Boolean).join(" ");
     this.tell(form, { said, right, skipped: given === null });
     kept.set(`answers ${LESSON.name}`, { ...kept.get(`answers ${LESSON.name}`), [question]: { said, right, skipped: given === null } });
   },

@@ -112,9 +112,10 @@ const source = {
 
   predict(question, given) {
     const text = atob(RECORDED.answers[question]);
-    const { truth, right, why, run, step } = JSON.parse(new TextDecoder().decode(Uint8Array.from(text, (c) => c.charCodeAt(0))));
+    const { truth, right, why, replies, run, step } = JSON.parse(new TextDecoder().decode(Uint8Array.from(text, (c) => c.charCodeAt(0))));
     const good = given !== null && (typeof right === "string" ? given === right : Math.abs(given - right[0]) <= right[1]);
-    article.answered({ question, given, right: good, truth, why });
+    const known = Array.isArray(replies) ? replies.find(([low, high]) => low <= given && given <= high)?.[2] : replies[given];
+    article.answered({ question, given, right: good, truth, why, reply: good || given === null ? "" : known });
     this.open(run, step);
   },
 
