@@ -1,5 +1,10 @@
-"""A run in a notebook: the page in one frame, with all that it needs inside, so that it plays in a saved notebook too."""
+"""A run in a notebook: the page in one frame, with all that it needs inside, so that it plays in a saved notebook too.
 
+A notebook that is not trusted shows no frames: a still picture stands behind it, with a line that says what to do.
+"""
+
+import base64
+import functools
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -13,11 +18,15 @@ from workbench.lesson import Lesson, find
 from workbench.loading import load
 from workbench.numerals import brief, length
 from workbench.page.document import lesson_document
+from workbench.page.thumbnail import still_of
 from workbench.publish.replay import Renderer
 from workbench.publish.runs import Run, run_script, viser_script
 from workbench.timeline import Timeline
 
 LEAST_HEIGHT = 320
+STILL = 640, 400
+"""Width and height of the picture where nothing plays, pixels."""
+HOW_TO_PLAY = "Nothing plays here. Trust the notebook, or run the cell, to step through this run."
 
 
 def replay(
@@ -75,7 +84,6 @@ class Replay:
             pass
         if not len(self.timeline):
             raise InputError(self.timeline.stopped or f"lesson {lesson.name}: the run gives no step")
-        self._html = ""
 
     def __repr__(self) -> str:
         """Return the run as text: its last caption and numbers, and the command that opens it live."""
@@ -94,15 +102,13 @@ class Replay:
 
     def document(self) -> str:
         """Return the page as one HTML document that needs nothing else."""
-        preset, last = self.lesson.preset_of(self.params), len(self.timeline) - 1
-        is_default = self.params == self.lesson.params()  # which may be a preset too
-        step = self.lesson.first_step if is_default or preset is None or preset.step is None else preset.step
+        preset = self.lesson.preset_of(self.params)
         run = Run(
             name="default" if preset is None else preset.name,
             title="one run" if preset is None else preset.title,
             line="",
             params=self.params,
-            first=min(max(step, -last - 1), last),
+            first=self._first(),
             recorded=False,
         )
         with Renderer() as renderer:
@@ -123,17 +129,36 @@ class Replay:
         own = viser_script(page) + run_script(self.lesson, run, self.timeline, scene)
         return document.replace("</body>", f"<script>{own}</script></body>")
 
+    def _first(self) -> int:
+        """Return the step where it opens, negative from the end."""
+        preset, last = self.lesson.preset_of(self.params), len(self.timeline) - 1
+        is_default = self.params == self.lesson.params()  # which may be a preset too
+        step = self.lesson.first_step if is_default or preset is None or preset.step is None else preset.step
+        return min(max(step, -last - 1), last)
+
+    @functools.cached_property
+    def _still(self) -> str:
+        step = self.timeline[self._first() % len(self.timeline)]
+        png = still_of(step.scene, self.lesson.view_of(self.params), STILL)
+        return base64.b64encode(png).decode()
+
+    @functools.cached_property
+    def _html(self) -> str:
+        title = escape(f"{self.lesson.title}, a run to be played")
+        caption = escape(self.timeline[self._first() % len(self.timeline)].caption.text)
+        still = f'<img src="data:image/png;base64,{self._still}" alt="{caption}" style="max-width:100%">'
+        frame = (
+            f'<iframe srcdoc="{escape(self.document())}" title="{title}" style="position:absolute;inset:0;width:100%;'
+            'height:100%;border:1px solid #ccc;border-radius:6px;background:#fff"></iframe>'
+        )
+        place = f"position:relative;height:{self.height}px;overflow:hidden"
+        return f'<div style="{place}">{still}<p>{HOW_TO_PLAY}</p>{frame}</div>'
+
     def _repr_html_(self) -> str:
-        if not self._html:
-            title = escape(f"{self.lesson.title}, a run to be played")
-            self._html = (
-                f'<iframe srcdoc="{escape(self.document())}" title="{title}" width="100%" height="{self.height}" '
-                f'style="border:1px solid #ccc;border-radius:6px">{escape(repr(self))}</iframe>'
-            )
         return self._html
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        return {"text/html": self._repr_html_(), "text/plain": repr(self)}
+        return {"text/html": self._html, "image/png": self._still, "text/plain": repr(self)}
 
 
 def _said(value: float, unit: str) -> str:

@@ -10,7 +10,9 @@ import time
 
 import pytest
 
+import workbench
 from workbench.lesson import catalog
+from workbench.notebook import HOW_TO_PLAY, STILL
 from workbench.timeline import Timeline
 
 pytestmark = pytest.mark.browser
@@ -26,6 +28,10 @@ def notebook(tmp_path_factory):
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
     told = {"cells": CELLS, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
     (folder / "run.ipynb").write_text(json.dumps(told))
+    bundle = workbench.replay("icp", start_angle=60, steps=1)._repr_mimebundle_()
+    output = {"output_type": "execute_result", "execution_count": 1, "metadata": {}, "data": bundle}
+    stranger = [{**CELLS[0], "outputs": [output], "execution_count": 1}]
+    (folder / "stranger.ipynb").write_text(json.dumps({**told, "cells": stranger}))
     return folder / "run.ipynb"
 
 
@@ -103,6 +109,11 @@ def test_a_cell_plays_in_jupyterlab(chromium, notebook):
                     shown.wait_for(timeout=30_000)
                     break
             plays(page.frame_locator(".jp-OutputArea-output iframe"))
+            page.goto(f"{address}/lab/tree/stranger.ipynb?reset")
+            page.get_by_text(HOW_TO_PLAY).wait_for()  # somebody else's outputs are not trusted
+            still = page.locator(".jp-OutputArea-output img")
+            assert still.evaluate("image => image.decode().then(() => image.naturalWidth)") == STILL[0]
+            assert shown.count() == 0
             page.close()
         finally:
             lab.terminate()

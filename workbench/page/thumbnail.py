@@ -52,6 +52,16 @@ def picture_of(scene: Scene, view: View, size: tuple[int, int] = SIZE) -> bytes:
     return file.getvalue()
 
 
+def still_of(scene: Scene, view: View, size: tuple[int, int]) -> bytes:
+    """Return a scene as a PNG image on white, for places that know nothing of WebP and transparent grounds."""
+    image = drawn(scene, view, size)
+    ground = Image.new("RGBA", image.size, "white")
+    ground.alpha_composite(image)
+    file = io.BytesIO()
+    ground.convert("RGB").quantize(128).save(file, "PNG", optimize=True)
+    return file.getvalue()
+
+
 def drawn(scene: Scene, view: View, size: tuple[int, int]) -> Image.Image:
     """Return a scene as an image with a transparent ground, as large as asked for."""
     sheet = Image.new("RGBA", (FINER * size[0], FINER * size[1]), (255, 255, 255, 0))

@@ -7,9 +7,9 @@ whoever comes next. So each is made with a key of its own, and whatever comes wi
 import contextlib
 import hmac
 import http.client
-import io
 import secrets
 import threading
+import unittest.mock
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -38,7 +38,7 @@ class Inner:
 
     def __init__(self) -> None:
         self.key = {HEADER: secrets.token_urlsafe(24)}
-        with _making, _served_only(self.key[HEADER]), contextlib.redirect_stdout(io.StringIO()):  # its banner
+        with _making, _served_only(self.key[HEADER]), _silent():
             self.viser = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
         self.viser.request_share_url = lambda *args, **kwargs: None  # type: ignore[method-assign]
         self.where = f"127.0.0.1:{self.viser.get_port()}"
@@ -48,7 +48,7 @@ class Inner:
 
     def stop(self) -> None:
         """Stop listening."""
-        with contextlib.redirect_stdout(io.StringIO()):
+        with _silent():
             self.viser.stop()
 
     def _answer(self, headers: dict[str, str]) -> int:
@@ -56,6 +56,11 @@ class Inner:
         with contextlib.closing(http.client.HTTPConnection(self.where, timeout=60)) as asked:
             asked.request("GET", "/none", headers=headers)
             return asked.getresponse().status
+
+
+def _silent() -> Any:
+    """Keep viser's banners to itself: in a notebook they would become part of the cell, with an address that dies."""
+    return unittest.mock.patch("rich.print")
 
 
 @contextlib.contextmanager
