@@ -85,6 +85,14 @@ def test_recordings_of_other_programs_are_refused(tmp_path):
     assert "not of a run of the workbench" in refuse(tmp_path / "other.rrd")
 
 
+def test_bytes_behind_the_end_are_left_alone_without_a_word(fake_file, tmp_path):
+    longer = tmp_path / "longer.rrd"
+    longer.write_bytes(fake_file.read_bytes() + b"junk and more junk")
+    said = f"from workbench import open_recording; print(len(open_recording({str(longer)!r})))"
+    done = subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == (f"{len(open_recording(fake_file))}\n", "")
+
+
 def test_two_recordings_in_one_file_are_refused(fake_file, tmp_path):
     from workbench.recording.viewer_files import binary
 
@@ -97,7 +105,7 @@ def test_two_recordings_in_one_file_are_refused(fake_file, tmp_path):
 def test_an_existing_file_is_replaced_only_by_force(tmp_path):
     path = tmp_path / "a.rrd"
     path.write_bytes(b"precious")
-    with pytest.raises(InputError, match=r"exists already; --force"):
+    with pytest.raises(InputError, match=r"exists already; force=True"):
         record(fake.lesson, path)
     assert path.read_bytes() == b"precious"
     record(fake.lesson, path, force=True)

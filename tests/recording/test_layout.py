@@ -87,6 +87,6 @@ def test_the_unit_of_a_plot_reads_well_and_its_lowest_value_stands_clear_of_the_
     contents = Contents(scalars={"a": {"a": share}, "b": {"b": Scalar(0.5, "b", chart="b")}})
     values = {"a": np.array([1.0, 0.1]), "b": np.array([0.0, 4.0])}
     first, second = one_run(View(), contents, values).root_container.contents[1].contents
-    assert first.name == "a (log10 of the whole)"
+    assert first.name == "a (of the whole, as a power of ten)"
     low, high = second.properties["ScalarAxis"].range.as_arrow_array().to_pylist()[0]
     assert low <= -0.05 * high

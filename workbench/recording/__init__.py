@@ -1,8 +1,11 @@
 """Recordings (`.rrd`) of runs: written, read back, replayed, compared. The only importer of rerun, and lazily."""
 
+import os
 from typing import Any
 
 from workbench.lesson import Lesson
+
+os.environ.setdefault("RUST_LOG", "off")  # else rerun writes into the terminal what it thinks of a damaged file
 
 _WHERE = {
     "record": "workbench.recording.write",

@@ -53,13 +53,10 @@ def two_runs(view: View, contents: Contents, runs: Mapping[str, Values], names: 
     scenes = [
         rrb.Vertical(scene_view(root, view, names[root]), caption_view(root), row_shares=[4, 1.9]) for root in runs
     ]
-    rows: list[Any] = [rrb.Horizontal(*scenes)]
-    shares = [4.7]
+    below: list[Any] = [rrb.TextDocumentView(origin="/differences", name="What differs")]
     if contents.legend_height:
-        rows.append(legend_view(next(iter(runs)), contents))
-        shares.append(0.4 * legend_share(contents))
-    rows.append(rrb.TextDocumentView(origin="/differences", name="What differs"))
-    left = rrb.Vertical(*rows, row_shares=[*shares, 1.0])
+        below.append(legend_view(next(iter(runs)), contents))
+    left = rrb.Vertical(rrb.Horizontal(*scenes), rrb.Tabs(*below, active_tab=0), row_shares=[4.7, 2.6])
     right = _column(_beside(contents, runs), late=_beside(contents, runs, late=True))
     return finished(rrb.Horizontal(left, right, column_shares=[3, 2]) if right is not None else left)
 
@@ -179,7 +176,7 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
     """Return a plot of scalars over all steps, with a cursor at the current one."""
     unit = next((scalar.unit for scalar in scalars.values() if scalar.unit), "")
     if any(scalar.log for scalar in scalars.values()):
-        unit = f"log10 of {unit.removeprefix('of ') or 'the value'}"
+        unit = f"{unit or 'value'}, as a power of ten"
     curves = [
         plotted_values(scalar, values[path])
         for values in runs.values()

@@ -4,6 +4,7 @@ import json
 import re
 import reprlib
 import subprocess
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
@@ -162,7 +163,9 @@ def read_chunks(path: Path) -> list[Any]:
         InputError: If the file cannot be read.
     """
     try:
-        reader = RrdReader(path)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of bytes behind the end: what is read is held to its digest
+            reader = RrdReader(path)
         stores = reader.recordings()
         chunks = [chunk for store in stores for chunk in reader.stream(store=store)]
     except OSError as error:

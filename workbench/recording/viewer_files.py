@@ -38,8 +38,8 @@ def binary() -> Path:
 
 
 def quiet_environment() -> dict[str, str]:
-    """Return the environment for the binary: it sends no usage statistics unless RERUN_ANALYTICS is set."""
-    environment = dict(os.environ)
+    """Return the environment for the binary: it says its address, and sends statistics only if RERUN_ANALYTICS is set."""
+    environment = {**os.environ, "RUST_LOG": "info"}
     if "RERUN_ANALYTICS" not in environment:
         environment["CI"] = "1"
     return environment

@@ -71,6 +71,7 @@ def record(
         raise InputError(f"params and {other}: give whole params, or a preset and single values")
     if params is None:
         params = knobs.make(found.params, values, base=None if preset is None else found.preset(preset).params)
+    _check_place(Path(path), force, how="force=True")
     record_file(found, params, Path(path), preset=preset, force=force)
     return Path(path)
 
@@ -202,12 +203,12 @@ def _facts(timeline: Timeline, preset: str | None) -> dict[str, Any]:
     }
 
 
-def _check_place(path: Path, force: bool) -> None:
+def _check_place(path: Path, force: bool, how: str = "--force") -> None:
     """Raise InputError before a long run where its end would be for nothing."""
     if path.exists() and not path.is_file():
         raise InputError(f"{path}: is not a file")
     if path.exists() and not force:
-        raise InputError(f"{path}: exists already; --force replaces it")
+        raise InputError(f"{path}: exists already; {how} replaces it")
     folder = path.absolute().parent
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder")
