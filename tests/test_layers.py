@@ -70,7 +70,8 @@ ALLOWED = {
         "workbench.picking", "workbench.typeset", "workbench.recording", "workbench.exercise",
         "workbench.authoring.reloading", "workbench.hosts",
     },
-    "workbench.authoring": LESSON | {"workbench.authoring", "workbench.exercise", "workbench.flags", "workbench.typeset"},
+    "workbench.authoring": LESSON | {"workbench.authoring", "workbench.exercise", "workbench.flags", "workbench.typeset",
+                                     "workbench.page.article"},
     "workbench.flags": LESSON | {"workbench.flags"},
     "workbench.notebook": None,  # a top of its own, as the commands are
     "workbench.cli": None,  # the top: it may import everything

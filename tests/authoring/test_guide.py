@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from workbench import scene
-from workbench.authoring import exercise_promises, promises
+from workbench.authoring import exercise_promises, page_promises, promises
 from workbench.authoring.new import TEMPLATE
 from workbench.authoring.promises import Subject
 from workbench.authoring.validate import look_at
@@ -62,14 +62,14 @@ def test_every_primitive_is_listed_with_arguments_that_it_has():
 
 
 def test_limits_and_names_are_those_that_are_asked():
-    for part in promises.PARTS:
+    for part in page_promises.PARTS:
         assert f"*{part}*" in PLAIN
     for word in RESERVED:
         assert f"`{word}`" in PLAIN
     least, most = promises.CAPTION
     assert f"{least} to {most} characters that says" in PLAIN
     assert f"a line of {promises.LINE[0]} to {promises.LINE[1]} characters" in PLAIN
-    assert f"{promises.WORDS[0]} to {promises.WORDS[1]:,} words" in PLAIN
+    assert f"{page_promises.WORDS[0]} to {page_promises.WORDS[1]:,} words" in PLAIN
     assert f"({exercise_promises.TASK[0]} to {exercise_promises.TASK[1]} characters)" in PLAIN
     assert f"({exercise_promises.SENTENCE[0]} to {exercise_promises.SENTENCE[1]} characters)" in PLAIN
     assert f"cut after {MOST_STEPS:,} steps or {MOST_BYTES >> 20} MB" in PLAIN

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from workbench.authoring.new import TEMPLATE
 from workbench.authoring.promises import Subject
 from workbench.authoring.validate import look_at
 from workbench.errors import InputError
@@ -14,6 +15,7 @@ from workbench.loading import load
 CIRCLE = Path(__file__).resolve().parents[1] / "authors" / "circle"
 LESSON, DRAW, STATE, RUNS, PAGE = "lesson.py", "draw.py", "state.py", "experiments.py", "page.md"
 TASK = "exercises/fit_circle.py"
+SCAFFOLD_LINE = (TEMPLATE / "page.md").read_text(encoding="utf-8").splitlines()[2]
 
 
 @pytest.fixture
@@ -193,6 +195,17 @@ BROKEN = [
         "preset 'whole' says 'Click'; a published page and a notebook cannot do it",
     ),
     (DRAW, "; the points lie", "; click a point; they lie", "step 0: the caption says 'click'; a published page and"),
+    (
+        PAGE,
+        "## Pitfalls",
+        "[Look](run:nopreset@0).\n\n## Pitfalls",
+        "line N: a link runs 'nopreset', which is no preset",
+    ),
+    (PAGE, "## Pitfalls", "[Look](run:arc@99).\n\n## Pitfalls", "the link to 'arc' opens at step 99, but its run has"),
+    (PAGE, "## Pitfalls", "[Look](run:this@99).\n\n## Pitfalls", "the link to 'this' opens at step 99"),
+    (PAGE, "## Pitfalls", "The [[whell|wheel]].\n\n## Pitfalls", "line N: [[whell]] names nothing that a run of the"),
+    (PAGE, "## Pitfalls", "The [[Points]].\n\n## Pitfalls", "'[[Points]].' is no term"),
+    (PAGE, "## Pitfalls", f"{SCAFFOLD_LINE}\n\n## Pitfalls", "line N: this line is the scaffold's"),
     (PAGE, "## Watch", "![A circle](circle.png)\n\n## Watch", "there is no picture 'circle.png'"),
     # the exercise
     (

@@ -43,6 +43,9 @@ def test_a_term_names_a_thing_of_the_scene_and_arrays_stay_arrays(tmp_path):
     )
     assert '<span class="term" tabindex="0" data-thing="cloud/moved">moved cloud</span>' in text
     assert 'data-thing="grid">grid</span>' in text
+    table = article_html(written(tmp_path, "| a | b |\n|---|---|\n| [[cloud|blue dots]] | c |"), address, "live")
+    assert '<td><span class="term" tabindex="0" data-thing="cloud">blue dots</span></td>' in table
+    assert "<td>c</td>" in table
     assert "[[1, 0], [0, 1]]" in text
 
 

@@ -13,6 +13,8 @@ from workbench.lesson import catalog
 TEMPLATE = Path(__file__).with_name("template")
 NAME = '"NAME"'
 """What stands for the lesson's name in the template's lesson.py."""
+TITLE = "The weighted mean"
+"""The title of the template's lesson."""
 
 
 def new_lesson(name: str, into: Path = Path()) -> list[Path]:

@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-from workbench.authoring.live_words import elsewhere, live_words, on_page
-from workbench.authors import at, place
+from workbench.authoring.live_words import live_words
+from workbench.authors import at
 from workbench.errors import InputError
 from workbench.flags import RESERVED
 from workbench.knobs import Field, changed, fields_of, from_json, to_json
@@ -20,14 +20,11 @@ from workbench.lesson import Lesson, Preset, Question
 from workbench.questions import Answer, answer
 from workbench.scene import Scene, in_space, same
 from workbench.timeline import Timeline
-from workbench.typeset import inline_html, page_of
+from workbench.typeset import inline_html
 
 Found: TypeAlias = Iterator[str | None]
 """None for each thing that holds, a line for each that does not."""
 
-PARTS = ("Conventions", "Watch", "Predict", "Break it", "Your turn", "Pitfalls", "References")
-"""What a page has, among other parts."""
-WORDS = (350, 1100)
 CAPTION = (10, 340)
 """What a phone shows of a caption without a need to scroll."""
 LINE = (20, 220)
@@ -105,7 +102,7 @@ def the_default_run_ends_well(subject: Subject) -> Found:
     if run.stopped is None:
         few = f"{subject.who}: {at(lesson.run)}the default run has {len(run)} step; a lesson shows two or more"
         yield few if len(run) < 2 else None
-        yield _opens(run, subject.who, lesson.first_step)
+        yield opens(run, subject.who, lesson.first_step)
 
 
 @promise
@@ -122,7 +119,7 @@ def _captions(where: str, run: Timeline) -> Found:
     before = None
     for k, step in enumerate(run.known()):
         text = step.caption.text
-        yield _length(f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters")
+        yield length_of(f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters")
         asked = None if text == before else next(live_words(text, run.lesson), None)
         yield None if asked is None else f"{where}step {k}: the caption says {asked[1]!r}; {ONLY_LIVE}"
         before = text
@@ -267,12 +264,12 @@ def every_preset_runs_and_promises_something(subject: Subject) -> Found:
 def _preset(subject: Subject, preset: Preset) -> Found:
     who = f"{subject.who}, preset {preset.name!r}"
     yield None if NAME.fullmatch(preset.name) else f"{who}: a name is letters, digits, - and _"
-    yield _length(f"{who}: its line", len(preset.line), LINE, "characters")
+    yield length_of(f"{who}: its line", len(preset.line), LINE, "characters")
     run = subject.whole(preset.params, f"preset {preset.name!r}")
     yield None if run.stopped in (None, subject.default().stopped) else f"{who}: {run.stopped}"
     yield from _captions(f"{who}, ", run)
     if run.stopped is None and preset.step is not None:
-        yield _opens(run, who, preset.step)
+        yield opens(run, who, preset.step)
 
 
 @promise
@@ -322,54 +319,6 @@ def _known_wrong(who: str, question: Question, found: Answer) -> Found:
 
 
 @promise
-def the_page_has_its_parts(subject: Subject) -> Found:
-    """There is a page, long enough and no longer, with the parts that people look for, and its pictures are there."""
-    lesson = subject.lesson
-    if lesson.page is None:
-        yield f"{subject.who}: it has no page; page=Path(__file__).with_name('page.md') gives it one"
-        return
-    text, where = lesson.text(), f"{subject.who}: {lesson.page}"
-    yield _length(f"{where}: the page", len(text.split()), WORDS, "words")
-    for part in PARTS:
-        yield None if part.lower() in text.lower() else f"{where}: the page has no part {part!r}"
-    try:
-        page_of(text, lesson.page)
-        yield None
-    except InputError as error:
-        yield f"{subject.who}: {error}"
-
-
-@promise
-def nothing_is_asked_for_that_a_published_page_cannot(subject: Subject) -> Found:
-    """Where nothing can be computed, no text asks for a click, a drag, a file or a knob that no sweep publishes."""
-    for what, text in elsewhere(subject.lesson).items():
-        asked = next(live_words(text, subject.lesson), None)
-        yield None if asked is None else f"{subject.who}, {what} says {asked[1]!r}; {ONLY_LIVE}"
-    if subject.lesson.page is not None:
-        page = str(subject.lesson.page)
-        told = [f"{place(page, line)}: it says {said!r}" for line, said in on_page(subject.lesson)]
-        yield from [f"{subject.who}: {one}; {ONLY_LIVE}: write {{{{live: ...}}}}" for one in told] or [None]
-
-
-@promise
-def every_formula_is_read(subject: Subject) -> Found:
-    """The page has formulas, and all of them are ones that can be typeset."""
-    lesson = subject.lesson
-    if lesson.page is None:
-        return
-    text = lesson.text()
-    formulas = re.findall(r"<math.*?</math>", page_of(re.sub(r"!\[.*?\]\(.*?\)", "", text), None), re.DOTALL)
-    yield None if formulas else f"{subject.who}: {lesson.page}: the page has no formula between $ and $"
-    for formula in formulas:
-        unknown = re.search(r"\\[a-zA-Z]*", formula)
-        if unknown is None:
-            yield None
-            continue
-        line = next((i for i, row in enumerate(text.splitlines(), 1) if unknown[0] in row), 1)
-        yield f"{subject.who}: {place(str(lesson.page), line)}: {unknown[0]} is a TeX command that is not known here"
-
-
-@promise
 def run_takes_only_keywords_beside_params(subject: Subject) -> Found:
     """`run` takes `params`, and by keyword functions that have defaults; the lesson's name can be a folder."""
     lesson = subject.lesson
@@ -393,7 +342,8 @@ def ends(field: Field) -> list[Any]:
     return [False, True] if field.kind == "bool" else list(field.choices)
 
 
-def _opens(run: Timeline, who: str, step: int) -> str | None:
+def opens(run: Timeline, who: str, step: int) -> str | None:
+    """Return a line where a run has no such step, beginning with who opens it there."""
     try:
         run.opening(who, step)
     except InputError as error:
@@ -401,7 +351,8 @@ def _opens(run: Timeline, who: str, step: int) -> str | None:
     return None
 
 
-def _length(what: str, length: int, wanted: tuple[int, int], unit: str) -> str | None:
+def length_of(what: str, length: int, wanted: tuple[int, int], unit: str) -> str | None:
+    """Return a line where something is shorter or longer than wanted."""
     least, most = wanted
     return None if least <= length <= most else f"{what} has {length} {unit}; wanted are {least} to {most:,}"
 

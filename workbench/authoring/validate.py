@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.authoring.exercise_promises import OF_EXERCISES
+from workbench.authoring.page_promises import OF_PAGES
 from workbench.authoring.promises import OF_LESSONS, SECONDS, Found, Subject
 from workbench.authors import described, is_ours, place
 from workbench.errors import InputError, one_line
@@ -41,7 +42,7 @@ class Verdict:
 
 def look_at(subject: Subject) -> Found:
     """Yield what every promise finds of a lesson and of its exercises; a promise that cannot be looked at is a line too."""
-    for promise in OF_LESSONS:
+    for promise in (*OF_LESSONS, *OF_PAGES):
         yield from _guarded(lambda promise=promise: promise(subject), subject, promise.__doc__ or "")
     try:
         exercises = exercises_of(subject.lesson)

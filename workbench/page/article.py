@@ -14,7 +14,10 @@ from workbench.lesson import Lesson
 from workbench.typeset import page_of, wording
 
 _LINK = re.compile(r'<a href="run:([^"@]*)(?:@(-?\d+))?">')
-_TERM = re.compile(r"\[\[([a-z][\w/. ~-]*?)(?:\|([^\]|<]+))?\]\]")
+LINK = re.compile(r"\]\(run:([^)@\s]*)(?:@(-?\d+))?\)")
+"""A link of a page's text that runs something: the run's name, and the step or nothing."""
+TERM = re.compile(r"\[\[([a-z][\w/. ~-]*?)(?:\|([^\]|<]+))?\]\]")
+"""Words of a page that name a thing of the scene: its path, and what stands there or nothing."""
 PLACE = "<!-- questions -->"
 """Where the questions of a lesson stand in its article."""
 
@@ -28,9 +31,10 @@ def article_html(lesson: Lesson, address: Address, home: str) -> str:
     Raises:
         AuthorError: If the page names a run that the lesson does not have, or a picture that is not there.
     """
-    text = page_of(wording(lesson.text(), home), lesson.page).replace(
-        '<div class="math block">', '<div class="math block" tabindex="0">'
-    )
+    written = TERM.sub(
+        lambda found: found[0].replace("|", r"\|"), wording(lesson.text(), home)
+    )  # a table would cut there
+    text = page_of(written, lesson.page).replace('<div class="math block">', '<div class="math block" tabindex="0">')
     names = {"this", "default", *(preset.name for preset in lesson.presets)}
 
     def link(found: re.Match[str]) -> str:
@@ -42,7 +46,7 @@ def article_html(lesson: Lesson, address: Address, home: str) -> str:
         at = "" if step is None else f' data-step="{step}"'
         return f'<a class="run" href="{escape(address(name, step))}" data-run="{escape(name)}"{at}>'
 
-    text = _TERM.sub(lambda found: _term(found[1], found[2] or found[1]), _LINK.sub(link, text))
+    text = TERM.sub(lambda found: _term(found[1], found[2] or found[1]), _LINK.sub(link, text))
     before, after = _around_predict(text)
     return before + PLACE + after
 
