@@ -97,8 +97,8 @@ def test_what_a_lesson_cannot_be_made_of_is_said_when_it_is_made(values, words):
 
 
 @dataclass(frozen=True)
-class FlatGizmo:
-    place: Annotated[tuple[float, float], Knob("Where", -1, 1, by=Gizmo())] = (0.0, 0.0)
+class FourGizmo:
+    place: Annotated[tuple[float, float, float, float], Knob("Where", -1, 1, by=Gizmo())] = (0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ class PickedFloat:
 @pytest.mark.parametrize(
     ("params", "words"),
     [
-        (FlatGizmo, ["lesson mine: FlatGizmo.place", "3 floats", "or 6"]),
+        (FourGizmo, ["lesson mine: FourGizmo.place", "2 floats", "3 (", "or 6"]),
         (PickedFloat, ["lesson mine: PickedFloat.size", "an int or a tuple of ints"]),
     ],
 )

@@ -157,7 +157,7 @@ class TestRecord:
         ("words", "why"),
         [
             (["nothing"], "no lesson is named 'nothing'"),
-            ([FAKE, "--preset", "nope"], "no preset 'nope'; it has: "),
+            ([FAKE, "--preset", "nope"], "no preset 'nope'; there are: "),
             ([FAKE, "--steps", "0"], "a whole number from 1 to 5000"),
             ([FAKE, "--stepps", "2"], "did you mean --steps?"),
             ([FAKE, "--trouble", "crash"], r'a bug in `raise RuntimeError("a\nbug")` (at step 2); nothing was written'),
@@ -375,7 +375,7 @@ class TestPublish:
 
 
 def test_unknown_commands_and_flags_are_said(capsys):
-    assert "no command is named 'recrod'; there are: list, show, record" in refused(capsys, "recrod")
+    assert "no command is named 'recrod'; did you mean record?" in refused(capsys, "recrod")
     assert "unknown flag --natve; did you mean --native?" in refused(capsys, "replay", "a.rrd", "--natve")
 
 

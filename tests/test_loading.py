@@ -142,7 +142,7 @@ def test_a_folder_s_exercise_is_handed_out_watched_checked_and_graded(folder, tm
 
 def test_an_exercise_of_no_lesson_says_which_there_are(folder, capsys):
     assert main(["exercise", "fit_line", "--lesson", str(folder)]) == 2
-    assert capsys.readouterr().err == "workbench: no exercise is named 'fit_line'; there are: fit_circle\n"
+    assert capsys.readouterr().err == "workbench: no exercise is named 'fit_line'; did you mean fit_circle?\n"
 
 
 def test_what_a_folder_s_runs_depend_on_is_found(folder):

@@ -206,7 +206,7 @@ def test_a_preset_opens_where_it_says():
     finish(session)
     assert session.params == Params(steps=2)
     assert session.step == 1
-    with pytest.raises(InputError, match="it has: half, short"):
+    with pytest.raises(InputError, match="there are: half, short"):
         session.use_preset("nothing")
 
 

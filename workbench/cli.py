@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from workbench import __version__
-from workbench.errors import InputError, one_line
+from workbench.errors import InputError, not_among, one_line
 from workbench.flags import Chosen, Option, Serving, ServingLive, command_line, is_path, lesson_given, parse
 from workbench.lesson import catalog
 
@@ -349,7 +349,7 @@ def _carry_out(words: list[str]) -> int | None:
     elif not words or words[0].startswith("-"):
         return parse(serve, words, "workbench", _overview())()
     elif words[0] not in COMMANDS:
-        raise InputError(f"no command is named {words[0]!r}; there are: {', '.join(COMMANDS)}")
+        raise InputError(f"no command is named {words[0]!r}; {not_among(words[0], COMMANDS)}")
     else:
         function = COMMANDS[words[0]]
         return parse(function, words[1:], f"workbench {words[0]}", function.__doc__ or "")()

@@ -1,5 +1,8 @@
 """The error and the warning whose messages are written for the person at the keyboard."""
 
+import difflib
+from collections.abc import Iterable
+
 
 def written_out(text: str) -> str:
     """Return text with its lines and tabs, and what else a terminal would obey written out (`\\x1b`).
@@ -12,6 +15,14 @@ def written_out(text: str) -> str:
 def one_line(text: str) -> str:
     """Return text on one line of signs that can be seen: what a terminal would obey is written out (`\\x1b`)."""
     return written_out(" ".join(text.split()))
+
+
+def not_among(name: str, known: Iterable[str]) -> str:
+    """Return the end of a message about a name that is none: which one was perhaps meant, else which there are."""
+    names = list(known)
+    meant = difflib.get_close_matches(name[:80], names, n=3)
+    meant += [one for one in names if one not in meant and one.replace("_", "") == name.replace("_", "")[:80]]
+    return f"did you mean {' or '.join(meant)}?" if meant else f"there are: {', '.join(names) or 'none'}"
 
 
 class InputError(ValueError):

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from workbench.errors import InputError
+from workbench.errors import InputError, not_among
 
 P = TypeVar("P")
 
@@ -27,7 +27,8 @@ _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 class Gizmo:
     """The field is also set by a handle in the scene.
 
-    The field is a tuple of floats: 3 are a position in metres, 6 a position and a rotation vector (radians), in the world.
+    The field is a tuple of floats: 2 are a position in the plane z = 0, metres, 3 one in space, 6 a position and a rotation
+    vector (radians), in the world.
     """
 
     size: float = 0.5
@@ -58,7 +59,8 @@ class Knob:
         parts: What the entries of a tuple are called, where x, y, z would mislead.
         by: A Gizmo or a Pick where the scene sets it too.
         needs: Other params and the values they need for this one to have an effect, as {"metric": ("plane",)}; a page greys
-            it out while they have others, and says so. Changing it then changes nothing in the run.
+            it out while they have others, and says so. Changing it then changes nothing in the run. {"scan": (None,)}
+            asks that no own file is open as `scan`.
         of_files: It says how to read a person's own files (their unit, which axis is up), and is kept as long as they are.
     """
 
@@ -201,8 +203,9 @@ def _read(owner: type, field: dataclasses.Field, hint: Any) -> Field:
     kind, choices, length = _kind(where, declared)
     if kind in ("float", "int", "floats", "ints") and (knob.low is None or knob.high is None or knob.low >= knob.high):
         raise TypeError(f"{where}: a number needs Knob(hint, low, high) with low < high")
-    if isinstance(knob.by, Gizmo) and not (kind == "floats" and length in (3, 6)):
-        raise TypeError(f"{where}: a Gizmo sets 3 floats (a position) or 6 (with a rotation vector), not {declared}")
+    if isinstance(knob.by, Gizmo) and not (kind == "floats" and length in (2, 3, 6)):
+        wanted = "2 floats (a place at z = 0), 3 (a position) or 6 (with a rotation vector)"
+        raise TypeError(f"{where}: a Gizmo sets {wanted}, not {declared}")
     if isinstance(knob.by, Pick) and kind not in ("int", "ints"):
         raise TypeError(f"{where}: a Pick sets an int or a tuple of ints, not {declared}")
     return Field(field.name, kind, field.default, knob, choices, length)
@@ -241,7 +244,7 @@ def make(params: type[P], values: Mapping[str, Any], *, base: P | None = None, c
     fields = {field.name: field for field in fields_of(params)}
     unknown = [name for name in values if name not in fields]
     if unknown:
-        raise InputError(f"unknown parameter {unknown[0]!r}: this lesson has {', '.join(fields)}")
+        raise InputError(f"unknown parameter {unknown[0]!r}; {not_among(unknown[0], fields)}")
     cleaned = {name: fields[name].clean(value, clamp=clamp) for name, value in values.items()}
     try:
         return dataclasses.replace(base if base is not None else params(), **cleaned)  # type: ignore[type-var]

@@ -16,7 +16,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from workbench.authors import at
-from workbench.errors import AuthorError, InputError, LeftOutWarning
+from workbench.errors import AuthorError, InputError, LeftOutWarning, not_among
 from workbench.knobs import fields_of, validated
 from workbench.scene import Scene
 
@@ -267,8 +267,8 @@ class Lesson(Generic[P, S]):
         for preset in self.presets:
             if preset.name == name:
                 return preset
-        known = ", ".join(preset.name for preset in self.presets) or "none"
-        raise InputError(f"lesson {self.name} has no preset {name!r}; it has: {known}")
+        known = not_among(name, (preset.name for preset in self.presets))
+        raise InputError(f"lesson {self.name} has no preset {name!r}; {known}")
 
     def preset_of(self, params: P) -> Preset[P] | None:
         """Return the preset that has these params, the first if there are several."""
@@ -333,7 +333,7 @@ def find(name: str) -> Lesson:
     """
     lessons = catalog()
     if name not in lessons:
-        raise InputError(f"no lesson is named {name[:80]!r}; there are: {', '.join(lessons)}")
+        raise InputError(f"no lesson is named {name[:80]!r}; {not_among(name, lessons)}")
     return lessons[name]
 
 

@@ -142,8 +142,8 @@ BROKEN = [
     (
         STATE,
         'seed: Annotated[int, Knob("Which noise is drawn", 0, 99)] = 0',
-        "seed: Annotated[tuple[float, float], Knob('A', 0, 9, by=Gizmo())] = (0.0, 0.0)",
-        "Params.seed: a Gizmo sets 3 floats",
+        "seed: Annotated[tuple[int, int], Knob('A', 0, 9, by=Gizmo())] = (0, 0)",
+        "Params.seed: a Gizmo sets 2 floats",
     ),
     (
         STATE,

@@ -48,10 +48,10 @@ def test_what_is_asked_for_is_recorded_under_its_own_name(tmp_path, given, param
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({"stepps": 2}, "unknown parameter 'stepps': this lesson has angle, steps, "),
+        ({"stepps": 2}, "unknown parameter 'stepps'; did you mean steps"),
         ({"steps": 0}, "steps = 0: a whole number from 1 to 5000"),
         ({"steps": "many"}, "steps = 'many': a whole number from 1 to 5000"),
-        ({"preset": "none"}, "has no preset 'none'; it has: half, short, classes"),
+        ({"preset": "none"}, "has no preset 'none'; there are: half, short, classes"),
         ({"params": fake.Params(), "steps": 2}, "params and steps=…: give whole params, or a preset and single values"),
         ({"params": fake.Params(), "preset": "half"}, "params and preset 'half': give whole params"),
         ({"params": {"steps": 2}}, "takes Params, not dict"),

@@ -194,7 +194,8 @@ def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
     idle: dict[Any, list[Field]] = {}  # knobs without effect at some params
     for field in fields.values():
         for name, wanted in field.knob.needs.items():
-            if name not in fields or fields[name].kind not in ("choice", "bool"):
+            of_file = name in fields and fields[name].kind == "path" and wanted == (None,)
+            if not of_file and (name not in fields or fields[name].kind not in ("choice", "bool")):
                 yield f"{subject.who}: {field.name} needs {name!r}, which is no choice or switch of this lesson"
                 continue
             met = {other: values[0] for other, values in field.knob.needs.items()}

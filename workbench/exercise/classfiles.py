@@ -8,6 +8,7 @@ from typing import Any
 
 from workbench.errors import one_line
 from workbench.exercise.reports import UNSAFE
+from workbench.numerals import counted
 
 Result = dict[str, Any]
 HOW = {"timeout": "hangs", "died": "crashes", "raised": "raises", "result": "returns no result"}
@@ -75,7 +76,7 @@ def summary(results: Sequence[Result], worth: Mapping[str, float] | None = None)
     """Return the class in a few lines of Markdown; of an assignment's exercises, where it is given."""
     graded = [result for result in results if result["reports"]]
     perfect = sum(is_full(result, worth) for result in results)
-    lines = [f"# {len(results)} submissions", ""]
+    lines = [f"# {counted(len(results), 'submission')}", ""]
     lines.append(f"{len(graded)} graded, {perfect} with full marks, {len(results) - len(graded)} could not be graded.")
     if any(result["sandbox"] == "none" for result in results):
         lines += ["", f"**{UNSAFE}**"]

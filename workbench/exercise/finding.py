@@ -8,7 +8,7 @@ import pkgutil
 import warnings
 from pathlib import Path
 
-from workbench.errors import InputError, LeftOutWarning
+from workbench.errors import InputError, LeftOutWarning, not_among
 from workbench.exercise.model import Exercise, exercise_in
 from workbench.exercise.submission import Submission, read_submission
 from workbench.lesson import Lesson, catalog, course
@@ -103,7 +103,7 @@ def find_exercise(name: str, lesson: Lesson | None = None) -> Exercise:
     """
     found = _of(lesson)
     if name not in found:
-        raise InputError(f"no exercise is named {name!r}; there are: {', '.join(found) or 'none'}")
+        raise InputError(f"no exercise is named {name[:80]!r}; {not_among(name, found)}")
     return found[name]
 
 

@@ -39,7 +39,7 @@ def _legend_rows(primitive: Primitive) -> list[str]:
     if isinstance(field, Field):
         return [bar_html(field)]
     if isinstance(color, Classes):
-        return [_dot(PALETTE[role], label) for role, label in zip(color.roles, color.names, strict=True)]
+        return [_dot(PALETTE[role], label) for role, label in color.present()]
     if isinstance(color, str) and name:
         return [_dot(PALETTE[cast(Role, color)], name)]
     return []

@@ -139,7 +139,7 @@ def legend_of(scene: Scene) -> tuple[tuple[tuple[str, tuple[int, int, int]], ...
         else:
             continue
         if isinstance(color, Classes):
-            names |= {(word, PALETTE[role]): None for word, role in zip(color.names, color.roles, strict=True)}
+            names |= {(word, PALETTE[role]): None for role, word in color.present()}
         elif isinstance(color, str) and name:
             names[name, PALETTE[color]] = None
         elif isinstance(color, Field) and all(_bar_key(color) != _bar_key(field) for field in fields):

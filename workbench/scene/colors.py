@@ -96,6 +96,11 @@ class Classes:
         """Return two classes: the items that are `marked` (n,) bool, and the others, with their role and name."""
         return cls(marked.astype(np.uint8), (others[0], role), (others[1], name))
 
+    def present(self) -> list[tuple[Role, str]]:
+        """Return role and name of each class that some item has."""
+        counts = np.bincount(self.ids.astype(np.intp).ravel(), minlength=len(self.roles))
+        return [(role, name) for role, name, count in zip(self.roles, self.names, counts, strict=True) if count]
+
     def rgb(self) -> np.ndarray:
         """Return (n, 3) uint8 colours."""
         return np.array([PALETTE[role] for role in self.roles], np.uint8)[self.ids.astype(int)]

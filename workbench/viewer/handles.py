@@ -41,7 +41,7 @@ class Handles:
         for name, handle in self._handles.items():
             value = getattr(params, name)
             if self._held != name:
-                handle.position = np.array(value[:3])
+                handle.position = np.array([*value[:3], 0.0][:3])
                 handle.wxyz = SO3.exp(np.array(value[3:6])).wxyz if len(value) == 6 else np.array([1.0, 0, 0, 0])
 
     def _added(self, scene: viser.SceneApi, field: Field) -> Any:
@@ -50,6 +50,7 @@ class Handles:
             f"/gizmo/{field.name}~{next(_NUMBERS)}",
             scale=field.knob.by.size,
             disable_rotations=field.length != 6,
+            active_axes=(True, True, field.length != 2),
             depth_test=False,
             line_width=3.0,
         )
@@ -59,7 +60,7 @@ class Handles:
             if event.client is None:
                 return
             self._held = None if event.phase == "end" else field.name
-            values = [float(v) for v in event.target.position]
+            values = [float(v) for v in event.target.position][: field.length]
             if field.length == 6:
                 values += [float(v) for v in SO3(np.array(event.target.wxyz)).log()]
             self._change(**{field.name: values})

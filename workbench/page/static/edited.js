@@ -15,7 +15,7 @@ const edited = {
     for (const name of Object.keys(LESSON)) delete LESSON[name];
     Object.assign(LESSON, lesson);
     knobs.start();
-    if (page.run) knobs.show(page.run.params);
+    if (page.run) knobs.show(page.run);
     const answer = await fetch(`?lesson=${encodeURIComponent(lesson.name)}`);
     const found = new DOMParser().parseFromString(await answer.text(), "text/html");
     if (takes !== this.takes) return; // saved again meanwhile

@@ -75,7 +75,8 @@ const knobs = {
   shown: (value) => String(Number(Number(value).toPrecision(5))),
 
   // sets every knob to the params of the run, without that being a wish; one that a hand is on leads
-  show(params) {
+  show({ params: known, files: open, aside }) {
+    const params = { ...(aside ? {} : open), ...known };  // a file that is open counts by its name
     for (const knob of LESSON.knobs) {
       const values = [params[knob.name]].flat();
       (this.inputs[knob.name] ?? []).forEach((inputs, i) => inputs.forEach((input) => {
@@ -90,9 +91,10 @@ const knobs = {
   ground(knob, params) {
     const box = $(`[data-knob="${CSS.escape(knob.name)}"]`);
     if (!box) return;
-    const missing = Object.entries(knob.needs ?? {}).filter(([name, wanted]) => !wanted.includes(params[name]));
+    const missing = Object.entries(knob.needs ?? {}).filter(([name, wanted]) => !wanted.includes(params[name] ?? null));
     const said = ([name, wanted]) => {
-      const label = LESSON.knobs.find((one) => one.name === name)?.label ?? name;
+      const label = [...LESSON.knobs, ...LESSON.files].find((one) => one.name === name)?.label ?? name;
+      if (wanted[0] === null) return `no file of your own is open as ${label}`;
       return `${label} is ${wanted.map((value) => value === true ? "on" : value === false ? "off" : value).join(" or ")}`;
     };
     box.disabled = missing.length > 0;

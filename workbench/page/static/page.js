@@ -31,7 +31,7 @@ const page = {
       this.k = 0;
     } else Object.assign(this.run, data);
     if (series) this.run.series = grown(this.run.series, series, from ?? 0);
-    if (data.params) knobs.show(data.params);
+    if (data.params) knobs.show(data);
     $("#pin").setAttribute("aria-pressed", String(Boolean(this.run.pinned)));
     this.draw();
   },
