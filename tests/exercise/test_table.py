@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from tests.exercise.table import FOLDER, Graded, complaints, graded
+from tests.exercise.table import FOLDER, Graded, complaints, graded, graded_strangers
 from workbench.exercise.finding import exercises
 
 EXERCISES = list(exercises().values())
@@ -25,6 +25,13 @@ def test_what_students_hand_in_gets_what_it_deserves(exercise, every):
     assert not complaints(found), "\n\n".join(complaints(found))
     vague = [one.name for one in found if one.fate == "vague"]
     assert len(vague) <= MOST_VAGUE * len(found), vague
+
+
+def test_right_answers_of_people_who_saw_no_checks_have_full_marks():
+    found = list(graded_strangers())
+    assert {one.report.exercise.name for one in found} == {exercise.name for exercise in EXERCISES}
+    assert len(found) >= 60
+    assert not complaints(found), "\n\n".join(complaints(found))
 
 
 def test_every_exercise_has_its_file():
