@@ -166,6 +166,12 @@ BROKEN = [
         "Short.",
         "preset 'whole': its line has 6 characters",
     ),
+    (
+        LESSON,
+        "view=View(",
+        "view=View(eye=(90, 0, 0), target=(99, 0, 0)) if True else View(",
+        "step 0: out of its frame are",
+    ),
     (RUNS, "states[0].circle[2],", "states[99].circle[2],", "question 'radius': circle/experiments.py, line N"),
     (RUNS, "states[0].circle[2],", "float('nan'),", "its answer is nan"),
     (RUNS, "tolerance=0.05", "tolerance=0.0", "question 'radius': its tolerance is 0"),
