@@ -1,7 +1,9 @@
 """The authors' guide: its code is run or is the template's, and what it says of limits and names is what is asked."""
 
+import inspect
 import re
 from dataclasses import fields
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -59,6 +61,21 @@ def test_every_primitive_is_listed_with_arguments_that_it_has():
         assert set(arguments) <= {field.name for field in fields(kind)}, kind.__name__
     for role in scene.PALETTE:
         assert f'"{role}"' in GUIDE or role in "xyz"
+
+
+def test_every_helper_stands_where_the_guide_says_with_the_arguments_it_names():
+    rows = re.findall(r"^\| [^|]+ \| `(workbench[.\w]+)` \| (.*) \|$", GUIDE, re.MULTILINE)
+    calls = [(module, *call) for module, cell in rows for call in re.findall(r"`([A-Za-z][\w.]*)\(([^`]*)\)`", cell)]
+    assert len(calls) > 50
+    for module, name, arguments in calls:
+        function = import_module(module)
+        for part in name.split("."):
+            function = getattr(function, part)
+        known = inspect.signature(function).parameters
+        named = [argument.strip() for argument in arguments.split(",")]
+        assert {argument.rstrip("=") for argument in named} <= set(known), f"{module}.{name}"
+        needed = [one for one, parameter in known.items() if parameter.default is parameter.empty]
+        assert [argument.rstrip("=") for argument in named][: len(needed)] == needed, f"{module}.{name}"
 
 
 def test_limits_and_names_are_those_that_are_asked():
