@@ -9,7 +9,7 @@ import numpy as np
 
 from lessons.alignment.state import Params, Scans
 from workbench.data.clouds import box_surface, vase
-from workbench.data.files import read_cloud, read_pose, stamp
+from workbench.data.files import lost_rows, read_cloud, read_pose, stamp
 from workbench.data.framing import FAR, Frame, Up, extent, frame
 from workbench.data.rabbit import rabbit
 from workbench.data.thinning import some_points
@@ -114,6 +114,9 @@ def _own_pair(params: Params) -> Scans:
     p_target, p_source = how.shown(p_target), replace(theirs, scale=how.scale).shown(p_source)
     rng = np.random.default_rng(params.seed)
     if params.stage == "pairs":
+        holed = next((file.name for file in (params.target, params.source) if lost_rows(file)), None)
+        if holed is not None:
+            raise InputError(f"pairs go row by row, and {holed} has rows that are NaN: leave them out of both files")
         if len(p_target) != len(p_source):
             raise InputError(
                 f"pairs go row by row: {params.target.name} has {len(p_target):,} points and {params.source.name}"

@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
+from workbench.apart import apart
 from workbench.data.arrays import read_arrays
 from workbench.data.board_corners import board_corners
 from workbench.data.boards import board_points
@@ -56,6 +57,7 @@ class Corners:
         return self.stated or _size_of(self.uv)
 
 
+@apart
 def read_corners(path: Path, which: Which = "first") -> Corners:
     """Return the corners of a file.
 
