@@ -169,7 +169,7 @@ def test_a_file_that_is_made_to_cost_much_costs_little(uploads, name):
 def test_a_command_may_read_more_than_a_page(uploads):
     path = uploads / "many.xyz"
     path.write_bytes(b"1 2 3\n" * (PAGE.points + 1))
-    with pytest.raises(InputError, match=r"at most 1,000,000 are read on a page; more is read where `workbench show`"):
+    with pytest.raises(InputError, match=r"at most 500,000 are read on a page; more is read where `workbench show`"):
         read_cloud(path)
     forgotten(uploads)
     assert len(read_cloud(path)) == PAGE.points + 1

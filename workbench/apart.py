@@ -65,7 +65,7 @@ COMMAND = Allowance(
 )
 PAGE = Allowance(
     unpacked=64 * 10**6,
-    points=1_000_000,
+    points=500_000,
     pixels=25_000_000,
     lines=250_000,
     seconds=2,

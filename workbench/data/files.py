@@ -34,6 +34,8 @@ from workbench.geometry.motions import inverse, motion
 if TYPE_CHECKING:
     from PIL import Image
 
+NO_VERTEX = "a face names a vertex that is not there"
+MOST_OF_POSES = 2 * 10**6  # bytes
 IMAGES = ("PNG", "JPEG", "WEBP", "TIFF", "BMP", "GIF", "PPM")
 """What pictures are read from; Pillow would also hand a file to other programs (EPS to Ghostscript)."""
 
@@ -82,11 +84,12 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
     except InputError:
         raise
     except Exception as error:  # the readers of trimesh raise whatever they trip over
-        raise InputError(f"{path.name}: not readable as a {kind[1:]} mesh ({type(error).__name__})") from None
+        why = NO_VERTEX if isinstance(error, IndexError) or "face index" in str(error) else type(error).__name__
+        raise InputError(f"{path.name}: not readable as a {kind[1:]} mesh ({why})") from None
     if len(faces) == 0:
         raise InputError(f"{path.name}: {_count(len(p), 'point')} without faces, where a mesh is wanted")
     if not np.isfinite(p).all() or faces.min() < 0 or faces.max() >= len(p):
-        raise InputError(f"{path.name}: a vertex is not finite, or a face names a vertex that is not there")
+        raise InputError(f"{path.name}: a vertex is not finite, or {NO_VERTEX}")
     return p, faces
 
 
@@ -203,7 +206,9 @@ def read_pose(path: Path, target: Path | None = None, source: Path | None = None
         if T.dtype.kind not in "fiu":
             raise InputError(f"{path.name}: not a pose; 4 x 4 numbers are wanted")
     else:
-        text = content.decode("utf-8", "replace")
+        if len(content) > MOST_OF_POSES:
+            raise InputError(f"{path.name}: {len(content) / 1e6:,.0f} MB; a pose, or a list of them, has fewer")
+        text = text_of(content, path.name)
         poses = _listed_poses(text)
         if poses:
             return inverse(_pose_of(target, poses, path)) @ _pose_of(source, poses, path)
