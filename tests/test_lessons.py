@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.runs import whole_run
-from workbench.authoring.promises import OF_LESSONS, Subject
+from workbench.authoring.validate import OF_LESSONS, Subject
 from workbench.lesson import catalog
 
 ROOT = Path(__file__).resolve().parents[1]

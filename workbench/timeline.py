@@ -13,7 +13,7 @@ from workbench.apart import told
 from workbench.authors import Blaming, at
 from workbench.axis import settled
 from workbench.errors import AuthorError, InputError
-from workbench.knobs import Field, Pick, fields_of, paths_of
+from workbench.knobs import Field, Pick, fields_of, in_words, paths_of
 from workbench.lesson import Lesson
 from workbench.picking import pickable
 from workbench.scene import PRIMITIVES, Caption, Primitive, Scalar, Scene, arrays, caption_of
@@ -111,7 +111,7 @@ class Timeline:
                 return self._end(self._incomplete())
             except InputError as error:
                 self.failure = error.trace if isinstance(error, AuthorError) else None
-                return self._end(str(error))
+                return self._end(in_words(str(error), self.lesson.params))
             self._shown |= scene
             self._series.add(scene)
             self._steps.append(Step(state, scene, moment))

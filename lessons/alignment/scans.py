@@ -15,6 +15,7 @@ from workbench.data.rabbit import rabbit
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
 from workbench.geometry.motions import exp_so3, motion
+from workbench.knobs import called
 
 SLANT = np.array([0.36, 0.48, 0.8])
 LOW, GAP = 0.4, 0.2  # metres: the least side of the box, and what lies between the scans in the picture
@@ -29,9 +30,9 @@ def scans_of(params: Params) -> Scans:
     """
     files = [path for path in (params.source, params.target, params.truth) if path is not None]
     if params.source is None and files:
-        raise InputError("an own first scan and a known pose come with an own cloud: give source too")
+        raise InputError(f"an own first scan and a known pose come with an own cloud: give {called('source')} too")
     if params.truth is not None and params.target is None:
-        raise InputError("a known pose is one in the frame of an own first scan: give target too")
+        raise InputError(f"a known pose is one in the frame of an own first scan: give {called('target')} too")
     how = replace(params, signs="third-moment", flip="least")
     return _scans(how, *(stamp(path) for path in files))
 

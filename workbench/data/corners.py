@@ -133,7 +133,7 @@ def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures
     if len(with_board) < 2:
         raise InputError(
             f"{path.name or path}: a whole board of {columns} x {rows} inner corners in {len(with_board)} of {len(names)}"
-            " pictures; two are needed, of the board that --board names"
+            " pictures; two are needed, of a board of that shape"
         )
     corners = Corners(
         p_board=board_points(columns, rows),
