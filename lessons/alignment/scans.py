@@ -10,7 +10,7 @@ import numpy as np
 from lessons.alignment.state import Params, Scans
 from workbench.data.clouds import box_surface, vase
 from workbench.data.files import lost_rows, read_cloud, read_pose, stamp
-from workbench.data.framing import FAR, Frame, Up, extent, frame
+from workbench.data.framing import FAR, Frame, Up, box, extent, frame
 from workbench.data.rabbit import rabbit
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
@@ -137,7 +137,8 @@ def _own_pair(params: Params) -> Scans:
 
 def _beside(p_target: np.ndarray, p_source: np.ndarray, T: np.ndarray | None, params: Params) -> Scans:
     """Return the scans, the first to the left of the second, whose stray point lies where it was dragged."""
-    left = min(-0.5, p_source[:, 0].min()) - GAP - p_target[:, 0].max()
+    far = FAR if params.source is not None else 0.0  # a few far points of an own cloud push nothing out of the picture
+    left = min(-0.5, box(p_source, far)[0][0]) - GAP - box(p_target, far)[1][0]
     stray = np.array(params.stray) if any(params.stray) else None
     if stray is not None:
         p_source = np.concatenate([p_source, [stray]])

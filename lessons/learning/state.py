@@ -90,11 +90,13 @@ class Target:
         faces: Of the mesh that is fitted.
         given: Points, with noise.
         name: What they are of, in sentences.
+        euler: Vertices - edges + faces of that; of a sphere 2.
     """
 
     faces: np.ndarray
     given: np.ndarray
     name: str
+    euler: int = 2
 
 
 @dataclass(frozen=True, eq=False)
