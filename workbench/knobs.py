@@ -22,7 +22,7 @@ from workbench.errors import InputError
 P = TypeVar("P")
 
 _SYMBOL = re.compile(r"([A-Za-z])(\d*)")
-_CALLED = re.compile("\N{LEFT WHITE SQUARE BRACKET}(\\w+)\N{RIGHT WHITE SQUARE BRACKET}")
+_CALLED = re.compile(r"“(\w+)”")
 _flags: ContextVar[bool] = ContextVar("flags", default=False)
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
@@ -305,8 +305,8 @@ def showing(params: P, files: Iterable[str], *, kept: Collection[str] = ()) -> P
 
 
 def called(name: str) -> str:
-    """Return the mark for a param in a message: a page puts its label there, a command its flag."""
-    return f"\N{LEFT WHITE SQUARE BRACKET}{name}\N{RIGHT WHITE SQUARE BRACKET}"
+    """Return the name of a param for a message, in marks by which a page puts its label there, a command its flag."""
+    return f"“{name}”"
 
 
 @contextlib.contextmanager
@@ -321,12 +321,12 @@ def called_by_flags() -> Iterator[None]:
 
 def in_words(message: str, params: type) -> str:
     """Return a message with the names of params (`called`) as people see them: labels, or flags in `called_by_flags`."""
+    labels = {field.name: field.label for field in fields_of(params)}
 
     def name(found: re.Match) -> str:
-        if _flags.get():
-            return "--" + found[1].replace("_", "-")
-        label = next((field.label for field in fields_of(params) if field.name == found[1]), found[1])
-        return f"\N{LEFT DOUBLE QUOTATION MARK}{label}\N{RIGHT DOUBLE QUOTATION MARK}"
+        if found[1] not in labels:
+            return found[0]
+        return "--" + found[1].replace("_", "-") if _flags.get() else called(labels[found[1]])
 
     return _CALLED.sub(name, message)
 

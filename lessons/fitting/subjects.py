@@ -11,8 +11,10 @@ from workbench.data.fit_scenes import arc_points, cap_points, errors, line_point
 from workbench.data.flat_points import read_round
 from workbench.data.framing import METRES
 from workbench.data.rims import coins, find_rim
+from workbench.errors import InputError
 from workbench.geometry.algebraic_fits import fit_algebraic
 from workbench.geometry.lines_planes import fit_hyperplane
+from workbench.knobs import called
 
 MOST_POINTS = 2000
 TRUE = {
@@ -33,6 +35,8 @@ def subject_of(params: Params, rng: np.random.Generator) -> Subject:
         rim = find_rim(coins() if params.image is None else read_image(params.image), params.coin)
         return _round(rim.windows(params.arc)[0], ROUND_SHAPES["circle"], truth=TRUE["circle"], p_true=rim.p, rim=rim)
     if params.stage == "line":
+        if params.cloud is not None:
+            raise InputError(f"own points are not used in the stage line: set {called('stage')} to descent or robust")
         turn = np.radians(params.slope)
         p_true = line_points(rng, turn, params.points)
         p = p_true + errors(rng, p_true.shape, params.noise)
