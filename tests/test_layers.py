@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-BASE = {"workbench", "workbench.axis", "workbench.errors", "workbench.tracing", "workbench.authors"}
+BASE = {"workbench", "workbench.apart", "workbench.axis", "workbench.errors", "workbench.tracing", "workbench.authors"}
 DRAWING = BASE | {"workbench.scene", "workbench.knobs"}
 LESSON = DRAWING | {
     "workbench.lesson",
@@ -21,6 +21,7 @@ MATHS = BASE | {"workbench.geometry"}
 
 # what a part may import of the workbench; longer names win
 ALLOWED = {
+    "workbench.apart": {"workbench.errors", "workbench.threads"},
     "workbench.axis": {"workbench.numerals"},
     "workbench.errors": set(),
     "workbench.hosts": set(),

@@ -68,6 +68,14 @@ def test_the_frame_asks_for_nothing(shown):
     assert not re.search(r'<(script|link|img|iframe)[^>]*(src|href)="(?!data:)', document.partition("viserPage(")[0])
 
 
+def test_the_licences_of_what_is_in_the_frame_come_along(shown):
+    document = unescape(re.search(r'srcdoc="([^"]*)"', shown._repr_html_())[1])  # type: ignore[index]
+    text = re.search(r'<script type="text/plain" id="third-parties">(.*?)</script>', document, re.DOTALL)
+    assert text is not None
+    assert "Apache License" in text[1]
+    assert "client of viser" in text[1]
+
+
 def test_nothing_is_printed(capfd):
     workbench.replay("icp", steps=1)._repr_html_()
     assert capfd.readouterr() == ("", "")

@@ -51,6 +51,17 @@ def test_the_font_is_small_and_kept(tmp_path, monkeypatch):
     assert math_font_css() == css
 
 
+def test_the_font_says_whose_it_is_and_under_which_licence():
+    file = re.search(r"base64,([^)]*)\)", math_font_css())
+    assert file is not None
+    names = TTFont(io.BytesIO(base64.b64decode(file.group(1))))["name"]
+    said = {kind: names.getDebugName(kind) or "" for kind in (0, 7, 13, 14)}
+    assert "STIX Fonts Project Authors" in said[0]
+    assert "trademarks" in said[7]
+    assert "SIL Open Font License, Version 1.1" in said[13]
+    assert said[14] == "https://scripts.sil.org/OFL"
+
+
 def test_the_font_has_every_letter_of_every_formula():
     file = re.search(r"base64,([^)]*)\)", math_font_css())
     assert file is not None

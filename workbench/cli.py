@@ -13,6 +13,7 @@ from typing import Annotated, Any
 from workbench import __version__
 from workbench.errors import InputError, not_among, one_line
 from workbench.flags import Chosen, Option, Serving, ServingLive, command_line, is_path, lesson_given, parse
+from workbench.knobs import called_by_flags
 from workbench.lesson import catalog
 
 Command = Callable[..., int | None]
@@ -91,9 +92,11 @@ def record(
     from workbench.recording.write import record_file, record_to_stdout
 
     if str(out) == "-":
-        record_to_stdout(run.lesson, run.params, preset=run.preset)
+        with called_by_flags():
+            record_to_stdout(run.lesson, run.params, preset=run.preset)
         return
-    written = record_file(run.lesson, run.params, out, preset=run.preset, force=force, progress=sys.stderr)
+    with called_by_flags():
+        written = record_file(run.lesson, run.params, out, preset=run.preset, force=force, progress=sys.stderr)
     if written.stopped is not None:
         _complain(f"{written.stopped} What there is, is recorded.")
     sys.stdout.write(f"{out}: {written.steps:,} steps, {written.bytes / 1e6:.1f} MB\n")
@@ -370,7 +373,8 @@ def _try_first_step(lesson: Any, params: Any) -> None:
     from workbench.timeline import Timeline
 
     timeline = Timeline(lesson, params)
-    timeline.extend()
+    with called_by_flags():
+        timeline.extend()
     if timeline.stopped is not None and not len(timeline):
         raise InputError(timeline.stopped)
 

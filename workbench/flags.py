@@ -287,7 +287,13 @@ def _lesson_reader(parser: _Parser, left: list[str]) -> Reader:
     def read(values: argparse.Namespace) -> Chosen:
         given = {field.name: value for field in fields_ if (value := getattr(values, field.name)) is not None}
         path = Path(name) if is_path(name) else None
-        return Chosen(lesson, knobs.make(lesson.params, given, base=base), preset, path)
+        made = knobs.make(lesson.params, given, base=base)
+        files = [field.name for field in fields_ if field.kind == "path" and field.name in given]
+        try:
+            return Chosen(lesson, knobs.showing(made, files, kept=given), preset, path)
+        except InputError as error:
+            with knobs.called_by_flags():
+                raise InputError(knobs.in_words(str(error), lesson.params)) from None
 
     return read
 

@@ -4,13 +4,15 @@ A Params class is a frozen dataclass whose fields are `Annotated[type, Knob(...)
 `Literal[...]` of strings, `tuple` of a fixed number of floats or ints, `Path | None`.
 """
 
+import contextlib
 import dataclasses
 import functools
 import json
 import math
 import re
 import types
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -20,6 +22,8 @@ from workbench.errors import InputError, not_among
 P = TypeVar("P")
 
 _SYMBOL = re.compile(r"([A-Za-z])(\d*)")
+_CALLED = re.compile(r"“(\w+)”")
+_flags: ContextVar[bool] = ContextVar("flags", default=False)
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
@@ -278,6 +282,56 @@ def with_own_files(params: P, mine: P) -> P:
         return params
     kept = paths_of(type(params)) + [field.name for field in fields_of(type(params)) if field.knob.of_files]
     return dataclasses.replace(params, **{name: getattr(mine, name) for name in kept})  # type: ignore[type-var]
+
+
+def showing(params: P, files: Iterable[str], *, kept: Collection[str] = ()) -> P:
+    """Return the params with the choices under which files are read (`Knob.needs`); those that are so stay.
+
+    Args:
+        params: What was asked for.
+        files: The fields whose files have just been given.
+        kept: Fields that a person has chosen together with the files.
+
+    Raises:
+        InputError: If one of these has a value under which a file would not be read.
+    """
+    fields = {field.name: field for field in fields_of(type(params))}
+    for name in files:
+        for other, wanted in fields[name].knob.needs.items() if getattr(params, name) is not None else ():
+            if getattr(params, other) in wanted:
+                continue
+            if other in kept:
+                allowed = " or ".join(map(str, wanted))
+                raise InputError(f"{called(name)} is read where {called(other)} is {allowed}")
+            params = dataclasses.replace(params, **{other: wanted[0]})  # type: ignore[type-var]
+    return params
+
+
+def called(name: str) -> str:
+    """Return the name of a param for a message, in marks by which a page puts its label there, a command its flag."""
+    return f"“{name}”"
+
+
+@contextlib.contextmanager
+def called_by_flags() -> Iterator[None]:
+    """Let messages in this block name params as a command line does."""
+    before = _flags.set(True)
+    try:
+        yield
+    finally:
+        _flags.reset(before)
+
+
+def in_words(message: str, params: type) -> str:
+    """Return a message with the names of params (`called`) as people see them: labels, or flags in `called_by_flags`."""
+    labels = {field.name: field.label for field in fields_of(params)}
+
+    def name(found: re.Match) -> str:
+        if found[1] not in labels:
+            return found[0]
+        return "--" + found[1].replace("_", "-") if _flags.get() else called(labels[found[1]])
+
+    return _CALLED.sub(name, message)
 
 
 def validated(params: Any) -> Any:

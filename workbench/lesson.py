@@ -162,7 +162,7 @@ class Lesson(Generic[P, S]):
         draw: What one state looks like.
         order: The place in the course.
         view: How the scene is first seen.
-        view_for: How runs of some params are first seen, where the presets' cameras do not say it.
+        view_for: How runs of some params are first seen, where the presets' cameras do not say it; None lets them.
         presets: Named runs worth seeing.
         questions: What a student predicts before looking.
         first_step: Where the default run opens (negative counts from the end).
@@ -180,7 +180,7 @@ class Lesson(Generic[P, S]):
     draw: Callable[[S], Scene]
     order: int
     view: View = field(default_factory=View)
-    view_for: Callable[[P], View] | None = None
+    view_for: Callable[[P], View | None] | None = None
     presets: tuple[Preset[P], ...] = ()
     questions: tuple[Question[P, S], ...] = ()
     first_step: int = 0
@@ -238,8 +238,9 @@ class Lesson(Generic[P, S]):
         It is the camera of the default or the preset that is most alike in its choices, of which the first counts most: who
         chooses another shape or stage sees it as its presets do.
         """
-        if self.view_for is not None:
-            return self.view_for(params)
+        view = None if self.view_for is None else self.view_for(params)
+        if view is not None:
+            return view
         choices = [field.name for field in fields_of(self.params) if field.kind == "choice"]
         known = [(self.params(), self.view), *((preset.params, preset.view or self.view) for preset in self.presets)]
         return max(known, key=lambda one: [getattr(one[0], name) == getattr(params, name) for name in choices])[1]

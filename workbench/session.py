@@ -129,8 +129,10 @@ class Session:
                 aside = knobs.make(self.lesson.params, files, base=aside)
                 base = knobs.with_own_files(base, aside) if any(files.values()) else base
             params = knobs.make(self.lesson.params, values, base=base, clamp=True)
+            given = [name for name in knobs.paths_of(self.lesson.params) if values.get(name)]
+            params = knobs.showing(params, given, kept=values)
         except InputError as error:
-            self.message = str(error)
+            self.message = knobs.in_words(str(error), self.lesson.params)
             return
         self.message = None
         if params != self.params:

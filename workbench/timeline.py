@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from workbench.apart import told
 from workbench.authors import Blaming, at
 from workbench.axis import settled
 from workbench.errors import AuthorError, InputError
-from workbench.knobs import Field, Pick, fields_of
+from workbench.knobs import Field, Pick, fields_of, in_words, paths_of
 from workbench.lesson import Lesson
 from workbench.picking import pickable
 from workbench.scene import PRIMITIVES, Caption, Primitive, Scalar, Scene, arrays, caption_of
@@ -110,7 +111,7 @@ class Timeline:
                 return self._end(self._incomplete())
             except InputError as error:
                 self.failure = error.trace if isinstance(error, AuthorError) else None
-                return self._end(str(error))
+                return self._end(in_words(str(error), self.lesson.params))
             self._shown |= scene
             self._series.add(scene)
             self._steps.append(Step(state, scene, moment))
@@ -196,8 +197,16 @@ class Timeline:
                 raise AuthorError(f"lesson {self.lesson.name}: {at(draw)}{wrong}")
             caption = caption_of(shown)
             preset = self.lesson.preset_of(self.params) if caption.tone == "wrong" else None
-            calm = {"caption": replace(caption, tone="info")} if preset is not None and preset.breaks else {}
-            return {**shown, **calm}
+            if preset is not None and preset.breaks:
+                caption = replace(caption, tone="info")
+            if not self._steps and (notes := self._notes()):
+                caption = replace(caption, text=f"{caption.text} {notes}".strip())
+            return {**shown, "caption": caption} if caption is not caption_of(shown) else {**shown}
+
+    def _notes(self) -> str:
+        """Return what is to be said of the person's own files, such as how many rows of them were left out."""
+        own = [path for name in paths_of(type(self.params)) if (path := getattr(self.params, name)) is not None]
+        return " ".join(words for path in own for words in told(path))
 
     def _incomplete(self) -> str | None:
         """Say what a run that came to its end lacks, None when nothing: a step, and what the default run is to show."""

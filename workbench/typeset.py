@@ -153,7 +153,7 @@ def math_font_css() -> str:
 
 
 def _font() -> bytes | None:
-    kept = cache_folder() / "stix-two-math-subset-3.woff2"
+    kept = cache_folder() / "stix-two-math-subset-4.woff2"
     try:
         return kept.read_bytes()
     except OSError:
@@ -191,6 +191,7 @@ def _subset() -> bytes:
     chosen += [*range(0x1D6A4, 0x1D71C)]
     features = ["ssty", "flac", "dtls"]  # what a browser asks of a math font
     options = subset.Options(layout_features=features, hinting=False, notdef_outline=True, drop_tables=["DSIG"])
+    options.name_IDs += [7, 13, 14]  # trademark, licence and its address: who hands the font on has to
     subsetter = subset.Subsetter(options)
     with TTFont(path) as font:
         subsetter.populate(unicodes=chosen)

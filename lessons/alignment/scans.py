@@ -9,12 +9,13 @@ import numpy as np
 
 from lessons.alignment.state import Params, Scans
 from workbench.data.clouds import box_surface, vase
-from workbench.data.files import read_cloud, read_pose, stamp
-from workbench.data.framing import FAR, Frame, Up, extent, frame
+from workbench.data.files import lost_rows, read_cloud, read_pose, stamp
+from workbench.data.framing import FAR, Frame, Up, box, extent, frame
 from workbench.data.rabbit import rabbit
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
 from workbench.geometry.motions import exp_so3, motion
+from workbench.knobs import called
 
 SLANT = np.array([0.36, 0.48, 0.8])
 LOW, GAP = 0.4, 0.2  # metres: the least side of the box, and what lies between the scans in the picture
@@ -29,9 +30,9 @@ def scans_of(params: Params) -> Scans:
     """
     files = [path for path in (params.source, params.target, params.truth) if path is not None]
     if params.source is None and files:
-        raise InputError("an own first scan and a known pose come with an own cloud: give source too")
+        raise InputError(f"an own first scan and a known pose come with an own cloud: give {called('source')} too")
     if params.truth is not None and params.target is None:
-        raise InputError("a known pose is one in the frame of an own first scan: give target too")
+        raise InputError(f"a known pose is one in the frame of an own first scan: give {called('target')} too")
     how = replace(params, signs="third-moment", flip="least")
     return _scans(how, *(stamp(path) for path in files))
 
@@ -114,6 +115,9 @@ def _own_pair(params: Params) -> Scans:
     p_target, p_source = how.shown(p_target), replace(theirs, scale=how.scale).shown(p_source)
     rng = np.random.default_rng(params.seed)
     if params.stage == "pairs":
+        holed = next((file.name for file in (params.target, params.source) if lost_rows(file)), None)
+        if holed is not None:
+            raise InputError(f"pairs go row by row, and {holed} has rows that are NaN: leave them out of both files")
         if len(p_target) != len(p_source):
             raise InputError(
                 f"pairs go row by row: {params.target.name} has {len(p_target):,} points and {params.source.name}"
@@ -133,7 +137,8 @@ def _own_pair(params: Params) -> Scans:
 
 def _beside(p_target: np.ndarray, p_source: np.ndarray, T: np.ndarray | None, params: Params) -> Scans:
     """Return the scans, the first to the left of the second, whose stray point lies where it was dragged."""
-    left = min(-0.5, p_source[:, 0].min()) - GAP - p_target[:, 0].max()
+    far = FAR if params.source is not None else 0.0  # a few far points of an own cloud push nothing out of the picture
+    left = min(-0.5, box(p_source, far)[0][0]) - GAP - box(p_target, far)[1][0]
     stray = np.array(params.stray) if any(params.stray) else None
     if stray is not None:
         p_source = np.concatenate([p_source, [stray]])

@@ -19,6 +19,7 @@ from workbench.data.point_sets import (
 )
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
+from workbench.knobs import called
 from workbench.numerals import brief, percent
 
 WIDTH = 2.0  # metres of an own cloud's longest edge in the picture
@@ -38,7 +39,7 @@ def clouds_of(params: Params) -> Clouds:
         InputError: If an own file cannot be used, or a source is given without its target.
     """
     if params.source is not None and params.target is None:
-        raise InputError("an own source needs an own target to flow to: give --target too")
+        raise InputError(f"an own source needs an own target to flow to: give {called('target')} too")
     rng = np.random.default_rng(params.seed)
     if params.target is None:
         framed, p_target = Frame(), spread(params.shape, params.points)

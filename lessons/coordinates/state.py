@@ -63,8 +63,13 @@ class Params:
         float,
         Knob("How far the eye goes away, in half-depths of the object", 1.5, 100, needs={"stage": ("project",)}),
     ] = 100.0
-    places: Annotated[Path | None, Knob("Own places instead: csv of latitude, longitude, name")] = None
-    cloud: Annotated[Path | None, Knob("Own object instead of the house: ply, pcd, obj, xyz, csv, npz")] = None
+    places: Annotated[
+        Path | None, Knob("Own places instead: csv of latitude, longitude, name", needs={"stage": ("globe",)})
+    ] = None
+    cloud: Annotated[
+        Path | None,
+        Knob("Own object instead of the house: ply, pcd, obj, xyz, csv, npz", needs={"stage": ("project",)}),
+    ] = None
     up: Annotated[Up, Knob("Which axis of an own object points up", of_files=True)] = "z"
     seed: Annotated[int, Knob("What chance draws", 0, 99, needs={"stage": ("sphere", "radar")})] = 0
 

@@ -11,6 +11,7 @@ from workbench.data.files import stamp
 from workbench.data.stereo import StereoPair, grey, motorcycle_pair, read_pair, shrunk, synthetic_pair
 from workbench.errors import InputError
 from workbench.geometry.stereo import StereoCamera
+from workbench.knobs import called
 
 SIZE = (160, 120)
 MOST_CELLS = 5_000_000
@@ -26,6 +27,8 @@ def setup_of(params: Params) -> Setup:
         InputError: If own files are no pair, or the cost volume would be too large.
     """
     metric = True
+    if (params.left is None) != (params.right is None):
+        raise InputError(f"an own pair is two files: give both {called('left')} and {called('right')}")
     if params.left is not None and params.right is not None:
         stamps = tuple(stamp(path) for path in (params.left, params.right))
         metric = params.own_focal_length > 0 and params.own_baseline > 0

@@ -96,8 +96,6 @@ class Params:
     def __post_init__(self) -> None:
         if self.window % 2 == 0:
             raise InputError(f"window = {self.window}: a window has a middle pixel, so its side is odd")
-        if (self.left is None) != (self.right is None):
-            raise InputError("an own pair is two files: give both --left and --right")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -88,8 +88,12 @@ class Params:
             needs={"stage": ("balls", "grid", "surface", "roll")},
         ),
     ] = -1  # fmt: skip
-    mesh: Annotated[Path | None, Knob("Own mesh for the stage surface: off, obj, ply, stl, glb")] = None
-    cloud: Annotated[Path | None, Knob("Own cloud for the stage roll: ply, pcd, obj, xyz, csv, npz")] = None
+    mesh: Annotated[Path | None, Knob("Own mesh for the stage surface: off, obj, ply, stl, glb", needs=ON_SURFACE)] = (
+        None
+    )
+    cloud: Annotated[
+        Path | None, Knob("Own cloud for the stage roll: ply, pcd, obj, xyz, csv, npz", needs={"stage": ("roll",)})
+    ] = None
     up: Annotated[Upward, Knob("Which axis of own files is up; auto guesses", of_files=True)] = "auto"
     seed: Annotated[int, Knob("Where chance puts points", 0, 99)] = 0
 

@@ -18,8 +18,10 @@ from lessons.epipolar.experiments import PRESETS, QUESTIONS
 from lessons.epipolar.state import MOST_MATCHES, Params, State
 from workbench.algorithms.two_views import EightPoint, Poses, Triangulate, follow_ray, relate, solve_linear
 from workbench.data.two_views import TwoViews, made_views, own_views, shown_length
+from workbench.errors import InputError
 from workbench.geometry.homography import normalising_similarity
 from workbench.geometry.motions import motion
+from workbench.knobs import called
 from workbench.lesson import Lesson, Sweep
 
 DEPTHS = np.array([3.0, 4.0, 6.0, 8.0, 12.0, np.inf])  # metres along the ray of the followed pixel, as they are drawn
@@ -74,7 +76,11 @@ def run(
 
 
 def views_of(params: Params) -> TwoViews:
-    """Return the pictures and matches of a run."""
+    """Return the pictures and matches of a run.
+
+    Raises:
+        InputError: If own files cannot be used, or their matches are missing.
+    """
     if params.own_matches is not None:
         return own_views(
             params.own_matches,
@@ -83,6 +89,8 @@ def views_of(params: Params) -> TwoViews:
             K=params.intrinsics,
             most=MOST_MATCHES,
         )
+    if any((params.first_image, params.second_image, params.intrinsics)):
+        raise InputError(f"own images and intrinsics belong to own matches: give {called('own_matches')} too")
     return made_views(
         params.scene,
         count=params.matches,

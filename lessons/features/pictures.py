@@ -15,6 +15,7 @@ from workbench.errors import InputError
 from workbench.geometry.keypoints import gradient, patches, strongest
 from workbench.geometry.matching import nearest_both_ways
 from workbench.geometry.sift import Sift, sift, turned_patch
+from workbench.knobs import called
 
 Response = Callable[[np.ndarray], np.ndarray]
 BORDER = 16  # no corner is nearer to the border, whatever the patch
@@ -98,7 +99,7 @@ def pictures_of(params: Params) -> tuple[np.ndarray, np.ndarray, np.ndarray | No
     if files == (None, None):
         first, second, disparity = motorcycle_levels()
     elif files[0] is None or files[1] is None:
-        raise InputError("own pictures come in pairs: give both a first and a second image")
+        raise InputError(f"own pictures come in pairs: give both {called('first_image')} and {called('second_image')}")
     else:
         first, second, disparity = *(_own(file, stamp(file)) for file in files if file), None
     return first, turned(second, np.radians(params.turn)), disparity

@@ -21,7 +21,7 @@ from workbench.geometry.keypoints import iss_keypoints
 from workbench.geometry.matching import Nearest, filtered, nearest_both_ways
 from workbench.geometry.motions import apply, exp_so3, motion
 from workbench.geometry.normals import point_normals
-from workbench.knobs import only
+from workbench.knobs import called, only
 
 Matcher = Callable[[np.ndarray, np.ndarray, float], np.ndarray]
 
@@ -185,7 +185,7 @@ def scans_of(params: Params) -> Scans:
     if params.target is None and params.source is None and params.truth is None:
         return _made(only(params, "shape", "turn", "overlap", "noise", "points", "seed"))
     if params.target is None or params.source is None:
-        raise InputError("own scans come in pairs: give both a target and a source")
+        raise InputError(f"own scans come in pairs: give both {called('target')} and {called('source')}")
     asked = only(params, "target", "source", "truth", "up", "voxel", "seed")
     return _own(asked, tuple(stamp(file) for file in (params.target, params.source, params.truth) if file))
 

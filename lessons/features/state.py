@@ -68,11 +68,13 @@ class Params:
     corners: Annotated[int, Knob("Corners of each picture", 50, 600, step=50, needs=PATCHES)] = 300
     patch: Annotated[int, Knob("Side of a patch, odd", 7, 31, unit="px", step=2, needs=PATCHES)] = 15
     angles: Annotated[Angles, Knob("Where the angles of an outline's bins begin", needs=OUTLINES)] = "along the outline"
-    target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz")] = None
-    source: Annotated[Path | None, Knob("Own source scan, found in the target")] = None
-    truth: Annotated[Path | None, Knob("Known pose of the source in the target's frame: 4×4 or list of poses")] = None
-    first_image: Annotated[Path | None, Knob("Own first picture")] = None
-    second_image: Annotated[Path | None, Knob("Own second picture")] = None
+    target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz", needs=SCANS)] = None
+    source: Annotated[Path | None, Knob("Own source scan, found in the target", needs=SCANS)] = None
+    truth: Annotated[
+        Path | None, Knob("Known pose of the source in the target's frame: 4×4 or list of poses", needs=SCANS)
+    ] = None
+    first_image: Annotated[Path | None, Knob("Own first picture", needs=PICTURES)] = None
+    second_image: Annotated[Path | None, Knob("Own second picture", needs=PICTURES)] = None
     up: Annotated[Up, Knob("Which axis of own scans points up", of_files=True)] = "z"
     voxel: Annotated[
         float, Knob("Own scans: edge of the voxels that thin them, of the target's longest extent", 1, 10, unit="%",

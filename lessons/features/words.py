@@ -1,9 +1,11 @@
 """What each step says: what just happened, its numbers, and at the end whether it is right."""
 
 import numpy as np
+import scipy
 
-from lessons.features.state import PIXELS, Outlined, Pictured, Scanned, State
+from lessons.features.state import INLIER, PIXELS, Outlined, Pictured, Scanned, State
 from workbench.certain import sure
+from workbench.geometry.motions import apply
 from workbench.numerals import angle, counted, fixed_row, length, percent
 from workbench.scene import Caption
 
@@ -117,7 +119,10 @@ def _end(now: Scanned) -> Caption:
         text = f"ICP ends after {counted(now.iteration, 'fit', 'fits')}: {angle(before)} → {angle(now.error.rotation)}."
         text += f" Points are {length(now.error.displacement)} (RMS) from the truth."
     if now.scans.T_truth is None:
-        return Caption(text)
+        found = scipy.spatial.KDTree(now.scans.p_target).query(apply(now.T_target_source, now.scans.p_source))[0]
+        near = percent(float((found < INLIER).mean()), 0)
+        text += f" Now {near} of the source's points have a target point within {length(INLIER)}."
+        return Caption(f"{text} Only their known pose could say whether it is right; none is given.")
     return Caption.verdict(text + (" It has come home." if now.home else ""), right=now.home)
 
 

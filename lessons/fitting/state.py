@@ -23,6 +23,7 @@ LossName = Literal["squares", "Huber", "Cauchy", "Geman-McClure", "Tukey", "Hube
 ROUND = {"stage": ("descent", "basin", "algebraic", "coin")}
 DESCENT, WALKS = {"stage": ("descent",)}, {"stage": ("descent", "basin")}
 ROBUST = {"stage": ("robust",)}
+OF_POINTS = {"stage": ("descent", "basin", "algebraic", "robust")}
 BENT = {**ROBUST, "loss": ("Huber", "Cauchy", "Geman-McClure", "Tukey", "Huber then Tukey")}
 PLANE_PLACES = np.stack([*np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), np.zeros((9, 9))], axis=-1).reshape(-1, 3)
 MADE = {"stage": ("descent", "basin", "algebraic", "line", "robust")}
@@ -70,10 +71,13 @@ class Params:
         Knob("A pixel inside the coin", 0, 900, unit="px", parts=("u", "v"), needs={"stage": ("coin",)}),
     ] = (337, 125)  # fmt: skip
     cloud: Annotated[
-        Path | None, Knob("Own points to fit: x y for a circle, x y z for a sphere, cylinder or plane")
+        Path | None,
+        Knob("Own points to fit: x y for a circle, x y z for a sphere, cylinder or plane", needs=OF_POINTS),
     ] = None
     cloud_unit: Annotated[Unit, Knob("In which unit the numbers of own points are", of_files=True)] = "m"
-    image: Annotated[Path | None, Knob("Own photograph instead of the coins: something bright on dark")] = None
+    image: Annotated[
+        Path | None, Knob("Own photograph instead of the coins: something bright on dark", needs={"stage": ("coin",)})
+    ] = None
     seed: Annotated[int, Knob("Which errors chance makes", 0, 99, needs=MADE)] = 3
 
 

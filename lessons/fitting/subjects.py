@@ -14,6 +14,7 @@ from workbench.data.rims import coins, find_rim
 from workbench.errors import InputError
 from workbench.geometry.algebraic_fits import fit_algebraic
 from workbench.geometry.lines_planes import fit_hyperplane
+from workbench.knobs import called
 
 MOST_POINTS = 2000
 TRUE = {
@@ -35,7 +36,7 @@ def subject_of(params: Params, rng: np.random.Generator) -> Subject:
         return _round(rim.windows(params.arc)[0], ROUND_SHAPES["circle"], truth=TRUE["circle"], p_true=rim.p, rim=rim)
     if params.stage == "line":
         if params.cloud is not None:
-            raise InputError("own points are not used in the stage line: set the stage to descent or robust")
+            raise InputError(f"own points are not used in the stage line: set {called('stage')} to descent or robust")
         turn = np.radians(params.slope)
         p_true = line_points(rng, turn, params.points)
         p = p_true + errors(rng, p_true.shape, params.noise)

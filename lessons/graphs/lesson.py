@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from lessons.graphs.draw import draw
-from lessons.graphs.experiments import PRESETS, QUESTIONS, VIEW
+from lessons.graphs.experiments import BALL, PRESETS, QUESTIONS, VIEW
 from lessons.graphs.stages import Functions, states
 from lessons.graphs.state import Params, State
 from lessons.graphs.subjects import subject_of
@@ -51,6 +51,7 @@ lesson = Lesson(
     draw=draw,
     order=1100,
     view=VIEW,
+    view_for=lambda params: BALL if params.mesh or params.cloud else None,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=-1,

@@ -17,7 +17,7 @@ from workbench.data.rabbit import rabbit, rabbit_mesh
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
 from workbench.geometry import meshes
-from workbench.knobs import only
+from workbench.knobs import called, only
 
 MOST_CLOUD, MOST_NODES = 3000, 1000
 OWN_SIZE = 2.0  # metres: how long the longest side of own points is made
@@ -33,7 +33,7 @@ def subject_of(params: Params) -> Subject:
     own = {"edges": params.edges, "mesh": params.mesh, "cloud": params.cloud}
     given = [(kind, path) for kind, path in own.items() if path is not None]
     if len(given) > 1:
-        raise InputError("one own file at a time: edges, a mesh or a cloud")
+        raise InputError(f"one own file at a time: {called('edges')}, {called('mesh')} or {called('cloud')}")
     if given:
         kind, path = given[0]
         made = _own(path, stamp(path), kind=kind, up=params.up, seed=params.seed)

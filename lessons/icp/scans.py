@@ -16,7 +16,7 @@ from workbench.data.thinning import some_points, spacing, voxel_means
 from workbench.errors import InputError
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 from workbench.geometry.normals import point_normals
-from workbench.knobs import only
+from workbench.knobs import called, only
 
 RINGS, COLUMNS = 32, 900
 WIDTH = 1.2  # metres of the picture that large or small scans are shown wide
@@ -87,7 +87,7 @@ def _driven(params: Params) -> Scans:
 
 def _own(params: Params) -> Scans:
     if params.target is None or params.source is None:
-        raise InputError("own scans come in pairs: give both a target and a source")
+        raise InputError(f"own scans come in pairs: give both {called('target')} and {called('source')}")
     for scan in (params.target, params.source):
         read_cloud(scan)  # so that a bad file is refused before anything else
     T_truth = None if params.truth is None else read_pose(params.truth, params.target, params.source).copy()

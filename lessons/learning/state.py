@@ -64,7 +64,7 @@ class Params:
             needs=on("angle", "rotation", "field"),
         ),
     ] = 20
-    scan: Annotated[Path | None, Knob("Own mesh to fit: off, obj, ply, stl, glb")] = None
+    scan: Annotated[Path | None, Knob("Own mesh to fit: off, obj, ply, stl, glb", needs=on("mesh"))] = None
     up: Annotated[Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)] = "auto"
     seed: Annotated[int, Knob("What chance draws: data, first weights, batches", 0, 99)] = 0
 
@@ -90,11 +90,13 @@ class Target:
         faces: Of the mesh that is fitted.
         given: Points, with noise.
         name: What they are of, in sentences.
+        euler: Vertices - edges + faces of that; of a sphere 2.
     """
 
     faces: np.ndarray
     given: np.ndarray
     name: str
+    euler: int = 2
 
 
 @dataclass(frozen=True, eq=False)

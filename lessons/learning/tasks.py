@@ -19,6 +19,7 @@ from workbench.data.framing import Upward, own_points
 from workbench.data.labelled_shapes import NAMES, labelled_clouds
 from workbench.data.own_meshes import read_welded
 from workbench.data.rabbit import rabbit
+from workbench.geometry.meshes import euler_characteristic
 from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, Decode, random_rotations
 from workbench.geometry.sampling import points_on_faces
 from workbench.geometry.volume_rendering import RayWeights, samples_on
@@ -104,9 +105,9 @@ def _sets(params: Params, functions: Functions, rng: np.random.Generator) -> Ite
 def _mesh(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Target, Now]]:
     ball = surfaces.sphere(VERTICES)
     name = "the rabbit" if params.scan is None else params.scan.name
-    given, truth = _surface(params.scan, params.scan and stamp(params.scan), params.up, params.seed)
+    given, truth, euler = _surface(params.scan, params.scan and stamp(params.scan), params.up, params.seed)
     given = given + params.noise * rng.normal(size=given.shape)
-    target = Target(ball.faces, given, name)
+    target = Target(ball.faces, given, name, euler)
     weights: dict[Term, float] = {"laplacian": params.laplacian, "normal": params.normal, "edge": params.edge}
     for now in fit_mesh(
         START * ball.p,
@@ -122,14 +123,20 @@ def _mesh(params: Params, functions: Functions, rng: np.random.Generator) -> Ite
 
 
 @functools.lru_cache(maxsize=4)
-def _surface(scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return points of the surface to be fitted, and more of them: cached, as most knobs leave them as they are."""
+def _surface(
+    scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed: int
+) -> tuple[np.ndarray, np.ndarray, int]:
+    """Return points of the surface to be fitted, more of them, and its Euler characteristic.
+
+    Cached, as most knobs leave them as they are.
+    """
     rng = np.random.default_rng(1000 + seed)
     if scan is None:
-        return rabbit(GIVEN, rng), rabbit(TRUE, rng)
+        return rabbit(GIVEN, rng), rabbit(TRUE, rng), 2
     p, faces = read_welded(scan, MOST_OWN, "fitted")
     p = own_points(p, scan, up, OWN_SIZE)
-    return points_on_faces(p, faces, rng.random((GIVEN, 3))), points_on_faces(p, faces, rng.random((TRUE, 3)))
+    given, true = (points_on_faces(p, faces, rng.random((count, 3))) for count in (GIVEN, TRUE))
+    return given, true, euler_characteristic(faces)
 
 
 def _classify(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Clouds, Now]]:

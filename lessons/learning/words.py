@@ -52,6 +52,9 @@ def _told(state: State) -> tuple[str, float, float, float]:
                 f" {brief(1e6 * now.to_truth, 3)} mm² from its true surface (Chamfer). Folded by over 90°:"
                 f" {percent(now.folded)} of the edges."
             )
+            if about.euler != 2 and now.updates == 0:
+                kind = f"{about.name} is not like a sphere (V − E + F = {about.euler}, not 2)"
+                text = f"{done}, a sphere: it has one piece, no hole and no border, and keeps that. {kind}. What will it do?"
             return text, now.folded, SMOOTH, CRUMPLED
         case Classified(), Clouds():
             plain, changed = shares_right(now, about)

@@ -17,6 +17,7 @@ from workbench.errors import InputError
 from workbench.geometry.containment import columns, windings
 from workbench.geometry.measures import encloses, signed_volume, surface_area
 from workbench.geometry.voxels import Grid, counted_volume, grid_over, marched_surface, occupied
+from workbench.knobs import called
 
 RABBIT, SPACING = 2.0, 0.04  # times as large as it is made, with edges of so many metres before
 OWN_SIZE = 2.0  # metres of the picture that an own shape is long
@@ -33,7 +34,7 @@ def subject_of(params: Params) -> Subject:
         InputError: If an own file cannot be used, or the shape has no volume where one is asked for.
     """
     if params.mesh is not None and params.voxels is not None:
-        raise InputError("a mesh and voxels are given; one of them, please")
+        raise InputError(f"{called('mesh')} and {called('voxels')} are both given: one of them is measured")
     if params.voxels is not None:
         subject = _voxels(params.voxels, stamp(params.voxels), params.spacing, params.label, params.unit)
     elif params.mesh is not None:

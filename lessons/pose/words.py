@@ -55,7 +55,9 @@ def _given(state: State) -> str:
     subject, params = state.subject, state.params
     if subject.T_true is None:
         n = len(subject.p_shown)
-        return f"{n} points of your own and their pixels, f = {pixels(params.f)}. Where was the camera?"
+        u, v = params.principal
+        camera = f"f = {pixels(params.f)} and the principal point ({u:g}, {v:g})"
+        return f"{n} points of your own and their pixels. {camera} are taken for your camera's: set them. Where was it?"
     noise = f"with noise of σ = {pixels(params.noise)}" if params.noise > 0 else "without noise"
     wrong = int(subject.given.is_outlier.sum())
     also = f"; {wrong} of the points are seen somewhere else altogether" if wrong else ""

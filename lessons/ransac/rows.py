@@ -14,7 +14,7 @@ from workbench.data.framing import METRES, extent, frame
 from workbench.data.matches import read_matches
 from workbench.data.robust import RobustScene
 from workbench.errors import InputError
-from workbench.knobs import only
+from workbench.knobs import called, only
 
 PIXEL = 1.0 / 500.0  # metres of the picture per pixel of the built-in images
 FLOOR = -0.35  # height of the picture's ground
@@ -34,11 +34,15 @@ def subject_of(params: Params) -> Subject:
         (params.matches, "px", "matches", "homography or fundamental matrix"),
     ):
         if given is not None and (model.unit != unit or model.columns == 2):
-            raise InputError(f"{name} {given.name} cannot be fitted with a {model.name}: set model to {others}")
+            raise InputError(
+                f"{name} {given.name} cannot be fitted with a {model.name}: set {called('model')} to {others}"
+            )
     if params.cloud is not None:
         return _own_cloud(params, model)
     if params.matches is not None:
         return _own_matches(params, model)
+    if params.first_image is not None or params.second_image is not None:
+        raise InputError(f"own images are shown under own matches: give {called('matches')} too")
     return _built_in(only(params, "model", "table", "points", "outliers", "noise", "noise_pixels", "scene_seed"))
 
 

@@ -21,6 +21,7 @@ Steps = Literal["every part", "every sample", "improvements"]
 
 MOST_POINTS = 5000
 IN_METRES = {"model": ("line", "plane", "circle", "sphere")}
+OF_A_CLOUD = {"model": ("plane", "sphere")}
 IN_PIXELS = {"model": ("homography", "fundamental matrix")}
 
 
@@ -59,12 +60,16 @@ class Params:
         Knob("Your own first sample: click points; the last clicks count, -1 is none", -1, MOST_POINTS - 1,
              by=Pick("points")),
     ] = (-1, -1, -1, -1)  # fmt: skip
-    cloud: Annotated[Path | None, Knob("Own cloud for a plane or a sphere: ply, pcd, obj, xyz, csv, npz")] = None
+    cloud: Annotated[
+        Path | None, Knob("Own cloud for a plane or a sphere: ply, pcd, obj, xyz, csv, npz", needs=OF_A_CLOUD)
+    ] = None
     cloud_unit: Annotated[Unit, Knob("In which unit the numbers of an own cloud are", of_files=True)] = "m"
     up: Annotated[Up, Knob("Which axis of an own cloud points up", of_files=True)] = "z"
-    matches: Annotated[Path | None, Knob("Own matches: npz (x1, x2; F or H if known) or lines of u v u' v'")] = None
-    first_image: Annotated[Path | None, Knob("The first image of own matches, to be shown")] = None
-    second_image: Annotated[Path | None, Knob("Their second image")] = None
+    matches: Annotated[
+        Path | None, Knob("Own matches: npz (x1, x2; F or H if known) or lines of u v u' v'", needs=IN_PIXELS)
+    ] = None
+    first_image: Annotated[Path | None, Knob("The first image of own matches, to be shown", needs=IN_PIXELS)] = None
+    second_image: Annotated[Path | None, Knob("Their second image", needs=IN_PIXELS)] = None
     scene_seed: Annotated[int, Knob("Which scene: where its points and outliers are", 0, 99)] = 0
     seed: Annotated[int, Knob("Which samples chance draws", 0, 99)] = 0
 

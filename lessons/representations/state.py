@@ -18,6 +18,7 @@ Form = Literal["cloud", "neighbours", "mesh", "voxels", "distances", "octree", "
 Shape = Literal["torus", "box", "rabbit", "plate", "two boxes"]
 SHAPED = {"form": ("cloud", "neighbours", "mesh", "voxels", "distances", "octree", "neural")}
 NEURAL = {"form": ("neural",)}
+OF_CLOUDS: dict[str, tuple[Form, ...]] = {"form": ("cloud", "neighbours", "k-d tree")}
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ class Params:
         Knob("Whose nearest point is looked for", -1, 1, unit="m", by=Gizmo(0.3), needs={"form": ("k-d tree",)}),
     ] = (0.35, -0.6, 0.25)  # fmt: skip
     mesh: Annotated[Path | None, Knob("Own mesh instead: off, obj, ply, stl, glb")] = None
-    cloud: Annotated[Path | None, Knob("Own points instead: ply, pcd, obj, xyz, csv, npz")] = None
+    cloud: Annotated[Path | None, Knob("Own points instead: ply, pcd, obj, xyz, csv, npz", needs=OF_CLOUDS)] = None
     up: Annotated[Upward, Knob("Which axis of an own file points up; auto guesses", of_files=True)] = "auto"
     seed: Annotated[int, Knob("What chance draws, and how the plate lies", 0, 99)] = 0
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from lessons.representations.state import Form, Params, Shape, Subject, Surface
+from lessons.representations.state import OF_CLOUDS, Params, Shape, Subject, Surface
 from workbench.data import solids, surfaces
 from workbench.data.files import read_cloud, stamp
 from workbench.data.framing import Upward, own_points
@@ -22,6 +22,7 @@ from workbench.geometry.meshes import face_normals
 from workbench.geometry.motions import exp_so3
 from workbench.geometry.sampling import places_on_faces, points_on_faces, unit_points
 from workbench.geometry.signed_distances import face_tree, mesh_sdf, torus_sdf
+from workbench.knobs import called
 
 BoxSdf = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """box_sdf(p, half_size) -> the signed distances of points to a box about the origin."""
@@ -33,7 +34,6 @@ PAIR_HALF, PAIR_APART = np.array([0.325, 0.3, 0.3]), np.array([0.275, 0.0, 0.0])
 OWN_SIZE = 1.6  # m of the picture that an own mesh is long
 MOST_OWN = 50_000  # faces
 MOST_CLOUD = 20_000  # points of an own cloud
-OF_CLOUDS: tuple[Form, ...] = ("cloud", "neighbours", "k-d tree")
 SPREAD = 2048  # points at which surfaces are compared
 STEP = 1e-4  # m, of the true normals' differences
 
@@ -46,11 +46,11 @@ def subject_of(params: Params, box_sdf: BoxSdf) -> Subject:
     """
     if params.cloud is not None:
         if params.mesh is not None:
-            raise InputError("--mesh and --cloud are both given: one of them is stored")
-        if params.form not in OF_CLOUDS:
-            forms = ", ".join(OF_CLOUDS)
+            raise InputError(f"{called('mesh')} and {called('cloud')} are both given: one of them is stored")
+        if params.form not in OF_CLOUDS["form"]:
+            forms = ", ".join(OF_CLOUDS["form"])
             raise InputError(
-                f"{params.cloud.name} is points, which have no faces and no inside; --form is one of {forms}"
+                f"{params.cloud.name} is points, which have no faces and no inside; {called('form')} is one of {forms}"
             )
         return _own_cloud(params.cloud, stamp(params.cloud), params.up)
     if params.mesh is not None:

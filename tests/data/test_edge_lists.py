@@ -41,7 +41,7 @@ def test_dialects(write, text):
         ("a,b,nan\n", "weights are positive"),
         ("# nothing\n", "no edge between two nodes"),
         ("a a\n", "no edge between two nodes"),
-        (b"\xff\xfe\x00", "not UTF-8 text"),
+        (b"\xff\xfe\x00", "not a text file"),
         ("\n".join(f"0 {k}" for k in range(1, 9)), "9 nodes; at most 8"),
     ],
 )

@@ -1,12 +1,13 @@
 """Files that people bring: every dialect that is read, and one clear line for every one that is not."""
 
 import gzip
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from workbench.data import files
+from workbench.apart import COMMAND, allowing, told
 from workbench.data.files import read_cloud, read_image, read_mesh, read_pose
 from workbench.data.formats import _unpack_lzf
 from workbench.errors import InputError
@@ -69,18 +70,18 @@ def test_text_in_every_dialect(write, name):
     np.testing.assert_allclose(read_cloud(write(name, TEXTS[name])), P, rtol=1e-7)
 
 
-def ply(kind: str, faces: int = 0, extra: bool = True) -> bytes:
-    header = f"ply\nformat {kind} 1.0\ncomment ours\nelement vertex {len(P)}\n"
+def ply(kind: str, faces: int = 0, extra: bool = True, p: np.ndarray = P) -> bytes:
+    header = f"ply\nformat {kind} 1.0\ncomment ours\nelement vertex {len(p)}\n"
     header += "property uchar red\n" * extra + "property float x\nproperty double y\nproperty float32 z\n"
     header += f"element face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
     if kind == "ascii":
-        body = "".join(f"{'7 ' * extra}{a} {b} {c}\n" for a, b, c in P).encode()
+        body = "".join(f"{'7 ' * extra}{a} {b} {c}\n" for a, b, c in p).encode()
     else:
         order = "<" if kind == "binary_little_endian" else ">"
         fields = [("red", "u1")] * extra + [("x", order + "f4"), ("y", order + "f8"), ("z", order + "f4")]
-        table = np.zeros(len(P), fields)
+        table = np.zeros(len(p), fields)
         for i, axis in enumerate("xyz"):
-            table[axis] = P[:, i]
+            table[axis] = p[:, i]
         body = table.tobytes()
     return header.encode() + body
 
@@ -116,6 +117,33 @@ def test_pcd_of_every_kind_without_what_the_scanner_did_not_see(write, kind):
     np.testing.assert_allclose(read_cloud(write("a.pcd", pcd(kind))), P, rtol=1e-6)
     holes = np.vstack([P, [[np.nan] * 3], P])
     np.testing.assert_allclose(read_cloud(write("b.pcd", pcd(kind, holes))), np.vstack([P, P]), rtol=1e-6)
+
+
+HOLED = np.vstack([P, [[np.nan, 1.0, 2.0], [np.inf, 0.0, 0.0]], P])
+HOLES: dict[str, str | bytes] = {
+    "a.xyz": rows(" ", HOLED),
+    "a.csv": "x,y,z\n" + rows(",", HOLED),
+    "a.obj": "".join(f"v {row}\n" for row in rows(" ", HOLED).splitlines()),
+    "a.ply": ply("ascii", p=HOLED),
+    "b.ply": ply("binary_little_endian", p=HOLED),
+    "a.pcd": pcd("ascii", HOLED),
+}
+
+
+@pytest.mark.parametrize("name", [*HOLES, "a.npy"])
+def test_rows_without_numbers_are_left_out_and_counted_in_every_format(write, tmp_path, name):
+    if name == "a.npy":
+        np.save(tmp_path / name, HOLED)
+    path = tmp_path / name if name == "a.npy" else write(name, HOLES[name])
+    np.testing.assert_allclose(read_cloud(path), np.vstack([P, P]), rtol=1e-6)
+    assert told(path) == (f"{name}: 2 of 10 points left out: NaN or infinite.",)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be", "utf-8-sig"])
+def test_a_table_of_a_spreadsheet_in_utf_16(write, encoding):
+    mark = {"utf-16-le": "\ufeff", "utf-16-be": "\ufeff"}.get(encoding, "")
+    path = write("a.csv", (mark + "x,y,z\r\n" + rows(",").replace("\n", "\r\n")).encode(encoding))
+    np.testing.assert_array_equal(read_cloud(path), P)
 
 
 def test_copies_of_lzf_run_into_themselves():
@@ -182,13 +210,8 @@ class TestRefusals:
         refused(write("a.xyz", "1 2 3\n"), "1 point;", "at least 3")
         assert len(read_cloud(write("a.xyz", "1 2 3\n"), fewest=1)) == 1
 
-    @pytest.mark.parametrize("name", ["a.xyz", "a.csv"])
-    def test_nan(self, write, name):
-        text = rows("," if name == "a.csv" else " ").replace("-4.25", "nan")
-        refused(write(name, text), "1 of 4 points", "NaN", "number 2")
-
     def test_a_pcd_of_nothing_but_nan(self, write):
-        refused(write("a.pcd", pcd("binary", np.full((5, 3), np.nan))), "0 points")
+        refused(write("a.pcd", pcd("binary", np.full((5, 3), np.nan))), "all 5 points are NaN")
 
     def test_a_mesh(self, write):
         refused(write("a.ply", ply("ascii", faces=2)), "mesh", "4 vertices, 2 faces", "point cloud")
@@ -227,14 +250,13 @@ class TestRefusals:
         refused(write("a.pcd", pcd("ascii").replace(b" x y", b" a b")), "no fields x, y and z")
         refused(write("a.pcd", pcd("binary").replace(b"SIZE 4", b"SIZE 3")), "incomplete")
 
-    def test_too_large(self, write, monkeypatch):
-        monkeypatch.setattr(files, "MOST_BYTES", 20)
-        refused(write("a.xyz", rows(" ")), "at most")
-        monkeypatch.setattr(files, "MOST_BYTES", 100)
-        refused(write("a.xyz.gz", gzip.compress(b"1 2 3\n" * 100, 9)), "unpacked")
-        monkeypatch.setattr(files, "MOST_BYTES", 10**6)
-        monkeypatch.setattr(files, "MOST_POINTS", 3)
-        refused(write("b.xyz", rows(" ")), "4 points", "at most 3")
+    def test_too_large(self, write):
+        with allowing(replace(COMMAND, unpacked=20)):
+            refused(write("a.xyz", rows(" ")), "at most")
+        with allowing(replace(COMMAND, unpacked=100)):
+            refused(write("a.xyz.gz", gzip.compress(b"1 2 3\n" * 100, 9)), "unpacked")
+        with allowing(replace(COMMAND, points=3)):
+            refused(write("b.xyz", rows(" ")), "4 ", "at most 3")
 
 
 class TestPose:

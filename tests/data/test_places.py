@@ -42,7 +42,7 @@ def test_longitudes_to_360_and_places_without_names(tmp_path):
         (b"10,20\nhello\n", "line 2: a latitude"),
         (b"10,20\nnan,3\n", "line 2: latitude nan"),
         (b"10,20\n3,inf\n", "line 2: longitude inf"),
-        (b"10,20\n\xff\xfe\n", "not UTF-8"),
+        (b"10,20\n\xff\xfe\n", "not a text file"),
     ],
 )
 def test_what_cannot_be_used_is_refused(tmp_path, content, words):

@@ -57,7 +57,7 @@ def test_rows_are_read(tmp_path, lines):
         ("1 2 3 4 5\n" * 2001, "2001 points"),
         ("1 2 3 4\n" * 5, "line 1: five numbers"),
         ("1 2 3 4 5\n1 2 three 4 5\n", "line 2: five numbers"),
-        ("1 2 3 4 nan\n" * 4, "not finite"),
+        ("1 2 3 4 nan\n" * 4, "all 4 points are NaN"),
     ],
 )
 def test_other_files_are_refused(tmp_path, text, words):

@@ -208,3 +208,12 @@ def test_vertices_within_some_edges_are_those_of_scipys_shortest_paths(seed, ste
     vertex = seed % count
     near = meshes.vertices_within(meshes.edges(faces), vertex, steps)
     np.testing.assert_array_equal(near, np.flatnonzero(far[vertex] <= steps))
+
+
+def test_distinct_rows_are_those_that_numpy_finds():
+    rng = np.random.default_rng(4)
+    for rows in (rng.integers(0, 3, (200, 3)), rng.normal(size=(50, 2)).round(), np.zeros((0, 3)), np.ones((1, 2))):
+        first, name = meshes.distinct_rows(rows)
+        found, inverse = np.unique(rows, axis=0, return_inverse=True) if len(rows) else (rows, np.empty(0, int))
+        np.testing.assert_array_equal(rows[first], found)
+        np.testing.assert_array_equal(name, inverse.reshape(-1))

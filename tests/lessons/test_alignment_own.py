@@ -103,9 +103,9 @@ def test_what_cannot_be_used_is_refused_in_one_line(tmp_path, shape):
     files = saved(tmp_path, target=shape, source=shape[:30], one=np.ones((5, 3)), few=shape[:3])
     pair = {"source": files["source"], "target": files["target"]}
     for params, words in (
-        (Params(target=files["target"]), "give source too"),
-        (Params(truth=tmp_path / "pose.txt"), "give source too"),
-        (Params(source=files["source"], truth=files["few"]), "give target too"),
+        (Params(target=files["target"]), "give “source” too"),
+        (Params(truth=tmp_path / "pose.txt"), "give “source” too"),
+        (Params(source=files["source"], truth=files["few"]), "give “target” too"),
         (Params(source=tmp_path / "none.ply"), "no such file"),
         (Params(source=files["one"]), "at one place"),
         (Params(source=files["few"]), "3 points; at least 4"),

@@ -152,14 +152,12 @@ class TestOwnPairs:
 
     def test_refusals(self, files, tmp_path):
         left, right = files
-        with pytest.raises(InputError, match="give both"):
-            Params(left=left)
-        with pytest.raises(InputError, match="give both"):
-            make(Params, {"right": str(right)})
         with pytest.raises(InputError, match="its side is odd"):
             make(Params, {"window": 4})
         (tmp_path / "text.png").write_text("no picture")
         for params, words in (
+            (Params(left=left), "give both “Left” and “Right”"),
+            (make(Params, {"right": str(right)}), "give both “Left” and “Right”"),
             (Params(left=left, right=tmp_path / "text.png"), "text.png: not readable as an image"),
             (Params(left=left, right=tmp_path / "missing.png"), "missing.png"),
             (Params(left=left, right=right, shrink=16), None),

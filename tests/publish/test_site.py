@@ -46,6 +46,15 @@ def test_every_run_has_its_replay_its_recording_and_a_page_of_its_own(published)
     assert '<link rel="canonical" href="https://example.org/course/fake/">' in (out / "fake" / "index.html").read_text()
 
 
+def test_the_licences_of_what_is_in_the_pages_come_along(published):
+    out, files = published
+    assert files["page/third-parties.txt"] > 15_000
+    text = (out / "page" / "third-parties.txt").read_text(encoding="utf-8")
+    for said in ("SIL OPEN FONT LICENSE Version 1.1", "Apache License", "MIT License", "STIX Fonts Project", "viser"):
+        assert said in text
+    assert 'href="page/third-parties.txt"' in (out / "index.html").read_text(encoding="utf-8")
+
+
 def test_the_numbers_are_those_of_the_run(published):
     out, _ = published
     timeline = Timeline(SMALL, SMALL.params()).complete()

@@ -1,11 +1,11 @@
 """What the page of every lesson promises: its parts, its formulas, and that every reference in it leads somewhere."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from workbench.authoring.live_words import elsewhere, live_words, on_page
 from workbench.authoring.new import TEMPLATE, TITLE
-from workbench.authoring.promises import ONLY_LIVE, Found, Subject, length_of, opens
+from workbench.authoring.promises import ONLY_LIVE, Found, Subject, length_of, opens, promise
 from workbench.authors import place
 from workbench.errors import AuthorError, InputError
 from workbench.page.article import LINK, TERM, article_html
@@ -18,6 +18,7 @@ LEFTOVER = 60
 """Characters of a line that nobody writes by chance as the scaffold has it."""
 
 
+@promise
 def the_page_has_its_parts(subject: Subject) -> Found:
     """There is a page, long enough and no longer, with the parts that people look for, and its pictures are there."""
     lesson = subject.lesson
@@ -35,6 +36,7 @@ def the_page_has_its_parts(subject: Subject) -> Found:
         yield f"{subject.who}: {error}"
 
 
+@promise
 def nothing_is_asked_for_that_a_published_page_cannot(subject: Subject) -> Found:
     """Where nothing can be computed, no text asks for a click, a drag, a file or a knob that no sweep publishes."""
     for what, text in elsewhere(subject.lesson).items():
@@ -46,6 +48,7 @@ def nothing_is_asked_for_that_a_published_page_cannot(subject: Subject) -> Found
         yield from [f"{subject.who}: {one}; {ONLY_LIVE}: write {{{{live: ...}}}}" for one in told] or [None]
 
 
+@promise
 def every_formula_is_read(subject: Subject) -> Found:
     """The page has formulas, and all of them are ones that can be typeset."""
     lesson = subject.lesson
@@ -63,6 +66,7 @@ def every_formula_is_read(subject: Subject) -> Found:
         yield f"{subject.who}: {place(str(lesson.page), line)}: {unknown[0]} is a TeX command that is not known here"
 
 
+@promise
 def every_reference_of_the_page_leads_somewhere(subject: Subject) -> Found:
     """A link names a run that there is and a step that it has; a term names a thing that some run shows."""
     lesson = subject.lesson
@@ -94,6 +98,7 @@ def _is_shown(path: str, shown: set[str]) -> bool:
     return any(one == path or one.startswith(f"{path}/") for one in shown)
 
 
+@promise
 def every_term_of_the_page_is_read(subject: Subject) -> Found:
     """No brackets of a term are left for people to see."""
     if subject.lesson.page is None:
@@ -107,6 +112,7 @@ def every_term_of_the_page_is_read(subject: Subject) -> Found:
     yield None if left is None else f"{subject.who}: {subject.lesson.page}: {left[0]!r} is no term: [[path|words]]"
 
 
+@promise
 def nothing_is_left_of_the_scaffold(subject: Subject) -> Found:
     """A lesson that is about something else has no line of the page that `workbench new` wrote."""
     if subject.lesson.page is None or subject.lesson.title == TITLE:
@@ -121,13 +127,3 @@ def nothing_is_left_of_the_scaffold(subject: Subject) -> Found:
 
 def _long_lines(text: str) -> Iterator[str]:
     yield from (line.strip() for line in text.splitlines() if len(line.strip()) >= LEFTOVER)
-
-
-OF_PAGES: tuple[Callable[[Subject], Found], ...] = (
-    the_page_has_its_parts,
-    nothing_is_asked_for_that_a_published_page_cannot,
-    every_formula_is_read,
-    every_reference_of_the_page_leads_somewhere,
-    every_term_of_the_page_is_read,
-    nothing_is_left_of_the_scaffold,
-)

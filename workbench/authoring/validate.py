@@ -18,10 +18,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from workbench.authoring import own_data, page_promises, view_promises  # noqa: F401 each adds to OF_LESSONS
 from workbench.authoring.exercise_promises import OF_EXERCISES
-from workbench.authoring.page_promises import OF_PAGES
 from workbench.authoring.promises import OF_LESSONS, SECONDS, Found, Subject
-from workbench.authoring.view_promises import OF_VIEWS
 from workbench.authors import described, is_ours, place
 from workbench.errors import InputError, one_line
 from workbench.exercise.finding import exercises_of
@@ -43,7 +42,7 @@ class Verdict:
 
 def look_at(subject: Subject) -> Found:
     """Yield what every promise finds of a lesson and of its exercises; a promise that cannot be looked at is a line too."""
-    for promise in (*OF_LESSONS, *OF_PAGES, *OF_VIEWS):
+    for promise in OF_LESSONS:
         yield from _guarded(lambda promise=promise: promise(subject), subject, promise.__doc__ or "")
     try:
         exercises = exercises_of(subject.lesson)

@@ -1,10 +1,10 @@
 """What every run of a lesson promises of its picture: what it draws lies where its camera looks."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
-from workbench.authoring.promises import Found, Subject
+from workbench.authoring.promises import Found, Subject, promise
 from workbench.lesson import View
 from workbench.scene import Axes, Camera, Label, Mesh, Picture, Points, Primitive, Scene, Segments
 
@@ -14,6 +14,7 @@ LEAST_SEEN = 0.25
 """Of the named things of a step, this share has a place in the frame: a close-up leaves others out, some lie at infinity."""
 
 
+@promise
 def the_picture_lies_in_its_frame(subject: Subject) -> Found:
     """At every step of every preset, enough of the things with a name have a place in the frame of its camera."""
     runs = {"the default run": subject.lesson.params()}
@@ -66,6 +67,3 @@ def _own_points(primitive: Primitive) -> np.ndarray | None:
     if isinstance(primitive, (Axes, Camera)) and primitive.name:
         return np.zeros((1, 3))
     return None
-
-
-OF_VIEWS: tuple[Callable[[Subject], Found], ...] = (the_picture_lies_in_its_frame,)

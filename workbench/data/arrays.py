@@ -5,9 +5,8 @@ import zipfile
 
 import numpy as np
 
+from workbench.data.formats import not_too_large
 from workbench.errors import InputError
-
-MOST_BYTES = 500 * 10**6
 
 
 def read_arrays(content: bytes, name: str) -> dict[str, np.ndarray]:
@@ -19,8 +18,7 @@ def read_arrays(content: bytes, name: str) -> dict[str, np.ndarray]:
     try:
         if zipfile.is_zipfile(io.BytesIO(content)):
             with zipfile.ZipFile(io.BytesIO(content)) as packed:
-                if sum(member.file_size for member in packed.infolist()) > MOST_BYTES:
-                    raise InputError(f"{name}: over {MOST_BYTES // 10**6} MB unpacked; that is too large")
+                not_too_large(sum(member.file_size for member in packed.infolist()), name)
         loaded = np.load(io.BytesIO(content), allow_pickle=False)
         if isinstance(loaded, np.ndarray):
             return {"": loaded}

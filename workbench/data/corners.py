@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
+from workbench.apart import apart
 from workbench.data.arrays import read_arrays
 from workbench.data.board_corners import board_corners
 from workbench.data.boards import board_points
@@ -56,6 +57,7 @@ class Corners:
         return self.stated or _size_of(self.uv)
 
 
+@apart
 def read_corners(path: Path, which: Which = "first") -> Corners:
     """Return the corners of a file.
 
@@ -131,7 +133,7 @@ def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures
     if len(with_board) < 2:
         raise InputError(
             f"{path.name or path}: a whole board of {columns} x {rows} inner corners in {len(with_board)} of {len(names)}"
-            " pictures; two are needed, of the board that --board names"
+            " pictures; two are needed, of a board of that shape"
         )
     corners = Corners(
         p_board=board_points(columns, rows),

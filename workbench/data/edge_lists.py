@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
+from workbench.apart import apart
 from workbench.data.files import text_rows
 from workbench.errors import InputError
 
@@ -29,6 +30,7 @@ class EdgeList:
     weights: Float[np.ndarray, " e"]
 
 
+@apart
 def read_edges(path: Path, most_nodes: int) -> EdgeList:
     """Return the edges of a text file: per line two names and maybe a weight, between commas, semicolons or blanks.
 

@@ -14,18 +14,28 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int, Shaped, UInt8
 
+from workbench.apart import allowance, apart, note, told
 from workbench.data.arrays import read_arrays
-from workbench.data.formats import is_number, mesh_error, obj_points, pcd_points, ply_points, text_points, words_of
+from workbench.data.formats import (
+    is_number,
+    mesh_error,
+    not_too_large,
+    not_too_many,
+    obj_points,
+    pcd_points,
+    ply_points,
+    text_of,
+    text_points,
+    words_of,
+)
 from workbench.errors import InputError
 from workbench.geometry.motions import inverse, motion
 
 if TYPE_CHECKING:
     from PIL import Image
 
-MOST_BYTES = 500 * 10**6
-MOST_POINTS = 5_000_000
-MOST_PIXELS = 50_000_000
-
+NO_VERTEX = "a face names a vertex that is not there"
+MOST_OF_POSES = 2 * 10**6  # bytes
 IMAGES = ("PNG", "JPEG", "WEBP", "TIFF", "BMP", "GIF", "PPM")
 """What pictures are read from; Pillow would also hand a file to other programs (EPS to Ghostscript)."""
 
@@ -38,7 +48,7 @@ def read_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n 3"]:
 
     Formats: ply, pcd, obj, npy, npz (an array named p, points, xyz or vertices, or the only one) and text (xyz, txt,
     csv, ...; see `text_points`), each also gzipped. A mesh is refused: its vertices are rarely the samples that a cloud
-    is taken for. NaN in a pcd marks what the scanner did not see and is left out; elsewhere it is refused.
+    is taken for. Points with NaN or infinity are left out: a scanner did not see them. How many is told with the first step.
 
     Raises:
         InputError: If the file is missing, too large, not understood, or has fewer than `fewest` points.
@@ -51,6 +61,7 @@ def read_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n 3"]:
     return p
 
 
+@apart
 def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
     """Return the vertices and triangles of a mesh file (off, obj, ply, stl, glb; also gzipped); polygons are cut up.
 
@@ -73,23 +84,29 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
     except InputError:
         raise
     except Exception as error:  # the readers of trimesh raise whatever they trip over
-        raise InputError(f"{path.name}: not readable as a {kind[1:]} mesh ({type(error).__name__})") from None
+        why = NO_VERTEX if isinstance(error, IndexError) or "face index" in str(error) else type(error).__name__
+        raise InputError(f"{path.name}: not readable as a {kind[1:]} mesh ({why})") from None
     if len(faces) == 0:
         raise InputError(f"{path.name}: {_count(len(p), 'point')} without faces, where a mesh is wanted")
     if not np.isfinite(p).all() or faces.min() < 0 or faces.max() >= len(p):
-        raise InputError(f"{path.name}: a vertex is not finite, or a face names a vertex that is not there")
+        raise InputError(f"{path.name}: a vertex is not finite, or {NO_VERTEX}")
     return p, faces
+
+
+def lost_rows(path: Path) -> bool:
+    """Tell whether a cloud that was read has rows less than its file: they had no finite numbers."""
+    return len(told(path)) > 0
 
 
 def _one_mesh(scene: Any, name: str) -> Any:
     """Return all meshes of a scene as one; a small file may name the same mesh a million times."""
     sizes = {key: len(shape.vertices) for key, shape in scene.geometry.items()}
     n = sum(sizes[scene.graph[node][1]] for node in scene.graph.nodes_geometry)
-    if n > MOST_POINTS:
-        raise InputError(f"{name}: {n:,} vertices; at most {MOST_POINTS:,} are read")
+    not_too_many(n, name, "vertices")
     return scene.to_mesh()
 
 
+@apart
 def read_voxels(path: Path) -> Shaped[np.ndarray, "x y z"]:
     """Return bits or labels on a regular grid, (x, y, z) whole numbers: of an npy file, or the only such array of an npz.
 
@@ -109,6 +126,7 @@ def read_voxels(path: Path) -> Shaped[np.ndarray, "x y z"]:
     return found[0]
 
 
+@apart
 def read_image(path: Path) -> UInt8[np.ndarray, "h w *channels"]:
     """Return an image as (h, w) grey or (h, w, 3) RGB, uint8; transparency is dropped.
 
@@ -118,7 +136,17 @@ def read_image(path: Path) -> UInt8[np.ndarray, "h w *channels"]:
     path = Path(path)
     stamp(path)
     with opened_image(path, path.name) as image:
-        return np.array(image.convert("L" if image.mode in ("1", "L", "LA") else "RGB"))
+        return _plain(image)
+
+
+def shipped_image(name: str) -> UInt8[np.ndarray, "h w *channels"]:
+    """Return a picture of those that scikit-image has in its wheel, as `read_image` does."""
+    with opened_image(shipped(name), name) as image:
+        return _plain(image)
+
+
+def _plain(image: "Image.Image") -> np.ndarray:
+    return np.array(image.convert("L" if image.mode in ("1", "L", "LA") else "RGB"))
 
 
 def shipped(name: str) -> Path:
@@ -139,17 +167,22 @@ def opened_image(source: Path | io.BytesIO, name: str) -> "Iterator[Image.Image]
 
     try:
         with Image.open(source, formats=IMAGES) as image:
-            if image.width * image.height > MOST_PIXELS:
-                raise InputError(f"{name}: {image.width} x {image.height} pixels; at most {MOST_PIXELS:,} are read")
+            most = allowance().pixels
+            if image.width * image.height > most:
+                size = f"{image.width} x {image.height} pixels"
+                raise InputError(f"{name}: {size}; at most {most:,} are read{allowance().more}")
             if image.mode in ("I", "F", "I;16", "I;16B"):
                 raise InputError(f"{name}: more than 8 bits a pixel; save it with 8 bits")
             yield image
     except InputError:
         raise
+    except Image.DecompressionBombError:
+        raise InputError(f"{name}: far too many pixels; at most {allowance().pixels:,} are read") from None
     except Exception as error:  # Pillow's decoders raise many kinds
         raise InputError(f"{name}: not readable as an image ({type(error).__name__})") from None
 
 
+@apart
 def read_pose(path: Path, target: Path | None = None, source: Path | None = None) -> Float[np.ndarray, "4 4"]:
     """Return the T_target_source that a file gives.
 
@@ -173,7 +206,9 @@ def read_pose(path: Path, target: Path | None = None, source: Path | None = None
         if T.dtype.kind not in "fiu":
             raise InputError(f"{path.name}: not a pose; 4 x 4 numbers are wanted")
     else:
-        text = content.decode("utf-8", "replace")
+        if len(content) > MOST_OF_POSES:
+            raise InputError(f"{path.name}: {len(content) / 1e6:,.0f} MB; a pose, or a list of them, has fewer")
+        text = text_of(content, path.name)
         poses = _listed_poses(text)
         if poses:
             return inverse(_pose_of(target, poses, path)) @ _pose_of(source, poses, path)
@@ -219,6 +254,13 @@ def _checked_pose(T: np.ndarray, name: str) -> np.ndarray:
 
 @functools.lru_cache(maxsize=8)
 def _cloud(path: Path, _modified: int, _size: int) -> np.ndarray:
+    p = _points(path)
+    p.setflags(write=False)
+    return p
+
+
+@apart
+def _points(path: Path) -> np.ndarray:
     content, kind = _content(path)
     if not content.strip():
         raise InputError(f"{path.name}: the file is empty")
@@ -238,16 +280,21 @@ def _cloud(path: Path, _modified: int, _size: int) -> np.ndarray:
     else:
         kinds = ", ".join(["ply", "pcd", "obj", "npy", "npz", *(ending[1:] for ending in _TEXT)])
         raise InputError(f"{path.name}: {kind or 'no ending'}; point clouds are read from {kinds}")
-    if len(p) > MOST_POINTS:
-        raise InputError(f"{path.name}: {len(p):,} points; at most {MOST_POINTS:,} are read, thin the cloud first")
-    bad = ~np.isfinite(p).all(axis=1)
-    if bad.any():
-        raise InputError(
-            f"{path.name}: {int(bad.sum()):,} of {len(p):,} points are NaN or infinite, the first is number"
-            f" {int(np.argmax(bad)) + 1:,}; leave such points out"
-        )
-    p.setflags(write=False)
-    return p
+    not_too_many(len(p), path.name)
+    return finite(p, path.name)
+
+
+def finite(
+    p: Float[np.ndarray, "n d"], name: str, one: str = "point", many: str = "points"
+) -> Float[np.ndarray, "m d"]:
+    """Return the rows without NaN and infinity; how many are left out is told with the first step of the run."""
+    good = np.isfinite(p).all(axis=1)
+    if len(p) and not good.any():
+        raise InputError(f"{name}: all {len(p):,} {many} are NaN or infinite")
+    if not good.all():
+        bad = int((~good).sum())
+        note(f"{name}: {bad:,} of {len(p):,} {one if len(p) == 1 else many} left out: NaN or infinite.")
+    return p[good]
 
 
 def _array_points(content: bytes, name: str) -> np.ndarray:
@@ -272,37 +319,41 @@ def _content(path: Path) -> tuple[bytes, str]:
         if kind != ".gz":
             return path.read_bytes(), kind
         with gzip.open(path) as stream:
-            content = stream.read(MOST_BYTES + 1)
+            content = stream.read(allowance().unpacked + 1)
     except (OSError, EOFError, zlib.error) as error:
-        raise InputError(f"{path}: not readable ({error.__class__.__name__})") from None
-    if len(content) > MOST_BYTES:
-        raise InputError(f"{path.name}: over {MOST_BYTES // 10**6} MB unpacked; that is too large")
+        raise InputError(f"{path.name}: not readable ({error.__class__.__name__})") from None
+    not_too_large(len(content), path.name)
     return content, Path(path.stem).suffix.lower()
 
 
-def text_rows(path: Path, what: str, kinds: tuple[str, ...], comments: str = "#") -> list[tuple[int, str]]:
+def text_rows(path: Path, what: str, kinds: tuple[str, ...] | None, comments: str = "#") -> list[tuple[int, str]]:
     """Return the lines of a text file with their numbers from 1, without empty ones and comments.
 
     Args:
         path: The file.
         what: What is read from it, for a refusal.
-        kinds: The endings that its name may have, in lower case.
+        kinds: The endings that its name may have, in lower case; None takes any.
         comments: A line that begins with one of these signs is a comment.
 
     Raises:
-        InputError: If it is no file, too large, of another kind, or no UTF-8.
+        InputError: If it is no file, too large, of another kind, or no text.
     """
     stamp(path)
-    if path.suffix.lower() not in kinds:
+    if kinds is not None and path.suffix.lower() not in kinds:
         raise InputError(f"{path.name}: {what} are read from text files ({', '.join(kinds)})")
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise InputError(f"{path.name}: not UTF-8 text") from None
+        text = text_of(path.read_bytes(), path.name)
+    except OSError as error:
+        raise InputError(f"{path.name}: not readable ({type(error).__name__})") from None
+    most = allowance().lines
+    if text.count("\n") > most:
+        said = f"{text.count(chr(10)):,} lines; {what} are read from at most {most:,}"
+        raise InputError(f"{path.name}: {said}{allowance().more}")
+    lines = text.splitlines()
     return [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] not in comments]
 
 
-def word_rows(path: Path, what: str, kinds: tuple[str, ...]) -> list[tuple[int, list[str]]]:
+def word_rows(path: Path, what: str, kinds: tuple[str, ...] | None) -> list[tuple[int, list[str]]]:
     """Return the words of each line of a text file with its number, as `text_rows` does; none without a word.
 
     Args:
@@ -334,8 +385,9 @@ def stamp(path: Path) -> tuple[int, int]:
         raise InputError(f"{path}: no such file") from None
     if not path.is_file():
         raise InputError(f"{path}: a folder, not a file")
-    if stat.st_size > MOST_BYTES:
-        raise InputError(f"{path.name}: {stat.st_size / 1e6:,.0f} MB; at most {MOST_BYTES // 10**6} MB are read")
+    most = allowance().unpacked
+    if stat.st_size > most:
+        raise InputError(f"{path.name}: {stat.st_size / 1e6:,.0f} MB; at most {most // 10**6} MB are read")
     return stat.st_mtime_ns, stat.st_size
 
 

@@ -7,8 +7,9 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
-from workbench.data.files import number_rows, read_cloud, stamp, word_rows
-from workbench.data.formats import is_number
+from workbench.apart import apart
+from workbench.data.files import finite, number_rows, read_cloud, stamp
+from workbench.data.formats import is_number, text_of, words_of
 from workbench.data.framing import box
 from workbench.data.thinning import evenly
 from workbench.errors import InputError
@@ -16,6 +17,7 @@ from workbench.geometry.algebraic_fits import fit_algebraic
 
 WIDTH = 2.0  # metres that points are long in the picture, where nothing round says how large they are
 LARGEST = 3.0  # times as large as the points a circle may be that they are shown by
+LOOK = 100_000  # signs at the beginning of a file that tell how many columns it has
 _TEXT = (".xyz", ".txt", ".csv", ".tsv", ".dat")
 
 
@@ -72,15 +74,25 @@ def read_round(
 
 @functools.lru_cache(maxsize=4)
 def _read(path: Path, fewest: int, _stamp: tuple[int, int]) -> np.ndarray:
-    if path.suffix.lower() not in _TEXT:
+    p = _flat(path, fewest) if path.suffix.lower() in _TEXT else None
+    if p is None:
         return read_cloud(path, fewest)
-    if max((len(words) for _, words in word_rows(path, "points", _TEXT)), default=0) != 2:
-        return read_cloud(path, fewest)
+    p.setflags(write=False)
+    return p
+
+
+@apart
+def _flat(path: Path, fewest: int) -> np.ndarray | None:
+    """Return the places in a text file of two columns, None where it has others."""
+    stamp(path)
+    text = text_of(path.read_bytes(), path.name)
+    begin = text[: text.rfind("\n", 0, LOOK) + 1] if len(text) > LOOK else text
+    if max((len(words_of(line)) for line in begin.splitlines() if line.lstrip()[:1] != "#"), default=0) != 2:
+        return None
     rows = [words for _, words in number_rows(path, "points", _TEXT)]
     if not all(len(row) == 2 and all(is_number(word) for word in row) for row in rows):
         raise InputError(f"{path.name}: two numbers x y are wanted on each line")
-    p = np.array(rows, float).reshape(-1, 2)
-    if len(p) < fewest or not np.isfinite(p).all():
+    p = finite(np.array(rows, float).reshape(-1, 2), path.name)
+    if len(p) < fewest:
         raise InputError(f"{path.name}: at least {fewest} lines of two finite numbers x y are wanted")
-    p.setflags(write=False)
     return p

@@ -4,14 +4,16 @@ Every function takes the whole file as bytes and its name for messages, and rais
 """
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
+from workbench.apart import allowance
 from workbench.errors import InputError
 
-MOST_UNPACKED = 500 * 10**6
+BLOCK = 10**6  # signs of a text that are split into lines at a time
 
 _PLY_TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
@@ -46,12 +48,11 @@ def ply_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
         raise mesh_error(name, vertices.count, faces)
     if vertices is not elements[0] or vertices.has_lists:
         raise InputError(f"{name}: the vertices of this ply file are not its first element, or hold lists; not read")
+    not_too_many(vertices.count, name)
     body = content[end.end() :]
     if kind == "ascii":
         columns = [field for field, _ in vertices.fields]
-        rows = body.decode("ascii", "replace").splitlines()[: vertices.count]
-        _need_all(len(rows), vertices.count, name)
-        return _numbers(rows, None, [columns.index(axis) for axis in "xyz"], name)
+        return _first_rows(body, vertices.count, [columns.index(axis) for axis in "xyz"], name)
     order = "<" if kind == "binary_little_endian" else ">"
     table = _table(body, [(f, order + t) for f, t in vertices.fields], vertices.count, name)
     return np.column_stack([table[axis] for axis in "xyz"]).astype(float)
@@ -77,9 +78,7 @@ def _ply_header(header: str, name: str) -> tuple[str, list[_PlyElement]]:
 
 
 def pcd_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
-    """Return the points of a pcd file (ascii, binary or binary_compressed).
-
-    Rows with NaN are left out: in this format they say that the scanner saw nothing there.
+    """Return the points of a pcd file (ascii, binary or binary_compressed); what the scanner did not see is NaN.
 
     Raises:
         InputError: If it is no pcd file, is cut short, or has no x, y, z.
@@ -101,20 +100,17 @@ def pcd_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
         raise InputError(f"{name}: the pcd header is incomplete") from None
     if not {"x", "y", "z"} <= set(fields):
         raise InputError(f"{name}: the pcd file has no fields x, y and z, but {' '.join(fields)}")
-    body, kind = content[header_end.end() :], header_end[1].decode()
+    not_too_many(n, name)
+    body, kind = content[header_end.end() :], header_end[1].decode("ascii", "replace")
     if kind == "ascii":
         starts = dict(zip(fields, np.cumsum([0, *counts[:-1]]), strict=True))
-        rows = body.decode("ascii", "replace").splitlines()[:n]
-        _need_all(len(rows), n, name)
-        p = _numbers(rows, None, [int(starts[axis]) for axis in "xyz"], name)
-    elif kind == "binary":
+        return _first_rows(body, n, [int(starts[axis]) for axis in "xyz"], name)
+    if kind == "binary":
         table = _table(body, [(f"{f}{i}", t, (c,)) for i, (f, t, c) in enumerate(columns)], n, name)
-        p = np.column_stack([table[f"{axis}{fields.index(axis)}"][:, 0] for axis in "xyz"]).astype(float)
-    elif kind == "binary_compressed":
-        p = _compressed_columns(body, columns, n, name)
-    else:
-        raise InputError(f"{name}: pcd data {kind!r}; ascii, binary and binary_compressed are read")
-    return p[np.isfinite(p).all(axis=1)]
+        return np.column_stack([table[f"{axis}{fields.index(axis)}"][:, 0] for axis in "xyz"]).astype(float)
+    if kind == "binary_compressed":
+        return _compressed_columns(body, columns, n, name)
+    raise InputError(f"{name}: pcd data {kind!r}; ascii, binary and binary_compressed are read")
 
 
 def _compressed_columns(body: bytes, columns: list[tuple[str, str, int]], n: int, name: str) -> np.ndarray:
@@ -122,8 +118,7 @@ def _compressed_columns(body: bytes, columns: list[tuple[str, str, int]], n: int
     if len(body) < 8:
         raise InputError(f"{name}: the file is cut short")
     packed, unpacked = (int(size) for size in np.frombuffer(body, "<u4", 2))
-    if unpacked > MOST_UNPACKED:
-        raise InputError(f"{name}: over {MOST_UNPACKED // 10**6} MB unpacked; that is too large")
+    not_too_large(unpacked, name)
     if unpacked != n * sum(np.dtype(t).itemsize * c for _, t, c in columns):
         raise InputError(f"{name}: the compressed size does not fit {n:,} points")
     plain, start, found = _unpack_lzf(body[8 : 8 + packed], unpacked, name), 0, {}
@@ -170,12 +165,16 @@ def obj_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     Raises:
         InputError: If it holds a mesh, or a vertex line is not three numbers.
     """
-    lines = content.decode("utf-8", "replace").splitlines()
-    rows = [line for line in lines if line.startswith(("v ", "v\t"))]
-    faces = sum(line.startswith(("f ", "f\t")) for line in lines)
+    found, faces = [np.empty((0, 3))], 0
+    for lines in _blocks(text_of(content, name)):
+        rows = [line[2:] for line in lines if line.startswith(("v ", "v\t"))]
+        faces += sum(line.startswith(("f ", "f\t")) for line in lines)
+        if rows:
+            found.append(_numbers(rows, None, [0, 1, 2], name))
+            not_too_many(sum(map(len, found)), name)
     if faces:
-        raise mesh_error(name, len(rows), faces)
-    return _numbers([row[2:] for row in rows], None, [0, 1, 2], name) if rows else np.empty((0, 3))
+        raise mesh_error(name, sum(map(len, found)), faces)
+    return np.concatenate(found)
 
 
 def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
@@ -188,31 +187,87 @@ def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     Raises:
         InputError: If the file is no text, or its columns are not understood; names the line.
     """
-    try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise InputError(f"{name}: not a text file; a table of x, y, z is wanted") from None
-    if "\0" in text:
-        raise InputError(f"{name}: not a text file; a table of x, y, z is wanted")
-    rows = [row for row in text.splitlines() if row.strip() and not row.lstrip().startswith(("#", "//"))]
-    if rows and rows[0].strip().isdigit():
-        rows = rows[1:]
-    if not rows:
-        return np.empty((0, 3))
-    if ";" in rows[0]:
-        separator, rows = ";", [row.replace(",", ".") for row in rows]
-    else:
-        separator = "," if "," in rows[0] else None
-    first = [word.strip().strip("\"'") for word in rows[0].split(separator)]
-    columns = [0, 1, 2]
+    text = text_of(content, name)
+    not_too_many(text.count("\n"), name, "lines")
+    found, separator, columns = [np.empty((0, 3))], "", None
+    for lines in _blocks(text):
+        rows = [row for row in lines if row.strip() and not row.lstrip().startswith(("#", "//"))]
+        if rows and columns is None and rows[0].strip().isdigit():
+            rows = rows[1:]
+        if rows and columns is None:
+            separator = ";" if ";" in rows[0] else "," if "," in rows[0] else None
+            columns, titles = _columns(rows[0], separator, name)
+            rows = rows[titles:]
+        if rows and columns is not None:
+            plain = [row.replace(",", ".") for row in rows] if separator == ";" else rows
+            found.append(_numbers(plain, separator, columns, name))
+    return np.concatenate(found)
+
+
+def _columns(row: str, separator: str | None, name: str) -> tuple[list[int], int]:
+    """Return which columns are x, y and z by the first row of a table, and how many rows of titles there are, 0 or 1."""
+    if separator == ";":
+        row = row.replace(",", ".")
+    first = [word.strip().strip("\"'") for word in row.split(separator)]
     if not is_number(first[0]) or not all(is_number(word) for word in first[:3]):
         letters = [re.split(r"[^a-z]", word.lower())[0] for word in first]
         if not all(axis in letters for axis in "xyz"):
-            raise InputError(f"{name}: no columns x, y, z in its first line: {rows[0].strip()[:60]!r}")
-        columns, rows = [letters.index(axis) for axis in "xyz"], rows[1:]
-    elif len(first) < 3:
+            raise InputError(f"{name}: no columns x, y, z in its first line: {row.strip()[:60]!r}")
+        return [letters.index(axis) for axis in "xyz"], 1
+    if len(first) < 3:
         raise InputError(f"{name}: {len(first)} column{'s'[: len(first) > 1]} where x, y and z are wanted")
-    return _numbers(rows, separator, columns, name) if rows else np.empty((0, 3))
+    return [0, 1, 2], 0
+
+
+def text_of(content: bytes, name: str) -> str:
+    """Return a file as text, lines ending as here: UTF-8, or UTF-16 that begins with its mark (spreadsheets write it).
+
+    Raises:
+        InputError: If it is neither.
+    """
+    try:
+        text = content.decode("utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+    except UnicodeDecodeError:
+        text = "\0"
+    if "\0" in text:
+        raise InputError(f"{name}: not a text file (UTF-8 or UTF-16)")
+    return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+
+
+def _blocks(text: str) -> Iterator[list[str]]:
+    """Yield the lines of a text, some at a time: a list of all of them takes many times the memory of the text."""
+    start = 0
+    while start < len(text):
+        end = text.find("\n", start + BLOCK) + 1 or len(text)
+        yield text[start:end].splitlines()
+        start = end
+
+
+def _first_rows(body: bytes, n: int, columns: list[int], name: str) -> np.ndarray:
+    """Read columns of the first n lines of a body of text."""
+    found, missing = [np.empty((0, 3))], n
+    for lines in _blocks(body.decode("ascii", "replace")):
+        rows = lines[:missing]
+        if not rows:
+            break
+        found.append(_numbers(rows, None, columns, name))
+        missing -= len(rows)
+    _need_all(n - missing, n, name)
+    return np.concatenate(found)
+
+
+def not_too_many(n: int, name: str, what: str = "points") -> None:
+    """Raise InputError where there are more points, or lines with a point each, than may be read."""
+    most = allowance().points
+    if n > most:
+        raise InputError(f"{name}: {n:,} {what}; at most {most:,} are read{allowance().more}; thin the cloud")
+
+
+def not_too_large(size: int, name: str) -> None:
+    """Raise InputError where a file unpacks to more bytes than it may."""
+    most = allowance().unpacked
+    if size > most:
+        raise InputError(f"{name}: over {most // 10**6} MB unpacked; that is too large{allowance().more}")
 
 
 def mesh_error(name: str, vertices: int, faces: int) -> InputError:

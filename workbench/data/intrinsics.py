@@ -5,12 +5,14 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from workbench.apart import apart
 from workbench.data.files import word_rows
 from workbench.errors import InputError
 
 _KINDS = (".txt", ".csv", ".dat", "")
 
 
+@apart
 def read_intrinsics(path: Path) -> Float[np.ndarray, "3 3"]:
     """Return K from a text file: four numbers fx fy cx cy, or three rows of three.
 

@@ -1,18 +1,19 @@
 """Matches between two images that people bring, read or refused in one clear line."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
+from workbench.apart import apart
 from workbench.data.arrays import read_arrays
-from workbench.data.formats import is_number, words_of
+from workbench.data.files import finite, stamp, word_rows
+from workbench.data.formats import is_number
 from workbench.data.intrinsics import checked_intrinsics
 from workbench.errors import InputError
 from workbench.geometry.motions import motion
 
-MOST_BYTES = 100 * 10**6
 _FIRST, _SECOND = ("x1", "uv1", "p1", "first"), ("x2", "uv2", "p2", "second")
 _BOTH, _QUALITY = ("matches", "p"), ("quality", "score", "scores")
 
@@ -40,25 +41,23 @@ class Matches:
     T_second_first: Float[np.ndarray, "4 4"] | None = None
 
 
+@apart
 def read_matches(path: Path, fewest: int = 4) -> Matches:
     """Return the matches of a file.
 
     Formats: npz with arrays x1 and x2 (n, 2), or matches (n, 4), and optionally quality (n,), H, F, K or K1 and K2 (3, 3),
     R (or R_rel) and t (or t_rel) from the first camera to the second; or text with four numbers a line, u v u' v', separated
-    by commas or white space, and optionally a quality as the fifth.
+    by commas or white space, and optionally a quality as the fifth. Rows with NaN or infinity are left out, and counted.
 
     Raises:
-        InputError: If the file is missing, too large, not understood, holds NaN, or has fewer than `fewest` matches.
+        InputError: If the file is missing, too large, not understood, or has fewer than `fewest` matches.
     """
     path = Path(path)
-    if not path.is_file():
-        raise InputError(f"{path}: {'a folder, not a file' if path.is_dir() else 'no such file'}")
-    if path.stat().st_size > MOST_BYTES:
-        raise InputError(f"{path.name}: over {MOST_BYTES // 10**6} MB; that is too large for matches")
+    stamp(path)
     found = _from_arrays(path) if path.suffix.lower() == ".npz" else _from_text(path)
-    bad = ~np.isfinite(found.p).all(axis=1)
-    if bad.any():
-        raise InputError(f"{path.name}: match {int(np.argmax(bad)) + 1} is NaN or infinite; leave such rows out")
+    good = np.isfinite(found.p).all(axis=1)
+    p = finite(found.p, path.name, "match", "matches")
+    found = replace(found, p=p, quality=None if found.quality is None else found.quality[good])
     if len(found.p) < fewest:
         raise InputError(f"{path.name}: {len(found.p)} matches; at least {fewest} are needed")
     return found
@@ -97,8 +96,7 @@ def _from_arrays(path: Path) -> Matches:
 
 
 def _from_text(path: Path) -> Matches:
-    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-    kept = [words for line in lines if line.strip()[:1] != "#" and (words := words_of(line))]
+    kept = [words for _, words in word_rows(path, "matches", None)]
     if kept and not is_number(kept[0][0]):
         kept = kept[1:]  # a line of names
     widths = {len(words) for words in kept}

@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import UInt8
 
-from workbench.data.files import MOST_BYTES, opened_image, stamp
+from workbench.apart import apart
+from workbench.data.files import opened_image, stamp
+from workbench.data.formats import not_too_large
 from workbench.errors import InputError
 
 if TYPE_CHECKING:
@@ -52,6 +54,7 @@ class Pictures:
         return None if name is None else _decoded(self.path, name, stamp_of(self.path, name), most)
 
 
+@apart
 def grey_picture(path: Path, name: str) -> UInt8[np.ndarray, "h w"]:
     """Return a picture of a folder or zip by its name, in all its pixels, grey.
 
@@ -75,6 +78,7 @@ def holds_many(path: Path) -> bool:
     return path.is_dir() or path.suffix.lower() == ".zip"
 
 
+@apart
 def names_in(path: Path) -> tuple[str, ...]:
     """Return the names of the pictures in a folder or a zip, left2 before left10.
 
@@ -102,6 +106,7 @@ def names_in(path: Path) -> tuple[str, ...]:
     return tuple(sorted(found, key=_counted))
 
 
+@apart
 def pictures_of(path: Path, names: tuple[str | None, ...]) -> Pictures:
     """Return pictures by their names, of every view one or None, once all are seen to be pictures of one size.
 
@@ -171,10 +176,7 @@ def _source(path: Path, name: str) -> Path | io.BytesIO:
         return path / name
     with _opened_zip(path) as packed:
         try:
-            if packed.getinfo(name).file_size > MOST_BYTES:
-                raise InputError(
-                    f"{path.name or path}: {name} is over {MOST_BYTES // 10**6} MB unpacked; that is too large"
-                )
+            not_too_large(packed.getinfo(name).file_size, f"{path.name or path}: {name}")
             return io.BytesIO(packed.read(name))
         except InputError:
             raise
@@ -198,6 +200,7 @@ def _decoded(path: Path, name: str, _stamp: tuple[int, int], most: int) -> np.nd
     return _upright(path, name, most)
 
 
+@apart
 def _upright(path: Path, name: str, most: int | None = None, kind: str | None = None) -> np.ndarray:
     from PIL import ImageOps
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from workbench.apart import apart
 from workbench.data.files import text_rows
 from workbench.data.formats import is_number
 from workbench.errors import InputError
@@ -42,6 +43,7 @@ def between_cities(route: str) -> Places:
     return Places(names, np.array([CITIES[name] for name in names]))
 
 
+@apart
 def read_places(path: Path) -> Places:
     """Return the places of a text file: per line latitude, longitude and maybe a name, between commas, semicolons or tabs.
 

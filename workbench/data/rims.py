@@ -7,7 +7,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float, UInt8
 
-from workbench.data.files import read_image, shipped
+from workbench.data.files import shipped_image
 from workbench.errors import InputError
 from workbench.geometry.algebraic_fits import fit_algebraic
 
@@ -64,7 +64,7 @@ def find_rim(photograph: UInt8[np.ndarray, "h w *channels"], pixel: tuple[int, i
 @functools.cache
 def coins() -> UInt8[np.ndarray, "h w"]:
     """Return the coins of Pompeii that scikit-image ships."""
-    return read_image(shipped("coins.png"))
+    return shipped_image("coins.png")
 
 
 def rim_points(

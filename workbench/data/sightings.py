@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from workbench.data.files import number_rows
+from workbench.apart import apart
+from workbench.data.files import finite, number_rows
 from workbench.data.formats import is_number
 from workbench.errors import InputError
 from workbench.geometry.cameras import project
@@ -71,6 +72,7 @@ def random_views(
     return R_camera_world, p_camera @ R_camera_world, p_camera[..., :2] / z
 
 
+@apart
 def read_sightings(path: Path) -> Sightings:
     """Return the rows X Y Z u v of a text file (txt, csv): world points in metres and their pixels.
 
@@ -82,9 +84,7 @@ def read_sightings(path: Path) -> Sightings:
         if len(words) != 5 or not all(is_number(word) for word in words):
             raise InputError(f"{path.name}, line {i}: five numbers are wanted, X Y Z u v")
         rows.append([float(word) for word in words])
-    if not 4 <= len(rows) <= MOST:
-        raise InputError(f"{path.name}: {len(rows)} points; 4 to {MOST} are read")
-    table = np.array(rows)
-    if not np.isfinite(table).all():
-        raise InputError(f"{path.name}: some numbers are not finite")
+    table = finite(np.array(rows).reshape(-1, 5), path.name)
+    if not 4 <= len(table) <= MOST:
+        raise InputError(f"{path.name}: {len(table)} points; 4 to {MOST} are read")
     return Sightings(table[:, :3], table[:, 3:], np.zeros(len(table), bool))

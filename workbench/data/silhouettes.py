@@ -8,7 +8,7 @@ import functools
 import numpy as np
 from jaxtyping import Float
 
-from workbench.data.files import read_image, shipped
+from workbench.data.files import shipped_image
 
 
 @functools.lru_cache(maxsize=4)
@@ -21,7 +21,7 @@ def horse(count: int, reach: float) -> Float[np.ndarray, "n 2"]:
     """
     from skimage.measure import find_contours
 
-    inside = read_image(shipped("horse.png"))[..., 0] < 128
+    inside = shipped_image("horse.png")[..., 0] < 128
     outline = max(find_contours(inside.astype(float), 0.5), key=len)[:, ::-1] * [1.0, -1.0]
     along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(outline, axis=0), axis=1))]
     at = np.linspace(0.0, along[-1], count, endpoint=False)

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
 from workbench.data.arrays import read_arrays
-from workbench.data.files import read_image, shipped
+from workbench.data.files import read_image, shipped, shipped_image
 from workbench.data.stereo_scenes import SCENES, look, rays
 from workbench.errors import InputError
 from workbench.geometry.stereo import StereoCamera
@@ -82,7 +82,7 @@ def motorcycle_pair() -> StereoPair:
 
     Reference: Scharstein et al., High-resolution stereo datasets with subpixel-accurate ground truth, GCPR 2014.
     """
-    left, right = (read_image(shipped(f"motorcycle_{side}.png")) for side in ("left", "right"))
+    left, right = (shipped_image(f"motorcycle_{side}.png") for side in ("left", "right"))
     disparity = read_arrays(shipped("motorcycle_disp.npz").read_bytes(), "motorcycle_disp.npz")["arr_0"]
     camera = StereoCamera(f=994.978, cx=311.193, cy=254.877, baseline=0.193001, doffs=31.086)
     d = np.where(np.isfinite(disparity), disparity, np.nan).astype(float)

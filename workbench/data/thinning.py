@@ -7,6 +7,8 @@ import numpy as np
 import scipy
 from jaxtyping import Float
 
+from workbench.geometry.meshes import distinct_rows
+
 
 def voxel_means(p: Float[np.ndarray, "n 3"], size: float) -> Float[np.ndarray, "m 3"]:
     """Return the mean of the points in each occupied cube of a grid, in the order of the cubes.
@@ -52,7 +54,7 @@ def spacing(p: Float[np.ndarray, "n 3"]) -> float:
 
     It is 1e-9 where all points are at one place, so that it can divide.
     """
-    places = np.unique(p, axis=0)
+    places = p[distinct_rows(p)[0]]
     some = places[:: max(1, len(places) // 400)]
     distances = np.asarray(scipy.spatial.KDTree(places).query(some, k=min(2, len(places)))[0])
     return float(np.median(distances.reshape(len(some), -1)[:, -1])) or 1e-9

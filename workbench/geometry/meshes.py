@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float, Int, Shaped
 
 from workbench.errors import InputError
 from workbench.geometry.graphs import graph_of
@@ -193,13 +193,30 @@ def euler_characteristic(faces: Faces) -> int:
     return len(np.unique(faces)) - len(edges(faces)) + len(faces)
 
 
+def distinct_rows(rows: Shaped[np.ndarray, "n d"]) -> tuple[Int[np.ndarray, " u"], Int[np.ndarray, " n"]]:
+    """Return where each distinct row is found first, in the order of the rows, and of each row which of these it is.
+
+    It is what `np.unique` finds along rows, whose sorting lets no other thread run: a second for a million points.
+
+    >>> distinct_rows(np.array([[2, 0], [1, 5], [2, 0]]))
+    (array([1, 0]), array([1, 0, 1]))
+    """
+    order = np.lexsort(rows.T[::-1])
+    new = np.ones(len(rows), dtype=bool)
+    in_order = rows[order]
+    new[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
+    name = np.empty(len(rows), dtype=np.int64)
+    name[order] = np.cumsum(new) - 1
+    return order[new], name
+
+
 def welded(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
     """Return the mesh with one vertex per place, without faces that lose a corner by it and without unused vertices.
 
     Files often list a vertex once per face or texture; across such seams a mesh would seem to have borders.
     """
-    at, name = np.unique(p, axis=0, return_inverse=True)
-    faces = name.reshape(-1)[faces]
+    first, name = distinct_rows(p)
+    at, faces = p[first], name[faces]
     a, b, c = faces.T
     faces = faces[(a != b) & (b != c) & (c != a)]
     used = np.zeros(len(at), dtype=bool)

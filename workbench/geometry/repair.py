@@ -7,7 +7,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int
 
-from workbench.geometry.meshes import corner_fans, edge_keys, half_edges
+from workbench.geometry.meshes import corner_fans, distinct_rows, edge_keys, half_edges
 
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
@@ -17,7 +17,7 @@ def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
     """Return the faces without those that name the same three vertices in the same sense once more."""
     first = np.argmin(faces, axis=1)[:, None]
     started_alike = np.take_along_axis(faces, (first + np.arange(3)) % 3, axis=1)
-    _, kept = np.unique(started_alike, axis=0, return_index=True)
+    kept, _ = distinct_rows(started_alike)
     return faces[np.sort(kept)]
 
 

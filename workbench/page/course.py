@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from html import escape
 
-from workbench.page.document import document_head
+from workbench.page.document import THIRD_PARTIES, document_head
 from workbench.page.map import course_map
 
 WELCOME = (
@@ -40,7 +40,8 @@ def course_document(cards: Iterable[Card], *, root: str, trouble: str | None = N
     return (
         f"{document_head('Geometry workbench', WELCOME, root, head)}"
         '<body class="course"><a class="skip" href="#course">To the lessons</a><main id="course">'
-        f'<h1>Geometry workbench</h1><p>{WELCOME}</p>{said}<ol class="cards">{shown}</ol>{_map(cards)}</main>'
+        f'<h1>Geometry workbench</h1><p>{WELCOME}</p>{said}<ol class="cards">{shown}</ol>{_map(cards)}'
+        f'<p><a href="{root}{THIRD_PARTIES}">Work of others in these pages, and its licences</a></p></main>'
         f'<script src="{root}tools.js"></script><script src="{root}progress.js"></script></body></html>\n'
     )
 

@@ -13,6 +13,8 @@ from workbench.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
 MATH = "math.css"
+THIRD_PARTIES = "third-parties.txt"
+"""Whose work is in our pages, and its licences."""
 STYLES = ("page.css", "ending.css", "course.css")
 SCRIPTS = (
     "tools.js", "curves.js", "stage.js", "transport.js", "beside.js", "article.js", "knobs.js", "exercise.js",
@@ -69,10 +71,19 @@ def lesson_document(
         f'<body{" class=alone" if alone else ""} data-home="{home}" data-lesson="{escape(lesson.name)}">'
         f'<a class="skip" href="#stage">To the stage</a><main>{text}'
         f'<div id="side">{_stage(still)}</div></main>'
-        f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"
+        + _third_parties(root)
+        + f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"
         + "".join(_script(root, name) for name in scripts)
         + "</body></html>\n"
     )
+
+
+def _third_parties(root: str | None) -> str:
+    """Return the licences of what is in a document that stands alone; another has them in a file beside it."""
+    if root is not None:
+        return ""
+    text = (STATIC / THIRD_PARTIES).read_text(encoding="utf-8")
+    return f'<script type="text/plain" id="third-parties">{text}</script>'
 
 
 def _script(root: str | None, name: str) -> str:

@@ -10,7 +10,7 @@ import viser
 import workbench
 from workbench.errors import InputError
 from workbench.lesson import Lesson
-from workbench.page.document import MATH, RECORDED, SCRIPTS, STATIC, STYLES, bare
+from workbench.page.document import MATH, RECORDED, SCRIPTS, STATIC, STYLES, THIRD_PARTIES, bare
 from workbench.page.thumbnail import thumbnail
 from workbench.progress import Progress
 from workbench.publish.ledger import NAME, Ledger, Listed
@@ -97,6 +97,7 @@ def _publish(
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]
     shared = {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *RECORDED, *SCRIPTS)}
     shared |= {f"{PAGE}/{MATH}": math_font_css().encode(), ".nojekyll": b""}
+    shared |= {f"{PAGE}/{THIRD_PARTIES}": (STATIC / THIRD_PARTIES).read_bytes()}
     wanted = {COURSE_PAGE, LESSONS, VISER_PAGE, *shared}
     wanted |= {f"{name}/{file}" for name in names for file in (COURSE_PAGE, PICTURE)}
     wanted |= {name for lesson, run in work for name in files_of(lesson, run)}

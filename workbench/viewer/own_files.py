@@ -8,6 +8,7 @@ from pathlib import Path
 
 from starlette.concurrency import run_in_threadpool
 
+from workbench.apart import forgotten, handed_to_a_page
 from workbench.errors import InputError
 
 MOST_BYTES = 32 * 2**20
@@ -35,6 +36,7 @@ class OwnFiles:
         """
         if self._folder is None:
             self._folder = Path(tempfile.mkdtemp(prefix="workbench-"))
+            handed_to_a_page(self._folder)
         self._number += 1
         ending = _ENDING.search(name)
         place = self._folder / str(self._number)  # a path of its own: equal params mean an equal run
@@ -63,4 +65,5 @@ class OwnFiles:
         """Remove them all."""
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
+            forgotten(self._folder)
         self._folder = None

@@ -11,6 +11,7 @@ import traceback
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 
+from workbench.apart import tell_when_waiting
 from workbench.timeline import Timeline
 
 SLICE = 0.02
@@ -62,6 +63,7 @@ class Scheduler:
         self._resting = 0  # threads that compute what nobody waits for
         self._threads, self._stuck, self._open = threads, 0, True
         self._began: dict[threading.Thread, float] = {}
+        tell_when_waiting(self)
         for _ in range(threads):
             self._start_thread()
 
@@ -203,6 +205,15 @@ class Scheduler:
                 self._stuck -= 1
                 return True
             return False
+
+    def stands_still(self) -> None:
+        """Let another thread compute in the place of this one, which is about to wait for something else."""
+        here = threading.current_thread()
+        with self._changed:
+            if self._began.get(here, -STUCK) > 0 and self._stuck < MOST_STUCK:
+                self._began[here] = -STUCK  # counts as one that is held up, and ends when it is done
+                self._stuck += 1
+                self._start_thread()
 
     def relieve(self) -> None:
         """Start a thread for each that a single step holds up, a few at most; to be called now and then."""

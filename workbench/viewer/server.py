@@ -30,7 +30,7 @@ from workbench.errors import InputError
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson, catalog
 from workbench.page.code import source_html
-from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES
+from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES, THIRD_PARTIES
 from workbench.page.thumbnail import thumbnail
 from workbench.typeset import math_font_css
 from workbench.viewer.addresses import Doors, listening
@@ -45,7 +45,7 @@ from workbench.viewer.share import Share
 from workbench.viewer.student import Student
 from workbench.viewer.transfers import receive, recording
 
-FILES = (*STYLES, *LIVE, *SCRIPTS)
+FILES = (*STYLES, *LIVE, *SCRIPTS, THIRD_PARTIES)
 MOST_PAGES = 400
 """Pages at once; whoever comes later is told so."""
 MOST_A_SECOND = 200

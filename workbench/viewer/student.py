@@ -304,7 +304,10 @@ class Student:
         if session is None or field not in paths_of(session.lesson.params):
             raise InputError("this lesson takes no such file")
         path = await self.files.keep(field, name, parts)
+        view = session.lesson.view_of(session.params)
         session.change(**{field: path})
+        if view != session.lesson.view_of(session.params):  # a stage that shows the file
+            self._scene.aim.open(session.lesson, session.params)
         self._wake.set()
 
     def go_on(self, before: Lesson, after: Lesson, news: Mapping[str, Any] | None) -> None:

@@ -1,0 +1,69 @@
+"""What pyproject.toml asks for is what is imported, no more and no less, and the bounds are what was tried."""
+
+import ast
+import importlib.metadata
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+from packaging.requirements import Requirement
+
+ROOT = Path(__file__).resolve().parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+ASKED = [Requirement(line) for line in PROJECT["dependencies"]]
+CI = (ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8")
+BESIDE = "workbench/exercise/inside"
+"""Files here are run in a student's process, where they import each other by their bare names."""
+
+
+def imported() -> dict[str, Path]:
+    """Return every top-level module that our packages import and do not hold themselves, with a file that does."""
+    found = {}
+    for file in sorted([*ROOT.glob("workbench/**/*.py"), *ROOT.glob("lessons/**/*.py")]):
+        for node in ast.walk(ast.parse(file.read_bytes())):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            if isinstance(node, ast.ImportFrom) and not node.level and node.module:
+                names = [node.module]
+            found |= {name.partition(".")[0]: file for name in names}
+    ours = {"workbench", "lessons", *(path.stem for path in (ROOT / BESIDE).glob("*.py"))}
+    return {name: file for name, file in found.items() if name not in sys.stdlib_module_names and name not in ours}
+
+
+def plain(name: str) -> str:
+    """Return a distribution's name as all spell it."""
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def test_what_is_imported_is_declared_and_what_is_declared_is_used():
+    homes = importlib.metadata.packages_distributions()
+    asked = {plain(one.name) for one in ASKED}
+    needed = {name: {plain(home) for home in homes.get(name, ())} for name in imported()}
+    needed.pop("distributed")  # for `--dask` alone, which says how to install it
+    undeclared = {name: str(imported()[name]) for name, places in needed.items() if not places & asked}
+    assert undeclared == {}
+    by_name = {"ziamath"}  # only its font is read: `importlib.util.find_spec` finds it
+    assert asked - set().union(*needed.values()) - by_name == set()
+
+
+def test_our_lower_bounds_are_none_that_what_we_ask_for_forbids():
+    """msgspec>=0.18 was none: viser asks for 0.18.6."""
+    ours = {plain(one.name): one.specifier for one in ASKED}
+    for asked in ASKED:
+        for line in importlib.metadata.requires(asked.name) or ():
+            theirs = Requirement(line)
+            if plain(theirs.name) not in ours or (theirs.marker and not theirs.marker.evaluate({"extra": ""})):
+                continue
+            lowest = next(one.version for one in ours[plain(theirs.name)] if one.operator == ">=")
+            padded = [lowest, f"{lowest}.0", f"{lowest}.0.0"]
+            assert any(theirs.specifier.contains(version) for version in padded), f"{asked.name} needs {line}"
+
+
+def test_every_python_that_is_named_is_tried_with_newest_and_the_oldest_with_oldest():
+    named = [line.rpartition(" ")[2] for line in PROJECT["classifiers"] if re.search(r"Python :: 3\.\d", line)]
+    oldest = PROJECT["requires-python"].removeprefix(">=")
+    assert named[0] == oldest
+    for python in named:
+        assert f'python: "{python}", versions: newest' in CI
+    assert f'python: "{oldest}", versions: oldest' in CI
+    assert ".ci/wheel" in CI
