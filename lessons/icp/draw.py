@@ -59,7 +59,7 @@ def _from_another_start(state: State) -> dict[str, Primitive]:
     T_world_try = scans.frame.shown_motion(T_target_source)
     p = scans.p_source_shown[every(len(scans.p_source), POINTS)]
     return {
-        "try": Points(p, "highlight", 0.008, T_world_try, name="end from another start"),
+        "try": Points(p, "highlight", 0.008, T_world_try, name=f"end from another start, {len(p)} points"),
         **_arrow("try", scans, T_target_source, "highlight", last.error),
         **_dial(state),
         **_basin(state),

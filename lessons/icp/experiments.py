@@ -8,7 +8,7 @@ import numpy as np
 from lessons.icp.basin import ANGLES
 from lessons.icp.state import Params, State
 from lessons.icp.words import off
-from workbench.lesson import Preset, Question, View
+from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import length, percent
 
 HOME = Params()
@@ -52,8 +52,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "slide", "Two planes slide",
-        "A floor and a wall hold everything but the slide along their common line: the rotation is found, and of the"
-        " 0.3 m of shift at least 0.2 m stay.",
+        "A floor and a wall hold everything but the slide along their common line: the rotation is found to"
+        " 0.1°, and the source ends as far off as it started, 0.31 m.",
         Params(shape="corner", start_angle=10.0, start_shift=0.3, fit="point-to-plane", keep=0.5), 0, WALL, breaks=True,
     ),
     Preset(
@@ -64,20 +64,20 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "overlap-adaptive", "The same with d < 3 medians",
-        "A gate that shrinks with the distances drops such false partners as the rest closes in: less than half of the"
-        " fixed gate's rotation error is left.",
+        "A gate that shrinks with the distances drops such false partners as the rest closes in: a tenth of the"
+        " fixed gate's rotation error is left, 0.06° of 0.63°.",
         Params(start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="3-medians"), 0,
     ),
     Preset(
         "overlap-tight", "The same with a 0.02 m gate",
-        "A tight gate drops them too, but look at the basin: from 60° on, too few good matches pass and no start comes"
+        "A tight gate drops them too, but look at the basin: from 45° on, too few good matches pass and no start comes"
         " home.",
         OVERLAP_TIGHT, -1, breaks=True,
     ),
     Preset(
         "outliers", "Three in ten are outliers",
-        "Squared distances listen most to the farthest points: with every match in use the outliers pull the source over"
-        " 4° astray.",
+        "Squared distances listen most to the farthest points: with every match in use the outliers pull the source 15°"
+        " astray.",
         Params(outliers=0.3, gate="all"), 0, breaks=True,
     ),
     Preset(
@@ -88,18 +88,17 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "rings-chance", "A lidar's rings, thinned by chance",
         "The scanner moved 0.5 m, and its rings moved with it. Most planes are laid through one ring, so rings lock onto"
-        " rings: over 0.4 m stay.",
+        " rings: 0.49 m stay.",
         RINGS, 0, STREET, breaks=True,
     ),
     Preset(
         "rings-voxel", "The rings, thinned by voxels",
-        "The means of the points in each voxel, 1 % of the width: dense rings and sparse walls count alike, and less than"
-        " 10 cm stay.",
+        "The means of the points in each voxel, 1 % of the width: dense rings and sparse walls count alike, and 36 mm stay.",
         replace(RINGS, thinning="voxel", voxel=1.0), 0, STREET, breaks=True,
     ),
     Preset(
         "rings-spread", "The rings, and no plane through a line",
-        "Finer voxels of 0.2 %, and a point whose neighbours lie along a line does not pull: no more than 2 cm stay.",
+        "Finer voxels of 0.2 %, and a point whose neighbours lie along a line does not pull: 6 mm stay.",
         replace(RINGS, thinning="voxel", planes="spread"), 0, STREET,
     ),
 )  # fmt: skip
@@ -156,8 +155,27 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         why=_matches_why,
         params=HOME,
         unit="%",
-        tolerance=8.0,
+        tolerance=3.0,
         step=1,
+        wrong=(
+            (
+                5,
+                34,
+                "At a turn of 35° the two rabbits still overlap, but the nearest point is a neighbour from another"
+                " part of the surface. Two spacings are 3 cm, and most points have moved by more.",
+            ),
+            (
+                34,
+                66,
+                "You may have taken those that point the right way. A partner is right only where it lies within two"
+                " spacings, 3 cm, of where the source point belongs.",
+            ),
+            (
+                66,
+                100,
+                "ICP does not need right partners. It needs partners that pull the source the right way, on average.",
+            ),
+        ),
     ),
     Question(
         "predict-far",
@@ -167,9 +185,15 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=FAR,
         step=END,
         choices=(
-            "Come home, only more slowly",
-            "Stop because the RMSE rises",
-            "Lower the RMSE to the end and be wrong",
+            Choice(
+                "Come home, only more slowly",
+                "Every run comes to a valley of the cost. From far away it may be another valley than the true one.",
+            ),
+            Choice(
+                "Stop because the RMSE rises",
+                "It cannot rise here. The nearest partners lower the cost, and so does the best motion for these partners.",
+            ),
+            Choice("Lower the RMSE to the end and be wrong"),
         ),
     ),
     Question(
@@ -182,7 +206,26 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=PLANE,
         step=END,
-        tolerance=8.0,
+        tolerance=3.0,
+        wrong=(
+            (
+                1,
+                4,
+                "One fit would do if the partners were right. They are not, so even planes need new matches some times.",
+            ),
+            (
+                20,
+                40,
+                "Half as many would be the gain if each step were twice as long. The first fit turns the source by"
+                " 8.6° with planes and by 1.65° without.",
+            ),
+            (
+                41,
+                200,
+                "The matches are made in the same way, but the fit differs: without a penalty for sliding along the"
+                " surface each fit turns the source farther.",
+            ),
+        ),
     ),
     Question(
         "predict-vase",
@@ -190,7 +233,18 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=_vase_answer,
         why=_vase_why,
         params=VASE,
-        step=END,
-        choices=("Small RMSE, right turn", "Small RMSE, wrong turn", "Large RMSE"),
+        choices=(
+            Choice(
+                "Small RMSE, right turn",
+                "The RMSE is small, but it does not say that the turn is right: turned about its axis, the vase looks the"
+                " same, so no match pulls it back.",
+            ),
+            Choice("Small RMSE, wrong turn"),
+            Choice(
+                "Large RMSE",
+                "A wrong turn raises the RMSE only where the turned shape looks different. A vase turned about its axis"
+                " looks the same.",
+            ),
+        ),
     ),
 )

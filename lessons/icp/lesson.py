@@ -25,7 +25,7 @@ def run(
 ) -> Iterator[State]:
     """Yield the steps of ICP on the scans, then, where the truth is known, one try from each of a row of starts.
 
-    Where a function is given in place of ours (None), there are no tries.
+    There are none where a shape can be moved onto itself, nor where a function is given in place of ours (None).
     """
     scans = scans_of(params)
     T_before, rmse_before, state = scans.T_start, float("nan"), None

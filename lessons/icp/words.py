@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from lessons.icp.basin import thinned
 from lessons.icp.scans import WIDTH
 from lessons.icp.state import State
 from workbench.algorithms.icp import Stop
@@ -49,7 +50,7 @@ def _of_try(state: State) -> str:
     last = state.tries[-1]
     home = state.scans.at_home(last.error)
     text = (
-        f"Another start: from {last.start_angle:.0f}° away, ICP {'comes home' if home else 'ends'}"
+        f"{_other_setup(state)}: from {last.start_angle:.0f}° away, ICP {'comes home' if home else 'ends'}"
         f" {angle(last.error.rotation)} and {length(last.error.translation)} from the truth, at RMSE {length(last.rmse)}."
     )
     if last.start_angle < 180:
@@ -57,6 +58,17 @@ def _of_try(state: State) -> str:
     if state.edge is None:
         return f"{text} Not even the start at 0° comes home."
     return f"{text} In this row, every start up to {state.edge:.0f}° comes home."
+
+
+def _other_setup(state: State) -> str:
+    """Say in what the tries differ from the run itself, besides the angle."""
+    params, few = state.params, len(thinned(state.scans))
+    text = "Another start"
+    if few < len(state.scans.p_source):
+        text += f", with {few} of the source's points"
+    if params.target is None and params.start_angle:
+        text += ", turned the other way"
+    return text + (", not shifted" if params.target is None and params.start_shift else "")
 
 
 def _at_start(state: State) -> str:

@@ -53,7 +53,8 @@ def draw(state: State) -> Scene:
     now, shot, k = state.now, state.shot, state.params.point
     T_world_camera = inverse(shot.T_camera_world)
     h, w = shot.picture.shape[:2]
-    photograph = Picture(state.picture, "Photograph, calculated outlines orange", SCREEN[1], SCREEN[0])
+    title = "Photograph, calculated outlines orange" if now.reached("divide") else "Photograph"
+    photograph = Picture(state.picture, title, SCREEN[1], SCREEN[0])
     scene: dict[str, Primitive] = {
         **scenery(),
         "camera": Camera(shot.K, w, h, T_world_camera, 1.0, state.picture, "neutral"),
@@ -61,7 +62,7 @@ def draw(state: State) -> Scene:
         "points": Points(now.p_world, _point_color(state), 0.07, name="points of the street"),
         "followed": Points(now.p_world[k : k + 1], "highlight", 0.16, name="followed"),
         "followed label": Label(name_of(k), now.p_world[k] + np.array([0.0, 0.0, 0.4]), "highlight"),
-        "error": Scalar(state.error, "median pixel error", "Error to the true picture", "px", "truth"),
+        "error": Scalar(state.error, "median of all points", "Error of this stage", "px", "truth"),
         "caption": caption(state),
         **_tables(state),
         **_lens_curves(shot.lens, float(np.linalg.norm(shot.xy[k]))),
@@ -97,14 +98,26 @@ def _point_color(state: State):
 
 
 def _camera(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict[str, Primitive]:
-    """Lead from the camera to the followed point along the camera's own axes."""
-    x, y, z = apply(state.shot.T_camera_world, state.now.p_world[state.params.point])
+    """Lead from the camera to the followed point along its own axes, and where the calculation says it is, if elsewhere."""
+    true = apply(state.shot.T_camera_world, state.now.p_world[state.params.point])
+    got = state.now.p_camera[state.params.point]
+    if np.allclose(got, true):
+        return _ways("ways", true, ("z", "x", "y"), "", T_world_camera)
+    return _ways("ways", true, ("truth", "truth", "truth"), "the true way", T_world_camera) | _ways(
+        "calculated ways", got, ("wrong", "wrong", "wrong"), "the calculated way", T_world_camera
+    )
+
+
+def _ways(
+    path: str, p_camera: np.ndarray, roles: tuple[Role, Role, Role], name: str, T_world_camera: np.ndarray
+) -> dict[str, Primitive]:
+    """Lead from the camera to a point along the camera's axes: Z first, then X, then Y."""
+    x, y, z = p_camera
     corners = np.array([[0.0, 0, 0], [0, 0, z], [x, 0, z], [x, y, z]])
-    roles: tuple[Role, ...] = ("z", "x", "y")
     colors = np.array([PALETTE[role] for role in roles], np.uint8)
-    parts: dict[str, Primitive] = {"ways": Segments(segments(corners), colors, 4, T_world_camera)}
-    for i, (role, name, way) in enumerate(zip(roles, "ZXY", (z, x, y), strict=True)):
-        parts[f"ways/{name}"] = Label(f"{name} = {depth(way)}", corners[i : i + 2].mean(axis=0), role, T_world_camera)
+    parts: dict[str, Primitive] = {path: Segments(segments(corners), colors, 4, T_world_camera, name=name)}
+    for i, (role, axis, way) in enumerate(zip(roles, "ZXY", (z, x, y), strict=True)):
+        parts[f"{path}/{axis}"] = Label(f"{axis} = {depth(way)}", corners[i : i + 2].mean(axis=0), role, T_world_camera)
     return parts
 
 

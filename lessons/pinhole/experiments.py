@@ -8,7 +8,7 @@ import numpy as np
 from lessons.pinhole.state import Params, State
 from workbench.geometry.cameras import camera_center, project, vanishing_points
 from workbench.geometry.motions import motion
-from workbench.lesson import Preset, Question
+from workbench.lesson import Choice, Preset, Question
 from workbench.numerals import coordinates, fixed
 
 DIVIDE, DISTORT, PIXELS, BACK = 2, 3, 4, 5
@@ -106,8 +106,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "lens-on-pixels", "The lens after K",
-        "Distortion acts on normalised coordinates. Fed with pixels, its r² is f² times too large and points fly"
-        " millions of pixels away.",
+        "Distortion acts on normalised coordinates. Fed with pixels, its r² is f² times too large, and points fly"
+        " 36 million pixels away (median).",
         LENS_ON_PIXELS, DISTORT,
     ),
     Preset(
@@ -210,7 +210,14 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=lambda states: 0.0 if tower_ratio(states) > 1.05 else 2.0 if tower_ratio(states) < 0.95 else 1.0,
         why=_dolly_why,
         params=DOLLY,
-        choices=("It grows", "It keeps its size too", "It shrinks"),
+        choices=(
+            Choice("It grows"),
+            Choice(
+                "It keeps its size too",
+                "It would if it stood at the crate's distance. Size goes with f / Z, and Z is another one for the tower.",
+            ),
+            Choice("It shrinks", "It would if only the camera moved. The focal length has grown three times as well."),
+        ),
         step=PIXELS,
     ),
     Question(
@@ -219,7 +226,17 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=_behind_answer,
         why=_behind_why,
         params=BEHIND,
-        choices=("Nowhere: the result is not a number", "Far outside the picture", "In the picture, like any other"),
+        choices=(
+            Choice(
+                "Nowhere: the result is not a number",
+                "Only Z = 0 gives no number. A negative Z divides like any other.",
+            ),
+            Choice(
+                "Far outside the picture",
+                "The size of x / Z does not depend on the sign of Z. Only the direction turns round.",
+            ),
+            Choice("In the picture, like any other"),
+        ),
         step=PIXELS,
     ),
     Question(
@@ -228,7 +245,13 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=_centre_answer,
         why=_centre_why,
         params=Params(camera=(2.0, -4.0, 2.5), target=(0.0, 8.0, 1.0)),
-        choices=("At t", "At −t", "At neither of the two"),
+        choices=(
+            Choice("At t", "t is not a place in the world: it is the world's origin, given in the camera's frame."),
+            Choice(
+                "At −t", "It would be if the camera's axes were the world's. It is turned, so −t has to be turned back."
+            ),
+            Choice("At neither of the two"),
+        ),
         step=BACK,
     ),
     Question(
@@ -237,13 +260,23 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=lambda states: 1.0 if abs(shift := shift_of_vanishing(states)) < 0.5 else 0.0 if shift < 0 else 2.0,
         why=_rails_why,
         params=RAILS,
-        choices=("To the left in the picture", "Nowhere: it stays", "To the right in the picture"),
+        choices=(
+            Choice(
+                "To the left in the picture",
+                "Things nearby move to the left, by less the farther they are. This point is infinitely far away.",
+            ),
+            Choice("Nowhere: it stays"),
+            Choice(
+                "To the right in the picture",
+                "That would be so if the camera turned to the left. It steps aside and keeps its direction.",
+            ),
+        ),
         step=PIXELS,
     ),
     Question(
         "predict-crop",
         "60 columns and 40 rows are cut off at the left and top, then the picture is halved. The principal point was at"
-        " u = 159.5 px. What is cx now?",
+        " u = 159.5 px, where pixel centres are at integers. What is cx now?",
         answer=lambda states: float(states[-1].shot.K[0, 2]),
         why=lambda states: (
             f"{states[-1].shot.K[0, 2]:.2f} px: first 159.5 − 60 = 99.5, then (99.5 + 0.5) / 2 − 0.5, since pixel"
@@ -251,7 +284,23 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=CROP_RIGHT,
         unit="px",
-        tolerance=0.6,
+        tolerance=0.15,
         step=PIXELS,
+        wrong=(
+            (
+                49.7,
+                50.1,
+                "Nearly. The picture begins at −0.5 px, the left edge of pixel 0. Halving keeps this edge in place,"
+                " and not the middle of pixel 0.",
+            ),
+            (
+                64.0,
+                65.5,
+                "That is the middle of the new picture. The crop has moved the principal point away from the middle.",
+            ),
+            (79.0, 80.5, "The picture was halved, but 60 columns are missing at the left too."),
+            (99.0, 100.5, "The crop is right. Then the picture was halved, and with it all its coordinates."),
+            (159.0, 160.0, "K must follow what is done to the picture: this is the old one."),
+        ),
     ),
 )

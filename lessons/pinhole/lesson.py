@@ -11,7 +11,7 @@ import numpy as np
 
 from lessons.pinhole.draw import VIEW, draw
 from lessons.pinhole.experiments import PRESETS, QUESTIONS
-from lessons.pinhole.models import model_of, overlaid
+from lessons.pinhole.models import laid_out, model_of, overlaid
 from lessons.pinhole.shot import shot_of
 from lessons.pinhole.state import Params, Shot, State
 from workbench.algorithms import pinhole
@@ -31,8 +31,9 @@ def run(
     """Yield the stages of the street's points through the calculated camera, beside the true one."""
     shot = shot_of(params)
     model = model_of(params, shot, project, distort, camera_center)
-    picture = overlaid(shot, model, params.point)
+    outlines = laid_out(model)
     for now in model(street().points):
+        picture = overlaid(shot, outlines, now.stage, params.point)
         error, found, missed, false = compare(shot, now)
         yield State(
             params=params,

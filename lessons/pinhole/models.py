@@ -2,16 +2,17 @@
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import islice
 
 import numpy as np
 
 from lessons.pinhole.shot import wires
 from lessons.pinhole.state import Params, Shot
-from workbench.algorithms.pinhole import Center, Distort, Project, State, follow
+from workbench.algorithms.pinhole import STAGES, Center, Distort, Project, Stage, State, follow, onto_pixels
 from workbench.data.street import street
 from workbench.geometry.cameras import OPENGL_FROM_OPENCV
 from workbench.geometry.motions import apply, inverse
-from workbench.geometry.raster import PointItem, SegmentItem, render
+from workbench.geometry.raster import Image, PointItem, SegmentItem, render
 from workbench.scene import Role, color_rows
 
 SWAP = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
@@ -20,9 +21,26 @@ Model = Callable[[np.ndarray], Iterator[State]]
 """model(p_world) -> the stages of these points."""
 
 
-def pixels(model: Model, p_world: np.ndarray) -> np.ndarray:
-    """Return where the calculation puts these points in the picture."""
-    return next(state.uv for state in model(p_world) if state.stage == "pixels")
+def laid_out(model: Model) -> Model:
+    """Return the model up to its pixels, which calculates the same points once only: others may own its functions."""
+    known: dict[bytes, tuple[State, ...]] = {}
+
+    def stages(p_world: np.ndarray) -> Iterator[State]:
+        key = p_world.tobytes()
+        if key not in known:
+            known[key] = tuple(islice(model(p_world), STAGES.index("pixels") + 1))
+        return iter(known[key])
+
+    return stages
+
+
+def pixels(model: Model, stage: Stage, K: np.ndarray, p_world: np.ndarray) -> np.ndarray:
+    """Return where the calculation puts these points in the picture at a stage from the division on.
+
+    Before it has pixels itself, the true K makes them of the places on the plane one metre in front.
+    """
+    now = next(state for state in model(p_world) if state.stage in (stage, "pixels"))
+    return now.uv if now.reached("pixels") else onto_pixels(now.xy_bent if now.reached("distort") else now.xy, K)
 
 
 def model_of(params: Params, shot: Shot, project: Project, distort: Distort, camera_center: Center) -> Model:
@@ -57,18 +75,29 @@ def divide_anyway(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
         return np.where(z[:, None] == 0, np.nan, np.stack([x, y], axis=1) / z[:, None])
 
 
-def overlaid(shot: Shot, model: Model, point: int) -> np.ndarray:
-    """Return the photograph with the calculated outlines and points laid over it, whatever hides them."""
+def overlaid(shot: Shot, model: Model, stage: Stage, point: int) -> np.ndarray:
+    """Return the photograph with the outlines and points that a stage has calculated laid over it, whatever hides them.
+
+    From the division on; before it, only the followed point's true pixel.
+    """
     h, w = shot.picture.shape[:2]
+    true = _flat(shot.uv[point : point + 1], "truth", 9)
+    if stage in ("world", "camera"):
+        return _over(shot.picture, render([true], np.eye(4), np.eye(3), w, h))
+    to_pixels = partial(pixels, model, stage, shot.K)
     lines = wires(shot.T_camera_world)
     drawn = render(
         [SegmentItem(lines, color_rows("source", len(lines)))],
-        shot.T_camera_world, shot.K, w, h, shot.lens, to_pixels=partial(pixels, model),
+        shot.T_camera_world, shot.K, w, h, shot.lens, to_pixels=to_pixels,
     )  # fmt: skip
-    uv = pixels(model, street().points)
-    spots = [_flat(uv, "source", 3), _flat(shot.uv[point : point + 1], "truth", 9), _flat(uv[[point]], "highlight", 7)]
-    picture = shot.picture.copy()
-    for layer in (drawn, *(render([spot], np.eye(4), np.eye(3), w, h) for spot in spots)):
+    uv = to_pixels(street().points)
+    spots = [_flat(uv, "source", 3), true, _flat(uv[[point]], "highlight", 7)]
+    return _over(shot.picture, drawn, *(render([spot], np.eye(4), np.eye(3), w, h) for spot in spots))
+
+
+def _over(picture: np.ndarray, *layers: Image) -> np.ndarray:
+    picture = picture.copy()
+    for layer in layers:
         shown = np.isfinite(layer.depth)
         picture[shown] = layer.colors[shown]
     return picture

@@ -97,7 +97,7 @@ class State:
         params: The inputs.
         shot: The true camera and its photograph.
         now: How far the calculation has come.
-        picture: The photograph with the calculated outlines and points on it.
+        picture: The photograph with the outlines and points on it that this stage has calculated, if it has any.
         error: Median distance to the true pixels, as far as the stage tells, px; NaN before the division.
         found, missed, false: How many points have a calculated pixel; how many lack one that the camera does see;
             and how many have one that the camera does not see.

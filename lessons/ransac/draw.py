@@ -26,11 +26,13 @@ def draw(state: State) -> Scene:
 
 
 def _rows(state: State) -> dict[str, Primitive]:
-    """Draw all rows, coloured as the fit in question sees them: the trial's, or else the best's."""
+    """Draw all rows, coloured by their votes on the fit in question: the trial, or else the best."""
     subject, now = state.subject, state.now
     fit = now.trial if now.phase in ("inliers", "best", "refit") else now.best if now.phase == "stop" else None
     radius = _radius(subject)
-    color = "neutral" if fit is None else Classes.marking(~fit.inliers, "wrong", "outlier", others=("target", "inlier"))
+    color = "neutral"
+    if fit is not None:
+        color = Classes.marking(~fit.inliers, "neutral", "vote against", others=("target", "vote for"))
     names = (subject.noun,) if len(subject.shown) == 1 else ("first image", "second image")
     scene: dict[str, Primitive] = {
         path: Points(p, color, radius, name=name)
@@ -39,7 +41,7 @@ def _rows(state: State) -> dict[str, Primitive]:
     if len(subject.shown) == 2:
         rows = np.zeros(0, int) if fit is None else np.flatnonzero(fit.inliers)[:: 1 + fit.count // MOST_LINES]
         ends = between(*(p[rows] for p in subject.shown))
-        scene["matches"] = Segments(ends, "correspondence", 1.0, opacity=0.5, name="inlier matches")
+        scene["matches"] = Segments(ends, "correspondence", 1.0, opacity=0.5, name="matches that vote for it")
     return scene
 
 

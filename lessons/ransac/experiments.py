@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from lessons.ransac.state import Params, State
 from workbench.algorithms.ransac import iterations_needed
 from workbench.certain import sure
-from workbench.lesson import Preset, Question, View
+from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import length, percent
 
 VIEW = View(eye=(0.8, -3.4, 1.6), target=(0.0, 0.0, 0.33), grid=None, axes=False)
@@ -31,14 +31,14 @@ PRESETS: tuple[Preset[Params], ...] = (
         Params(model="line", points=150, noise=0.025, inlier_distance=0.05, seed=6), 1, FLAT,
     ),
     Preset(
-        "thirty", "30 % outliers: a dozen or two",
-        "A third of all samples is clean, so a dozen or two are enough; the same outliers drag least squares 15 cm off"
+        "thirty", "30 % outliers: 13 samples",
+        "A third of all samples is clean, so 13 are enough here; the same outliers drag least squares 15 cm off"
         " (RMS).",
         THIRTY, 2,
     ),
     Preset(
-        "seventy", "70 % outliers: over a hundred",
-        "Only one sample in 37 is clean, so over a hundred are drawn; the plane is still within 3 mm (RMS)."
+        "seventy", "70 % outliers: 126 samples",
+        "Only one sample in 37 is clean, so 126 are drawn; the plane is still only 3 mm off (RMS)."
         " Half is no limit.",
         SEVENTY, 2,
     ),
@@ -50,13 +50,13 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "loose", "Inlier distance too large",
-        "0.3 m is 20 sigma: clutter votes too, a dozen samples satisfy the formula, and the plane ends 4 cm off (RMS).",
+        "0.3 m is 20 sigma: clutter votes too, 13 samples satisfy the formula, and the plane ends 4 cm off (RMS).",
         LOOSE, -1, breaks=True,
     ),
     Preset(
         "msac", "Too large, but nearness counts",
-        "A count cannot tell 1 mm from 149 mm. MSAC can: from the same draws it keeps a sample that is no farther from the"
-        " truth, with seed 0 ten times nearer.",
+        "A count cannot tell 1 mm from 149 mm. MSAC can: the sample that it keeps is 5 mm from the truth; the one that a"
+        " count keeps is 49 mm off.",
         MSAC, 0,
     ),
     Preset(
@@ -85,14 +85,14 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "local", "Refit every new best",
-        "A sample carries the noise of three points; refitting each new best at once gathers its inliers sooner, and with"
-        " them the end.",
+        "A sample carries the noise of three points; refitting each new best at once gathers its votes sooner: the run ends"
+        " after 53 samples in place of 80.",
         LOCAL, 0,
     ),
     Preset(
         "prosac", "The most trusted first",
-        "Matches have a quality, and PROSAC tries the most trusted first: a few dozen samples bring it near its end, where"
-        " chance mostly needs hundreds.",
+        "Matches have a quality, and PROSAC tries the most trusted first and counts votes among them to know when to stop:"
+        " after 14 samples, where chance draws 375.",
         PROSAC, 0, IMAGES,
     ),
     Preset(
@@ -214,6 +214,20 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=Params(),
         unit="samples",
         tolerance=5.0,
+        wrong=(
+            (5, 7, "That is so for samples of one point: half of those are clean. All three must be free of outliers."),
+            (
+                8,
+                12,
+                "One sample in eight is clean, but eight draws do not make sure of it: in 34 % of all tries none of"
+                " the eight is clean.",
+            ),
+            (
+                200,
+                600,
+                "The number of points does not matter. What matters is how likely one sample is clean: ½ · ½ · ½.",
+            ),
+        ),
     ),
     Question(
         "predict-near-sample",
@@ -222,7 +236,18 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=_near_answer,
         why=_near_why,
         params=NEAR,
-        choices=("Nearly all: there is no outlier among the three", "About half", "Less than a third"),
+        choices=(
+            Choice(
+                "Nearly all: there is no outlier among the three",
+                "A clean sample is not yet a good one. Its points carry noise, and three that lie close together turn it"
+                " into a large tilt.",
+            ),
+            Choice(
+                "About half",
+                "The noise tilts the plane more than that: its error grows with the distance from the three.",
+            ),
+            Choice("Less than a third"),
+        ),
         step=2,
     ),
     Question(
@@ -231,7 +256,14 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=_planes_answer,
         why=_planes_why,
         params=WALL,
-        choices=("The table", "The wall", "A plane between the two"),
+        choices=(
+            Choice("The table", "That is what we want, but nothing tells RANSAC so. It counts votes."),
+            Choice("The wall"),
+            Choice(
+                "A plane between the two",
+                "Least squares would compromise. RANSAC does not: a plane between the two is near the points of neither.",
+            ),
+        ),
     ),
     Question(
         "predict-size",
@@ -240,7 +272,18 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=_size_answer,
         why=_size_why,
         params=MATCHES,
-        choices=("Fewer: seven pin a model down better than four", "About as many", "Many more"),
+        choices=(
+            Choice(
+                "Fewer: seven pin a model down better than four",
+                "More points average the noise better, but the number of samples depends on outliers: all seven must be"
+                " clean.",
+            ),
+            Choice(
+                "About as many",
+                "Each further match must be clean too, which multiplies the chance of a clean sample by w.",
+            ),
+            Choice("Many more"),
+        ),
     ),
     Question(
         "predict-huber",
@@ -248,6 +291,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=_huber_answer,
         why=_huber_why,
         params=THIRTY,
-        choices=("At the truth, as RANSAC's", "In between", "As far off as least squares"),
+        choices=(
+            Choice(
+                "At the truth, as RANSAC's",
+                "Huber's loss bounds the pull of an outlier, but does not end it. Many outliers on one side still add up.",
+            ),
+            Choice("In between"),
+            Choice(
+                "As far off as least squares",
+                "There the pull grows with the distance. Under Huber's loss a far outlier pulls no harder than a near one.",
+            ),
+        ),
     ),
 )

@@ -39,6 +39,7 @@ def run(
     """Yield the steps of RANSAC. With the plane, its minimal fit and the count are the functions given here.
 
     The count gives the share of inliers for which the number of samples is asked, and is the score if that is "count".
+    PROSAC asks for the largest share among the most trusted, whoever counts.
     """
     subject = subject_of(params)
     rng = np.random.default_rng(params.seed)
@@ -56,6 +57,7 @@ def run(
         chain(chosen, samples_of(params, subject, rng)),
         judge,
         needed_for=iterations_needed,
+        share_of=(lambda fit: subject.most_trusted(fit)[1]) if params.sampler == "PROSAC" else None,
         confidence=params.confidence,
         max_iterations=params.most_samples,
         local_refit=params.local_refit,

@@ -10,6 +10,7 @@ import numpy as np
 
 from workbench.algorithms import ransac
 from workbench.algorithms.models import Model, rms_distance
+from workbench.algorithms.samplers import termination_length
 from workbench.data.framing import Unit, Up
 from workbench.knobs import Knob, Pick
 
@@ -37,15 +38,15 @@ class Params:
         float, Knob("Noise of each coordinate (sigma)", 0, 0.05, unit="m", step=0.001, needs=IN_METRES)
     ] = 0.015
     inlier_distance: Annotated[
-        float, Knob("Points this near to a model are its inliers", 0.001, 0.5, unit="m", step=0.001, needs=IN_METRES)
+        float, Knob("Points this near to a model vote for it", 0.001, 0.5, unit="m", step=0.001, needs=IN_METRES)
     ] = 0.03
     noise_pixels: Annotated[
         float, Knob("Noise of each pixel of a match (sigma)", 0, 5, unit="px", step=0.1, needs=IN_PIXELS)
     ] = 1.0
     inlier_pixels: Annotated[
         float,
-        Knob("Matches this near to a model are its inliers; 95 % lie within 3.46 sigma for a homography, within 1.96 sigma"
-             " for a fundamental matrix", 0.1, 30, unit="px", step=0.1, needs=IN_PIXELS),
+        Knob("Matches this near to a model vote for it; 95 % of the true ones lie within 3.46 sigma for a homography, within"
+             " 1.96 sigma for a fundamental matrix", 0.1, 30, unit="px", step=0.1, needs=IN_PIXELS),
     ] = 3.5  # fmt: skip
     score: Annotated[ScoreName, Knob("How good a candidate is, from the distances of all points")] = "count"
     sampler: Annotated[SamplerName, Knob("By chance alone, or the most trusted points first")] = "uniform"
@@ -110,6 +111,11 @@ class Subject:
         """The rows as points of the picture, (n, 3); for matches one array per image."""
         d = self.p.shape[1] // len(self.places)
         return tuple(place(self.p[:, k * d : (k + 1) * d]) for k, place in enumerate(self.places))
+
+    def most_trusted(self, fit: ransac.Fit) -> tuple[int, float]:
+        """Return among how many of the most trusted rows a fit has the largest share of votes, and this share."""
+        assert self.quality is not None
+        return termination_length(fit.inliers, self.quality, self.model.sample_size)
 
     def error(self, estimate: np.ndarray | None) -> float:
         """Return the root mean square distance of the noiseless rows to an estimate; NaN where that is not known."""

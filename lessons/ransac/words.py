@@ -10,6 +10,8 @@ from workbench.scene import Caption
 
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven")
 
+BY_CHANCE = " So few of the most trusted vote for it that chance can explain it: it cannot end the run."
+
 
 def caption(state: State) -> Caption:
     """Return what just happened, with its numbers."""
@@ -69,23 +71,31 @@ def _inliers(state: State) -> Caption:
 def _best(state: State) -> Caption:
     now, best = state.now, sure(state.now.best)
     share = best.count / len(best.inliers)
-    text = f"New best after {counted(now.iteration, 'sample')}: {_points(state, best)}, {percent(share, 0)} of all."
+    text = f"New best after {counted(now.iteration, 'sample')}: {_points(state, best)}, {percent(share, 0)} of all"
+    text += f" {state.subject.noun}.{_trusted(state)}"
+    if text.endswith(BY_CHANCE):
+        return Caption(text + _to_the_truth(state))
     asked = f"{100.0 * state.params.confidence:g} % confidence that one of them is free of outliers"
     if now.needed >= state.params.most_samples:
         allowed = counted(state.params.most_samples, "sample")
         text += f" If that is the share of inliers, the {allowed} allowed give no {asked}."
     else:
         text += f" If that is the share of inliers, {counted(round(now.needed), 'sample')} give {asked}."
-    if np.isfinite(state.best_error):
-        text += f" RMS error to the truth {_distance(state, state.best_error)}."
-    return Caption(text)
+    return Caption(text + _to_the_truth(state))
+
+
+def _to_the_truth(state: State) -> str:
+    if not np.isfinite(state.best_error):
+        return ""
+    return f" RMS error to the truth {_distance(state, state.best_error)}."
 
 
 def _refit(state: State) -> Caption:
     best, before = sure(state.now.best), state.before
     text = "Refit: "
     if before is not None:
-        text += f"least squares on the {before.count:,} inliers, then counted anew: {before.count:,} → {best.count:,}"
+        text += f"least squares on the {before.count:,} that voted for it, then all vote anew:"
+        text += f" {before.count:,} → {best.count:,} votes"
         if len(state.subject.p_true):
             old = state.subject.error(before.estimate)
             text += f"; RMS error to the truth {_distance(state, old)} → {_distance(state, state.best_error)}"
@@ -136,8 +146,10 @@ def is_right(state: State) -> bool:
 
 
 def _distance(state: State, value: float) -> str:
-    """Write a distance to a model in the unit of its rows."""
-    return pixels(value) if state.subject.model.unit == "px" else length(value)
+    """Write a distance to a model in the unit of its rows; of thousands of pixels two digits."""
+    if state.subject.model.unit != "px":
+        return length(value)
+    return pixels(value if value < 1e3 else float(f"{value:.1e}"))
 
 
 def _limit(state: State) -> str:
@@ -145,7 +157,17 @@ def _limit(state: State) -> str:
 
 
 def _points(state: State, fit) -> str:
-    return f"{fit.count:,} inliers{_score(state, fit.score)}"
+    return f"{counted(fit.count, 'vote')}{_score(state, fit.score)}"
+
+
+def _trusted(state: State) -> str:
+    """Say from which share PROSAC takes how many samples are needed."""
+    if state.params.sampler != "PROSAC":
+        return ""
+    length, share = state.subject.most_trusted(sure(state.now.best))
+    if not length:
+        return BY_CHANCE
+    return f" Of the {length:,} most trusted {percent(share, 0)} vote for it."
 
 
 def _score(state: State, score: float) -> str:

@@ -1,3 +1,4 @@
+import math
 from itertools import islice
 
 import numpy as np
@@ -5,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.samplers import draw_samples, prosac_samples, uniform_samples
+from workbench.algorithms.samplers import draw_samples, prosac_samples, termination_length, uniform_samples
 
 
 @settings(max_examples=50, deadline=None)
@@ -66,6 +67,31 @@ def test_prosac_finds_a_clean_sample_sooner_when_trust_means_something():
         ):
             needed[name].append(next(t for t, sample in enumerate(samples, 1) if inlier[sample].all()))
     assert np.median(needed["prosac"]) < 0.2 * np.median(needed["uniform"])
+
+
+@settings(max_examples=60, deadline=None)
+@given(seed=st.integers(0, 999), n=st.integers(4, 120), size=st.integers(2, 7), share=st.floats(0.0, 1.0))
+def test_the_termination_length_is_the_papers(seed, n, size, share):
+    """By the sums of its equations 7 to 9: the largest share that chance hardly gives, with all rows below twenty."""
+    rng = np.random.default_rng(seed)
+    inliers, quality = rng.random(n) < share, rng.random(n)
+    by_trust = inliers[np.argsort(-quality)]
+    allowed = [(0.0, 0)]
+    for k in range(min(20, n), n + 1):
+        found = int(by_trust[:k].sum())
+        tail = sum(
+            math.comb(k - size, i) * 0.05**i * 0.95 ** (k - size - i) for i in range(max(found - size, 0), k - size + 1)
+        )
+        if k > size and found > size and tail < 0.05:
+            allowed.append((found / k, k))
+    best, length = max(allowed)
+    assert termination_length(inliers, quality, size) == (length, pytest.approx(best))
+
+
+def test_a_model_of_no_votes_ends_nothing():
+    assert termination_length(np.zeros(50, bool), np.arange(50.0), 4) == (0, 0.0)
+    assert termination_length(np.arange(50) < 4, -np.arange(50.0), 4) == (0, 0.0)  # the sample itself is no evidence
+    assert termination_length(np.ones(50, bool), np.arange(50.0), 4) == (50, 1.0)
 
 
 def test_too_few_rows_are_refused():

@@ -68,7 +68,7 @@ def test_a_count_decides_what_is_best_and_how_many_samples_follow():
         theirs = first(run(Params(score=score), count_inliers=tenfold), "best")
         assert best(theirs).count == 10 * best(ours).count
         assert best(theirs).score == best(ours).score * (10 if score == "count" else 1)
-        assert f"{best(theirs).count:,} inliers" in part(lesson.draw(theirs), "caption", Caption).text
+        assert f"{best(theirs).count:,} votes" in part(lesson.draw(theirs), "caption", Caption).text
         share = best(theirs).count / len(theirs.subject.p)
         assert theirs.now.needed == iterations_needed(share, 3, 0.99) < ours.now.needed
 
@@ -137,8 +137,14 @@ def test_the_picture_has_its_parts(model):
         assert len(step.caption.text) <= 400
         points = part(scene, "points", Points)
         assert len(points.p) == 100
-        if state.now.phase == "inliers":
+        if (
+            state.now.phase == "inliers"
+        ):  # by votes: what is true of a point is another thing, and vermillion is for what is wrong
             assert isinstance(points.color, Classes)
+            assert dict(zip(points.color.names, points.color.roles, strict=True)) == {
+                "vote for": "target",
+                "vote against": "neutral",
+            }
             np.testing.assert_array_equal(points.color.ids == 0, state.now.trial.inliers)
         if state.now.phase == "sample":
             np.testing.assert_array_equal(

@@ -72,6 +72,11 @@ def ended(run: Run) -> tuple[float, float, float]:
     return off_by(end_of(run), end_of(run).icp.T_target_source)
 
 
+def started(run: Run) -> float:
+    """Metres at the middle, from where the run starts."""
+    return off_by(run.states[0], run.states[0].scans.T_start)[1]
+
+
 def came_home(run: Run) -> bool:
     return home(end_of(run), end_of(run).icp.T_target_source)
 

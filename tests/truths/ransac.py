@@ -1,8 +1,8 @@
 """What is true of a robust fit, from the rows and the truth that a state carries: distances, errors, draws needed."""
 
-import dataclasses
 import functools
 import itertools
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -69,6 +69,31 @@ def enough_for(share: float, size: int, confidence: float) -> float:
     return high
 
 
+def most_trusted(state) -> tuple[int, float]:
+    """Return PROSAC's termination length and the share of votes in it, from the definition (its sec. 2.2, eq. 7 to 9).
+
+    At least twenty rows; a wrong model has each row beside the sample with 5 %, and so many or more with less than 5 %.
+    """
+    best, m, found = state.now.best, state.subject.model.sample_size, (0, 0.0)
+    by_trust = sorted(range(len(best.inliers)), key=lambda row: -state.subject.quality[row])
+    votes = [bool(best.inliers[row]) for row in by_trust]
+    for n in range(20, len(votes) + 1):
+        votes_here = sum(votes[:n])
+        tail = sum(
+            math.comb(n - m, i - m) * 0.05 ** (i - m) * 0.95 ** (n - i) for i in range(max(votes_here, m), n + 1)
+        )
+        if votes_here > m and tail < 0.05 and votes_here / n >= found[1]:
+            found = (n, votes_here / n)
+    return found
+
+
+def share_for_stop(state) -> float:
+    """Return the share of inliers that the run takes for the truth: of the most trusted in PROSAC, otherwise of all."""
+    best = state.now.best
+    trusting = state.params.sampler == "PROSAC"
+    return most_trusted(state)[1] if trusting else np.count_nonzero(best.inliers) / len(best.inliers)
+
+
 @functools.lru_cache(maxsize=4)
 def states(params) -> tuple:
     return tuple(lesson.run(params))
@@ -110,22 +135,6 @@ def kept(found: Sequence) -> float:
     """Return the error of the best before the refit."""
     best = [state for state in found if state.now.phase == "best"][-1]
     return error(best, best.now.best.estimate)
-
-
-def reached(found: Sequence) -> int:
-    """Return after how many samples the best has four fifths of the inliers it ends with."""
-    enough = 0.8 * np.count_nonzero(found[-1].now.best.inliers)
-    return next(
-        state.now.iteration
-        for state in found
-        if state.now.best is not None and np.count_nonzero(state.now.best.inliers) >= enough
-    )
-
-
-@functools.cache
-def hundreds_by_chance(params) -> float:
-    """Return how often chance needs a hundred samples at least, of five seeds."""
-    return float(np.mean([reached(states(dataclasses.replace(params, seed=seed))) >= 100 for seed in range(5)]))
 
 
 def at_true_share(run: Run, size: int) -> float:

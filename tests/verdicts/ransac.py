@@ -2,6 +2,7 @@
 
 import dataclasses
 import re
+from collections.abc import Callable
 
 import numpy as np
 
@@ -17,13 +18,13 @@ from tests.truths.ransac import (
     enough_for,
     error,
     error_of_rival,
-    hundreds_by_chance,
     is_right,
     kept,
     last_error,
-    reached,
+    most_trusted,
     refused,
     rms,
+    share_for_stop,
     states,
 )
 from tests.verdicts import Claim, Run
@@ -48,8 +49,12 @@ def distance(name: str) -> str:
 
 
 def same(said: str, value: float) -> bool:
-    """Whether a distance as it is written is this one, to the three digits that are written."""
-    return near(said.removesuffix(" px"), value) if said.endswith("px") else near_length(said, value)
+    """Whether a distance as it is written is this one, to the digits that are written: of thousands of pixels two."""
+    return (
+        near(said.removesuffix(" px"), value, 3 if value < 1e3 else 2)
+        if said.endswith("px")
+        else near_length(said, value)
+    )
 
 
 def outliers_of(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -92,7 +97,7 @@ def is_new_best(run: Run, k: int, found: re.Match[str]) -> bool:
 
 def draws_needed(run: Run, k: int, found: re.Match[str]) -> bool:
     state = run.states[k]
-    share = np.count_nonzero(state.now.best.inliers) / len(state.subject.p)
+    share = share_for_stop(state)
     confidence, said = float(found["p"]) / 100.0, number(found["n"])
     assert confidence == state.params.confidence
     if found["no"]:
@@ -117,14 +122,17 @@ def refit(run: Run, k: int, found: re.Match[str]) -> bool:
 
 def stopped(run: Run, k: int, found: re.Match[str]) -> bool:
     state = run.states[k]
-    share = np.count_nonzero(state.now.best.inliers) / len(state.subject.p)
-    bests = [each.now.best for each in run.states[:k] if each.now.phase in ("sample", "inliers", "best")]
-    share = np.count_nonzero([best for best in bests if best is not None][-1].inliers) / len(state.subject.p)
-    asked = enough_for(share, state.subject.model.sample_size, state.params.confidence)
+    last_best = [each for each in run.states[:k] if each.now.phase == "best"][-1]
+    asked = enough_for(share_for_stop(last_best), state.subject.model.sample_size, state.params.confidence)
     drawn = number(found["n"])
     if found["why"].startswith("enough"):
         return drawn == state.now.iteration >= asked
     return drawn == state.now.iteration == state.params.most_samples <= asked
+
+
+def trusted(run: Run, k: int, found: re.Match[str]) -> bool:
+    length, share = most_trusted(run.states[k])
+    return number(found["n"]) == length and abs(float(found["share"]) - 100 * share) <= 0.5 + 1e-9
 
 
 def rms_of_best(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -148,10 +156,15 @@ ROWS = r"(points|matches)"
 CAPTIONS = (
     Claim(rf"Of its (?P<size>\w+) {ROWS} (?P<n>\w+) (is an outlier|are outliers) in truth", outliers_of),
     Claim(rf"(?P<n>[\d,]+) of [\d,]+ {ROWS} (lie|are) within {distance('limit')} of (its|the) \w+", counted),
-    Claim(r"The best so far has (?P<n>[\d,]+) inliers( \([^)]*\))?: it stays", stays),
+    Claim(r"The best so far has (?P<n>[\d,]+) votes?( \([^)]*\))?: it stays", stays),
     Claim(
-        r"New best after (?P<after>[\d,]+) samples?: (?P<n>[\d,]+) inliers( \([^)]*\))?, (?P<share>\d+) % of all",
+        r"New best after (?P<after>[\d,]+) samples?: (?P<n>[\d,]+) votes?( \([^)]*\))?, (?P<share>\d+) % of all",
         is_new_best,
+    ),
+    Claim(r"Of the (?P<n>[\d,]+) most trusted (?P<share>\d+) % vote for it", trusted),
+    Claim(
+        r"So few of the most trusted vote for it that chance can explain it",
+        lambda run, k, _: most_trusted(run.states[k]) == (0, 0.0),
     ),
     Claim(
         r"If that is the share of inliers, (the )?(?P<n>[\d,]+) samples? (allowed )?give (?P<no>no )?(?P<p>[\d.]+) %"
@@ -159,8 +172,8 @@ CAPTIONS = (
         draws_needed,
     ),
     Claim(
-        r"least squares on the (?P<n>[\d,]+) inliers, then counted anew: (?P<old>[\d,]+) → (?P<new>[\d,]+); RMS error to the"
-        rf" truth {distance('was')} → {distance('is')}",
+        r"least squares on the (?P<n>[\d,]+) that voted for it, then all vote anew: (?P<old>[\d,]+) → (?P<new>[\d,]+) votes;"
+        rf" RMS error to the truth {distance('was')} → {distance('is')}",
         refit,
     ),
     Claim(rf"RMS error to the truth {distance('n')}(?! →)\b", error_is),
@@ -187,13 +200,14 @@ CAPTIONS = (
 # preset lines -------------------------------------------------------------------------------------------------------
 
 
-def no_farther(run: Run, k: int, found: re.Match[str]) -> bool:
-    return kept(run.states) <= kept(states(dataclasses.replace(run.params, score="count")))
+def at(seed: int, holds: Callable[[Run], bool]) -> Callable[[Run, int, re.Match[str]], bool]:
+    """Judge a number that is seen at the preset's own seed, and there alone."""
+    return lambda run, k, found: run.params.seed != seed or holds(run)
 
 
-def ten_times(run: Run, k: int, found: re.Match[str]) -> bool:
-    params = dataclasses.replace(run.params, seed=0)
-    return kept(states(params)) < kept(states(dataclasses.replace(params, score="count"))) / 10
+def both_kept(run: Run) -> bool:
+    by_count = kept(states(dataclasses.replace(run.params, score="count")))
+    return near("5", 1e3 * kept(run.states), 1) and near("49", 1e3 * by_count, 2)
 
 
 def twice_as_many(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -204,13 +218,13 @@ def twice_as_many(run: Run, k: int, found: re.Match[str]) -> bool:
     return upright and bool(1.8 < wall.sum() / state.subject.is_inlier.sum() < 2.3)
 
 
-def sooner(run: Run, k: int, found: re.Match[str]) -> bool:
-    return drawn(run) < states(dataclasses.replace(run.params, local_refit=False))[-1].now.iteration
+def sooner(run: Run) -> bool:
+    return (drawn(run), states(dataclasses.replace(run.params, local_refit=False))[-1].now.iteration) == (53, 80)
 
 
-def few_dozens(run: Run, k: int, found: re.Match[str]) -> bool:
-    by_chance = dataclasses.replace(run.params, sampler="uniform", steps="improvements", seed=0)
-    return reached(run.states) <= 48 and hundreds_by_chance(by_chance) > 0.6
+def trusted_ends(run: Run) -> bool:
+    by_chance = states(dataclasses.replace(run.params, sampler="uniform", steps="improvements"))
+    return (drawn(run), by_chance[-1].now.iteration) == (14, 375)
 
 
 def picked_are_inliers(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -230,15 +244,15 @@ def on_a_wire(run: Run, k: int, found: re.Match[str]) -> bool:
 LINES = {
     "thirty": (
         Claim("A third of all samples is clean", lambda run, k, _: abs(clean(run, 3) - 1 / 3) < 0.02),
-        Claim("a dozen or two are enough", lambda run, k, _: 11 <= drawn(run) <= 29 and last_error(run) < 0.005),
+        Claim("13 are enough here", at(2, lambda run: drawn(run) == 13 and last_error(run) < 0.005)),
         Claim(
             "drag least squares 15 cm off", lambda run, k, _: abs(error_of_rival(run, "least squares") - 0.15) < 0.01
         ),
     ),
     "seventy": (
         Claim("Only one sample in 37 is clean", lambda run, k, _: abs(1 / clean(run, 3) - 37) < 0.5),
-        Claim("over a hundred are drawn", lambda run, k, _: drawn(run) > 100),
-        Claim("the plane is still within 3 mm", lambda run, k, _: last_error(run) <= 0.003),
+        Claim("126 are drawn", at(2, lambda run: drawn(run) == 126)),
+        Claim("the plane is still only 3 mm off", at(2, lambda run: near("3", 1e3 * last_error(run), 1))),
     ),
     "tight": (
         Claim(
@@ -263,13 +277,14 @@ LINES = {
             "0.3 m is 20 sigma", lambda run, k, _: bool(np.isclose(run.params.inlier_distance, 20 * run.params.noise))
         ),
         Claim("clutter votes too", lambda run, k, _: clutter_votes(run)),
-        Claim("a dozen samples satisfy the formula", lambda run, k, _: 8 <= drawn(run) <= 17),
+        Claim("13 samples satisfy the formula", at(0, lambda run: drawn(run) == 13)),
         Claim("the plane ends 4 cm off", lambda run, k, _: abs(last_error(run) - 0.04) < 0.005),
     ),
     "msac": (
         Claim("A count cannot tell 1 mm from 149 mm. MSAC can", lambda run, k, _: run.params.inlier_distance == 0.15),
-        Claim("it keeps a sample that is no farther from the truth", no_farther),
-        Claim("with seed 0 ten times nearer", ten_times),
+        Claim(
+            "the sample that it keeps is 5 mm from the truth; the one that a count keeps is 49 mm off", at(0, both_kept)
+        ),
     ),
     "two-planes": (Claim("a wall with twice as many points", twice_as_many), Claim("each new best", None)),
     "collinear": (
@@ -285,10 +300,10 @@ LINES = {
     ),
     "rivals": (Claim("RANSAC's and the truth", None),),
     "local": (
-        Claim("gathers its inliers sooner, and with them the end", sooner),
+        Claim("gathers its votes sooner: the run ends after 53 samples in place of 80", at(7, sooner)),
         Claim("Refit every new best|each new best", None),
     ),
-    "prosac": (Claim("a few dozen samples bring it near its end, where chance mostly needs hundreds", few_dozens),),
+    "prosac": (Claim("to know when to stop: after 14 samples, where chance draws 375", at(0, trusted_ends)),),
     "epipolar": (
         Claim("seven at once must be free of outliers", lambda run, k, _: len(run.states[0].now.sample) in (0, 7)),
         Claim("at 30 %", lambda run, k, _: abs(clean(run, 1) - 0.7) < 0.01),

@@ -151,6 +151,7 @@ def ransac(
     judge: Callable[[np.ndarray], Fit],
     *,
     needed_for: Callable[[float, int, float], float] = iterations_needed,
+    share_of: Callable[[Fit], float] | None = None,
     confidence: float = 0.99,
     max_iterations: int = 1000,
     local_refit: bool = False,
@@ -164,6 +165,7 @@ def ransac(
             drawn than tried.
         judge: Says how all rows take an estimate: `Judge(p, model, inlier_distance, score)`.
         needed_for: The number of samples for an inlier ratio, a sample size and a confidence.
+        share_of: The inlier ratio for which `needed_for` is asked, of each new best; by default that of all rows.
         confidence: With which probability one sample at least shall be free of outliers.
         max_iterations: Samples drawn at most.
         local_refit: Refit every new best at once (LO-RANSAC), not only the last.
@@ -187,7 +189,8 @@ def ransac(
             yield State("inliers", iteration, needed, sample, estimate, trial, best)
             if trial.score > (best.score if best else 0.0):
                 best = polished(p, model, trial, judge) if local_refit else trial
-                needed = min(max_iterations, needed_for(best.count / len(p), model.sample_size, confidence))  # eq. 4.18
+                share = best.count / len(p) if share_of is None else share_of(best)
+                needed = min(max_iterations, needed_for(share, model.sample_size, confidence))  # eq. 4.18
                 yield State("best", iteration, needed, sample, best.estimate, best, best)
         if iteration >= needed:
             stop = Stop.MAX_ITERATIONS if needed == max_iterations else Stop.ENOUGH

@@ -1,11 +1,14 @@
-"""Which points to try next: by chance alone, or the most trusted first."""
+"""Which points to try next: by chance alone, or the most trusted first; and among how many of these to say when to stop."""
 
 from collections.abc import Iterator
 from itertools import count
 from math import ceil
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
+from scipy.special import bdtrc
+
+FEWEST_TRUSTED = 20
 
 
 def uniform_samples(n: int, size: int, rng: np.random.Generator) -> Iterator[Int[np.ndarray, " size"]]:
@@ -36,7 +39,8 @@ def prosac_samples(
 
     Raises:
         ValueError: If there are fewer rows than a sample needs.
-    Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.2, eq. 3 (growth) and algorithm 1.
+    Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.1, eq. 3 (growth) and algorithm 1. There the
+        pool stops growing at the termination length; here it goes on.
     """
     n, order = len(quality), np.argsort(-quality, kind="stable")
     _check(n, size)
@@ -50,6 +54,45 @@ def prosac_samples(
             yield order[draw_samples(n, size, 1, rng)[0]]
         else:
             yield order[np.append(draw_samples(pool - 1, size - 1, 1, rng)[0], pool - 1)]
+
+
+def termination_length(
+    inliers: Bool[np.ndarray, " n"],
+    quality: Float[np.ndarray, " n"],
+    size: int,
+    *,
+    by_chance: float = 0.05,
+    doubt: float = 0.05,
+) -> tuple[int, float]:
+    """Return among how many of the most trusted rows a model has the largest share of inliers, and this share.
+
+    Asked how many samples this share needs, PROSAC's stopping rule answers with the fewest (maximality). Only lengths count
+    at which a wrong model would hardly have so many inliers (non-randomness), from FEWEST_TRUSTED rows on, or from all where
+    there are fewer: of less rows a few lucky ones end the run. Where no length counts, both numbers are 0.
+
+    Args:
+        inliers: Which rows are near the model.
+        quality: How much each row is trusted; more is better.
+        size: Rows in a sample; these are near the model in any case.
+        by_chance: How likely a row is near a wrong model.
+        doubt: How likely a wrong model may have so many inliers.
+
+    Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.2 (stopping criterion; the tail of the binomial
+        distribution exactly). FEWEST_TRUSTED: Raguram et al., USAC, 2013.
+
+    Examples:
+        >>> termination_length(np.arange(100) < 30, -np.arange(100.0), 4)  # the thirty that are trusted most
+        (30, 1.0)
+    """
+    found = np.cumsum(inliers[np.argsort(-quality, kind="stable")])
+    n = np.arange(1, len(found) + 1)
+    chance = bdtrc(found - size - 1.0, np.maximum(n - size, 1), by_chance)  # of at least so many beside the sample
+    counts = (n >= min(FEWEST_TRUSTED, len(n))) & (n > size) & (found > size) & (chance < doubt)
+    if not counts.any():
+        return 0, 0.0
+    share = np.where(counts, found / n, 0.0)
+    length = int(np.flatnonzero(share == share.max())[-1]) + 1
+    return length, float(share.max())
 
 
 def draw_samples(n: int, size: int, samples: int, rng: np.random.Generator) -> Int[np.ndarray, "samples size"]:
