@@ -89,11 +89,14 @@ class Target:
     Attributes:
         faces: Of the mesh that is fitted.
         given: Points, with noise.
+        p_true, faces_true: The true surface, a mesh.
         name: What they are of, in sentences.
     """
 
     faces: np.ndarray
     given: np.ndarray
+    p_true: np.ndarray
+    faces_true: np.ndarray
     name: str
 
 
