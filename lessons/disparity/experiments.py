@@ -10,7 +10,7 @@ from lessons.disparity.pairs import setup_of
 from lessons.disparity.state import Params, State
 from lessons.disparity.truth import flat_parts
 from workbench.certain import sure
-from workbench.lesson import Preset, Question
+from workbench.lesson import Choice, Preset, Question
 from workbench.numerals import length, percent
 
 HOME = Params()
@@ -31,8 +31,8 @@ LAST_CHOICE, CHECKED, SMOOTHED, DEPTH, LAST = -6, -5, -3, -2, -1
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "spheres", "Three balls",
-        "One pixel alone matches by chance: over 70 % wrong. Windows of 3 × 3 leave about a tenth, the paths 2 %, and the"
-        " check finds most of what is hidden.",
+        "One pixel alone matches by chance: 74 % are wrong. Windows of 3 × 3 leave 12 %, the paths 2 %. The check finds four"
+        " fifths of what is hidden.",
         HOME,
     ),
     Preset(
@@ -49,7 +49,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "repeated", "A pattern that repeats",
-        "Stripes 6 px apart give the curve a valley every 6 px, all equally deep: on most of the pattern a wrong one wins.",
+        "Stripes 6 px apart give the curve a valley every 6 px, all equally deep: on four fifths of the pattern a wrong one"
+        " wins.",
         STRIPES, LAST_CHOICE,
     ),
     Preset(
@@ -60,8 +61,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "occlusion", "Hidden from one camera",
-        "Left of each post is a band that only the left camera sees. No answer there is right; the check gives up most of"
-        " it, not all.",
+        "Left of each post is a band that only the left camera sees. No answer there is right. The check gives up about"
+        " four fifths of it, not all.",
         POSTS, CHECKED,
     ),
     Preset(
@@ -98,7 +99,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "darker", "The right picture is darker",
-        "Another exposure changes every grey value by 30 %. SAD compares grey values, and over 90 % of the map is wrong.",
+        "Another exposure changes every grey value by 30 %. SAD compares grey values, and 94 % of the map is wrong.",
         Params(mistake="right picture darker"), LAST_CHOICE,
     ),
     Preset(
@@ -109,19 +110,20 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "exchanged", "The sign: pictures exchanged",
-        "With left and right exchanged the partner lies at u + |d|, and the search runs the other way: over 90 % of the"
-        " map is wrong.",
+        "With left and right exchanged the partner lies at u + |d|, and the search runs the other way: 94 % of the map is"
+        " wrong.",
         Params(mistake="pictures exchanged"), LAST_CHOICE,
     ),
     Preset(
         "rows-off", "Rows that do not correspond",
-        "The right picture is 2 rows too low. Matching only looks along the row, where the partner is not: most is wrong.",
+        "The right picture is 2 rows too low. Matching only looks along the row, where the partner is not: two"
+        " thirds are wrong.",
         Params(mistake="rows off by 2 px"), LAST_CHOICE,
     ),
     Preset(
         "motorcycle", "A real motorcycle",
-        "Two photographs, a quarter of their size: f and doffs shrink with them, the baseline does not. Over 90 % of what"
-        " both see is right.",
+        "Two photographs, a quarter of their size: f and doffs shrink with them, the baseline does not. 94 % of what both"
+        " see is right.",
         MOTORCYCLE, DEPTH,
     ),
     Preset(
@@ -217,29 +219,62 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "quarter", "A board 5 m away has a disparity of 16 px. Another has 4 px, a quarter of that. How far away is it?",
         lambda states: boards(states[DEPTH])[20], _quarter_why, BOARDS, unit="m", tolerance=1.0, step=DEPTH,
+        wrong=(
+            (1.2, 1.3, "That is a quarter of the distance: nearer, with a smaller disparity. But far things move less."),
+            (9.5, 10.5, "That is twice as far. Z = f B / d has no root in it: a quarter of d is four times Z."),
+            (75.0, 85.0, "That is 16 times as far, the square of four. The square belongs to the error of Z, not to Z."),
+        ),
     ),
     Question(
         "nearer",
         "Every disparity is measured 1 px too large: a board with 80 px, 1 m away, comes 12 mm nearer. How much nearer does"
         " the board with 4 px come?",
-        _nearer, _nearer_why, ONE_PIXEL, unit="m", tolerance=1.1, step=LAST,
+        _nearer, _nearer_why, ONE_PIXEL, unit="m", tolerance=0.4, step=LAST,
+        wrong=(
+            (4.6, 5.2, "That is Z² / (f B), or 12 mm times 20²: the slope of 1 / d at 4 px. One pixel of four is too long a"
+             " step to follow a slope."),
+            (6.3, 7.0, "That is a pixel too few: 80 / 3 = 26.7 m. A pixel too many leads the other way."),
+            (0.2, 0.3, "That is 20 times 12 mm, as if the error grew with the distance. It grows with its square."),
+            (0.01, 0.015, "That is what the near board moves. The same pixel is an eightieth of its disparity, and a quarter"
+             " of this one's."),
+            (15.0, 16.5, "That is where the board is seen now. Asked is how far it came."),
+        ),
     ),
     Question(
         "averages",
         "Three boards have disparities of 80, 16 and 4 px. Average their depths, or average their disparities and take the"
         " depth of that: which is further?",
         _averages, _averages_why, BOARDS,
-        choices=("the mean of the depths", "the depth of the mean disparity", "both are the same"), step=DEPTH,
+        choices=(
+            "the mean of the depths",
+            Choice("the depth of the mean disparity", why="The near board has 80 px of the 100: it nearly alone decides the"
+                   " mean disparity, which therefore stands for something near."),
+            Choice("both are the same", why="They would be if depth were proportional to disparity. It is one over it."),
+        ),
+        step=DEPTH,
     ),
     Question(
         "baseline", "The cameras move apart to twice the baseline. How many pixels does the right camera not see now?",
         lambda states: float(np.digitize(hidden(states[0].setup.params) / hidden(PLANES), [0.75, 1.5])),
         lambda states: f"{percent(hidden(PLANES), 1)} became {percent(hidden(states[0].setup.params), 1)}. The depths of the"
         " rest are about twice as exact: a longer baseline is a trade, not a gain.",
-        DOUBLE, choices=("about half as many", "about as many", "about twice as many"), step=CHECKED,
+        DOUBLE,
+        choices=(
+            Choice("about half as many", why="The errors of the depths halve. What is hidden does not: the two cameras see"
+                   " past an edge from places further apart."),
+            Choice("about as many", why="The hidden band is as wide as the disparities of its two sides differ, and all"
+                   " disparities change with the baseline."),
+            "about twice as many",
+        ),
+        step=CHECKED,
     ),
     Question(
         "window", "A window of 21 px instead of 3 against noise, without paths. Where are the pixels that stay wrong?",
-        _edges, _edges_why, LARGE, choices=("scattered everywhere", "beside the edges of things"), step=LAST_CHOICE,
+        _edges, _edges_why, LARGE,
+        choices=(
+            Choice("scattered everywhere", why="That is the fault of a small window. Over 441 pixels noise averages out."),
+            "beside the edges of things",
+        ),
+        step=LAST_CHOICE,
     ),
 )  # fmt: skip

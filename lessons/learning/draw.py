@@ -22,12 +22,14 @@ from workbench.scene import Chart, Classes, Field, Label, Mesh, Picture, Points,
 LOSS, ERROR, SPREAD = Chart("Loss"), Chart("Error", unit="°"), Chart("Spread of the radii", unit="m")
 OVER_TURN = Chart("Output over turn", "turn (°)", "output (°)")
 BY_TURN = Chart("Error by turn", "turn (°)", "error (°)")
-DISTANCE, FOLDS = Chart("Chamfer distance", unit="mm²"), Chart("Folded edges", unit="%")
+DISTANCE, FOLDS = Chart("Root of Chamfer", unit="m"), Chart("Folded edges", unit="%")
 RIGHT, MATCH = Chart("Named rightly", unit="%"), Chart("Match of photographs", unit="dB")
 ALONG = Chart("Weights along the ray", "distance from the camera (m)", "weight")
 T_WORLD_FIELD = np.diag([1.0, -1.0, -1.0, 1.0])  # rows of the picture run along -y
 GAP, STRIP = 2.3, 6
 LIFT = np.array([0.0, 0.0, 0.02])
+BESIDE = np.eye(4)
+BESIDE[:3, 3] = 1.0, 0.7, 0.0  # m, to the right as the meshes are seen: where the true surface stands
 UNIT = at_height(circle())
 
 
@@ -114,8 +116,9 @@ def _mesh(now: MeshFitted, about: Target) -> dict[str, Primitive]:
         "given": Points(about.given, "target", 0.01, name="given points"),
         "mesh": Mesh(now.p, about.faces, "source", flat=True, name="fitted mesh"),
         "folded": Segments(now.p[shared[folded]], "wrong", 3.0, name="edges folded by over 90°"),
-        "to given": DISTANCE.scalar(1e6 * now.to_given, "to the given points", log=True),
-        "to truth": DISTANCE.scalar(1e6 * now.to_truth, "to the true surface", "truth", log=True),
+        "true": Mesh(about.p_true, about.faces_true, "truth", flat=True, T_world_object=BESIDE, name="true surface"),
+        "to given": DISTANCE.scalar(float(np.sqrt(now.to_given)), "to the given points", log=True),
+        "to truth": DISTANCE.scalar(float(np.sqrt(now.to_truth)), "to the true surface", "truth", log=True),
         "folds": FOLDS.scalar(100 * now.folded, "folded by over 90°", "wrong"),
     }
 

@@ -10,13 +10,13 @@ from workbench.algorithms.point_net import Classified
 from workbench.algorithms.rotation_regression import Regressed
 from workbench.algorithms.set_regression import SetLearned
 from workbench.certain import as_a
-from workbench.lesson import Preset, Question, View
+from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import angle, fixed, percent
 
 VIEW = View(eye=(0.0, -0.6, 3.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 BALL = View(eye=(1.9, -2.4, 1.3), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 ABOVE = View(eye=(0.0, -0.6, 4.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
-RABBIT = View(eye=(1.35, -1.95, 0.75), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+RABBIT = View(eye=(2.15, -2.05, 0.9), target=(0.5, 0.35, 0.1), grid=None, axes=False)
 FLAT = View(eye=(0.0, -0.7, 5.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 ROW = View(eye=(0.0, -11.4, 2.7), target=(0.3, 0.0, 0.75), grid=None, axes=False)
 
@@ -55,12 +55,19 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "quaternion", "Rotations by quaternions",
-        "Four numbers, normalised. The ball holds all rotation vectors; opposite points of its border are one rotation.",
+        "The ball holds all rotation vectors. Opposite points of its border are one rotation, and w ≥ 0 asks for opposite"
+        " numbers there: all errors over 20° are beyond 175°.",
+        Params(task="rotation", rotation="quaternion"), -1, BALL, breaks=True,
+    ),
+    Preset(
+        "quaternion-matrix", "Quaternions, compared as matrices",
+        "Nobody asks for a sign now, so the cut need not be at the border. It is still somewhere: look for the large errors"
+        " inside the ball.",
         Params(task="rotation", rotation="quaternion", loss="matrix"), -1, BALL, breaks=True,
     ),
     Preset(
         "euler", "Rotations by Euler angles",
-        "Three numbers: the mean error is over six times that of six numbers, and some are wrong by more than 120°.",
+        "Three numbers: the mean error is over seven times that of six numbers, and the worst is over 150°.",
         Params(task="rotation", rotation="Euler", loss="matrix"), -1, BALL, breaks=True,
     ),
     Preset(
@@ -80,12 +87,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "spikes", "A mesh without a regulariser",
-        "Nothing but the distance to noisy points: it falls, while over a quarter of all edges fold over.",
+        "Nothing but the distance to noisy points: it falls, while nearly half of all edges fold over.",
         Params(task="mesh", laplacian=0.0), -1, RABBIT, breaks=True,
     ),
     Preset(
         "smooth", "A mesh with a Laplacian",
-        "Farther from the noisy points, nearer to the rabbit: the second curve knows the truth.",
+        "Farther from the noisy points, nearer to the rabbit beside it. But its ears are cut short: smoothness is a belief.",
         SMOOTH, -1, RABBIT,
     ),
     Preset(
@@ -170,6 +177,19 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=CUT,
         unit="°",
         tolerance=20.0,
+        wrong=(
+            (
+                0.0,
+                45.0,
+                "Small turns are the easiest: their neighbours on both sides are asked for nearly the same number.",
+            ),
+            (
+                60.0,
+                120.0,
+                "Nothing happens there: the neighbours of a quarter turn are asked for nearly the same number.",
+            ),
+            (270.0, 360.0, "Signed, no turn is larger than 180°: 270° to the left is 90° to the right."),
+        ),
     ),
     Question(
         "predict-radius",
@@ -181,7 +201,19 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " partners makes a sum of squares least, and all points see the same radii."
         ),
         params=CIRCLE,
-        choices=("one ring of no width", "a band some 0.3 m wide", "points all over, from 0.5 m to 1.5 m"),
+        choices=(
+            "one ring of no width",
+            Choice(
+                "a band some 0.3 m wide",
+                why="A band would hedge its bets, which pays where each point is compared with its"
+                " nearest. Here each has one partner in every circle, on average at the mean radius.",
+            ),
+            Choice(
+                "points all over, from 0.5 m to 1.5 m",
+                why="That is what samples of the circles would be. A point that is"
+                " compared with many circles is pulled to their mean.",
+            ),
+        ),
     ),
     Question(
         "predict-stray",
@@ -195,6 +227,19 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=STRAY,
         unit="%",
         tolerance=15.0,
+        wrong=(
+            (
+                80.0,
+                100.0,
+                "One of 32 points would hardly count in a mean. A maximum takes the largest, whoever has it.",
+            ),
+            (60.0, 79.0, "So much is left where the points are averaged. A maximum does not share the votes out."),
+            (
+                0.0,
+                4.0,
+                "That would be worse than chance. Whoever says the same name to all is right for one shape in five.",
+            ),
+        ),
     ),
     Question(
         "predict-views",
@@ -206,6 +251,15 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f" was never shown have {fixed(_signals(states).unseen, 1)} dB, and that is what counts."
         ),
         params=MANY,
-        choices=("worse", "equally well", "better"),
+        choices=(
+            "worse",
+            Choice(
+                "equally well",
+                why="It has the same grid for twelve times as much to explain: each photograph gets less.",
+            ),
+            Choice(
+                "better", why="More photographs help with what was not shown. What was shown becomes harder to match."
+            ),
+        ),
     ),
 )

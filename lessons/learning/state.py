@@ -13,6 +13,7 @@ from workbench.algorithms.rotation_regression import Compared, Regressed
 from workbench.algorithms.set_regression import SetLearned, SetLoss
 from workbench.data.framing import Upward
 from workbench.data.labelled_shapes import Turned
+from workbench.geometry.meshes import euler_characteristic
 from workbench.knobs import Gizmo, Knob, Pick
 
 Task = Literal["angle", "rotation", "sets", "mesh", "classify", "field"]
@@ -89,14 +90,20 @@ class Target:
     Attributes:
         faces: Of the mesh that is fitted.
         given: Points, with noise.
+        p_true, faces_true: The true surface, a mesh.
         name: What they are of, in sentences.
-        euler: Vertices - edges + faces of that; of a sphere 2.
     """
 
     faces: np.ndarray
     given: np.ndarray
+    p_true: np.ndarray
+    faces_true: np.ndarray
     name: str
-    euler: int = 2
+
+    @property
+    def euler(self) -> int:
+        """Return vertices - edges + faces of the true surface; of a sphere 2."""
+        return euler_characteristic(self.faces_true)
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,8 +18,7 @@ from workbench.data.files import stamp
 from workbench.data.framing import Upward, own_points
 from workbench.data.labelled_shapes import NAMES, labelled_clouds
 from workbench.data.own_meshes import read_welded
-from workbench.data.rabbit import rabbit
-from workbench.geometry.meshes import euler_characteristic
+from workbench.data.rabbit import rabbit, rabbit_mesh
 from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, Decode, random_rotations
 from workbench.geometry.sampling import points_on_faces
 from workbench.geometry.volume_rendering import RayWeights, samples_on
@@ -105,9 +104,9 @@ def _sets(params: Params, functions: Functions, rng: np.random.Generator) -> Ite
 def _mesh(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Target, Now]]:
     ball = surfaces.sphere(VERTICES)
     name = "the rabbit" if params.scan is None else params.scan.name
-    given, truth, euler = _surface(params.scan, params.scan and stamp(params.scan), params.up, params.seed)
+    given, truth, p_true, faces_true = _surface(params.scan, params.scan and stamp(params.scan), params.up, params.seed)
     given = given + params.noise * rng.normal(size=given.shape)
-    target = Target(ball.faces, given, name, euler)
+    target = Target(ball.faces, given, p_true, faces_true, name)
     weights: dict[Term, float] = {"laplacian": params.laplacian, "normal": params.normal, "edge": params.edge}
     for now in fit_mesh(
         START * ball.p,
@@ -123,20 +122,15 @@ def _mesh(params: Params, functions: Functions, rng: np.random.Generator) -> Ite
 
 
 @functools.lru_cache(maxsize=4)
-def _surface(
-    scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed: int
-) -> tuple[np.ndarray, np.ndarray, int]:
-    """Return points of the surface to be fitted, more of them, and its Euler characteristic.
-
-    Cached, as most knobs leave them as they are.
-    """
+def _surface(scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed: int) -> tuple[np.ndarray, ...]:
+    """Return points of the surface to be fitted, more of them, and its mesh: cached, as most knobs leave them alone."""
     rng = np.random.default_rng(1000 + seed)
     if scan is None:
-        return rabbit(GIVEN, rng), rabbit(TRUE, rng), 2
+        return rabbit(GIVEN, rng), rabbit(TRUE, rng), *rabbit_mesh()
     p, faces = read_welded(scan, MOST_OWN, "fitted")
     p = own_points(p, scan, up, OWN_SIZE)
-    given, true = (points_on_faces(p, faces, rng.random((count, 3))) for count in (GIVEN, TRUE))
-    return given, true, euler_characteristic(faces)
+    given, truth = (points_on_faces(p, faces, rng.random((count, 3))) for count in (GIVEN, TRUE))
+    return given, truth, p, faces
 
 
 def _classify(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Clouds, Now]]:

@@ -9,12 +9,13 @@ from workbench.algorithms.radiance_field import Reconstructed
 from workbench.algorithms.rotation_regression import Regressed
 from workbench.algorithms.set_regression import SetLearned
 from workbench.data.labelled_shapes import NAMES
-from workbench.numerals import angle, brief, counted, fixed, percent
+from workbench.numerals import angle, brief, counted, fixed, length, percent
 from workbench.scene import Caption
 
 NEAR, FAR = 15.0, 90.0  # degrees: the worst error of a turn that was learned; of one that was not
 ROUND, SMEARED = 0.02, 0.05  # m: spread of the radii of a circle, and of what is none
 SMOOTH, CRUMPLED = 0.02, 0.2  # shares of folded edges
+WHOLE = 0.05  # m: how far the true surface may be from a mesh that has all of its parts
 KNOWN, LOST = 0.9, 0.6  # shares of clouds named rightly
 CLEAR, BLIND = 18.0, 12.0  # dB of new views
 
@@ -48,14 +49,14 @@ def _told(state: State) -> tuple[str, float, float, float]:
             return text, float(radii.std()), ROUND, SMEARED
         case MeshFitted(), Target():
             text = (
-                f"{done}: {brief(1e6 * now.to_given, 3)} mm² from the given points of {about.name},"
-                f" {brief(1e6 * now.to_truth, 3)} mm² from its true surface (Chamfer). Folded by over 90°:"
-                f" {percent(now.folded)} of the edges."
+                f"{done}: {length(float(np.sqrt(now.to_given)))} from the given points of {about.name},"
+                f" {length(float(np.sqrt(now.to_truth)))} from its true surface (roots of Chamfer), of which some is"
+                f" {length(now.farthest)} from the mesh. Folded by over 90°: {percent(now.folded)} of the edges."
             )
             if about.euler != 2 and now.updates == 0:
                 kind = f"{about.name} is not like a sphere (V − E + F = {about.euler}, not 2)"
                 text = f"{done}, a sphere: it has one piece, no hole and no border, and keeps that. {kind}. What will it do?"
-            return text, now.folded, SMOOTH, CRUMPLED
+            return text, now.folded, SMOOTH if now.farthest <= WHOLE else -1.0, CRUMPLED  # never good without its ears
         case Classified(), Clouds():
             plain, changed = shares_right(now, about)
             if now.updates == 0:
@@ -83,10 +84,10 @@ def _of_turns(params: Params, about: Turns, now: Regressed) -> str:
     mean = f"loss {brief(now.loss, 2)}; wrong by {angle(float(now.errors.mean()))} on average"
     if now.updates == 0:
         return f"{mean}."
-    of = "a turn of" if params.task == "angle" else "one of the turns by"
+    of = "a turn of" if params.task == "angle" else "a rotation by"
     return (
-        f"{mean}, at most by {angle(float(now.errors[worst]))}, at {of} {fixed(float(about.degrees[worst]), 0)}°."
-        f" At the picked {fixed(float(about.degrees[k]), 0)}°: {angle(float(now.errors[k]))}."
+        f"{mean}, at most by {angle(float(now.errors[worst]))}, for {of} {fixed(float(about.degrees[worst]), 0)}°."
+        f" For the picked one, {fixed(float(about.degrees[k]), 0)}°: {angle(float(now.errors[k]))}."
     )
 
 

@@ -48,6 +48,13 @@ def to_given(state: Any) -> float:
     return float((D.min(axis=1) ** 2).mean() + (D.min(axis=0) ** 2).mean())
 
 
+def farthest(state: Any) -> float:
+    """How far the true surface is from the mesh where it is farthest, m: from the vertices of a rabbit, by trimesh."""
+    mesh = trimesh.Trimesh(state.now.p, state.about.faces, process=False)
+    q = trimesh.sample.sample_surface(mesh, 6000, seed=5)[0]
+    return float(np.max(scipy.spatial.KDTree(q).query(state.about.p_true)[0]))
+
+
 def named(state: Any, which: str) -> float:
     """The share of test clouds that are named rightly, one by one."""
     clouds = getattr(state.about, which)

@@ -225,10 +225,12 @@ def four_times_too_far(run: Run, k: int, found: re.Match[str]) -> bool:
 
 LINES = {
     "spheres": (
-        Claim("over 70 % wrong", lambda run, k, _: wrong(of_stage(run, Stage.COMPARE)) > 70),
-        Claim("leave about a tenth", lambda run, k, _: 8.5 < wrong(of_stage(run, Stage.AGGREGATE)) < 12.5),
+        Claim("74 % are wrong", lambda run, k, _: abs(wrong(of_stage(run, Stage.COMPARE)) - 74) < 1),
+        Claim("leave 12 %", lambda run, k, _: abs(wrong(of_stage(run, Stage.AGGREGATE)) - 12) < 1),
         Claim("the paths 2 %", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 2) <= 0.7),
-        Claim("the check finds most of what is hidden", lambda run, k, _: given_up_of_hidden(run) > 0.6),
+        Claim(
+            "The check finds four fifths of what is hidden", lambda run, k, _: abs(given_up_of_hidden(run) - 0.8) < 0.04
+        ),
     ),
     "textureless": (
         Claim("On the bare wall the cost curve is flat", flat),
@@ -240,7 +242,10 @@ LINES = {
     ),
     "repeated": (
         Claim("Stripes 6 px apart give the curve a valley every 6 px", valleys),
-        Claim("on most of the pattern a wrong one wins", lambda run, k, _: off_in(run.states[CHOSEN], STRIPES) > 0.5),
+        Claim(
+            "on four fifths of the pattern a wrong one wins",
+            lambda run, k, _: abs(off_in(run.states[CHOSEN], STRIPES) - 0.8) < 0.04,
+        ),
     ),
     "repeated-paths": (
         Claim("hardly a stripe stays wrong", lambda run, k, _: off_in(run.states[CHOSEN], STRIPES) < 0.05),
@@ -251,7 +256,10 @@ LINES = {
             lambda run, k, _: not run.states[0].setup.pair.visible[10:110, 71:76].any(),
         ),
         Claim("No answer there is right", None),
-        Claim("the check gives up most of it, not all", lambda run, k, _: 0.6 < given_up_of_hidden(run) < 1.0),
+        Claim(
+            "The check gives up about four fifths of it, not all",
+            lambda run, k, _: abs(given_up_of_hidden(run) - 0.8) < 0.05,
+        ),
     ),
     "window-3": (
         Claim("about a third of the map is wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 100 / 3) < 5),
@@ -278,19 +286,19 @@ LINES = {
     "darker": (
         Claim("The right picture is darker", None),
         Claim("Another exposure changes every grey value by 30 %", darker),
-        Claim("over 90 % of the map is wrong", lambda run, k, _: wrong(run.states[CHOSEN]) > 90),
+        Claim("94 % of the map is wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 94) < 1.5),
     ),
     "darker-census": (Claim("about 2 % are wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 2) < 1),),
     "exchanged": (
-        Claim("over 90 % of the map is wrong", lambda run, k, _: wrong(run.states[CHOSEN]) > 90),
+        Claim("94 % of the map is wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 94) < 1.5),
         Claim("With left and right exchanged", None),
     ),
     "rows-off": (
         Claim("The right picture is 2 rows too low", rows_off),
-        Claim("most is wrong", lambda run, k, _: wrong(run.states[CHOSEN]) > 55),
+        Claim("two thirds are wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 100 * 2 / 3) < 5),
     ),
     "motorcycle": (
-        Claim("Over 90 % of what both see is right", lambda run, k, _: wrong(run.states[CHOSEN]) < 10),
+        Claim("94 % of what both see is right", lambda run, k, _: abs(100 - wrong(run.states[CHOSEN]) - 94) < 1),
         Claim("a quarter of their size", lambda run, k, _: run.states[0].setup.left.shape[1] == 741 // 4),
     ),
     "f-not-rescaled": (Claim("everything is 4 times too far", four_times_too_far),),

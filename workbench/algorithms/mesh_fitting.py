@@ -24,7 +24,7 @@ from workbench.geometry.mesh_energies import (
 )
 from workbench.geometry.meshes import edges as edges_of
 from workbench.geometry.sampling import places_on_faces, points_on_faces
-from workbench.geometry.shape_distances import chamfer, chamfer_gradient
+from workbench.geometry.shape_distances import chamfer, chamfer_gradient, nearest_both_ways
 from workbench.tracing import traced
 
 Term = Literal["laplacian", "normal", "edge"]
@@ -42,6 +42,7 @@ class MeshFitted:
         p: Its vertices.
         to_given: Chamfer distance of many points on it to the given points, m².
         to_truth: The same to points on the true surface; NaN where none are known.
+        farthest: How far the true surface is from the mesh where it is farthest, m; NaN where it is not known.
         folded: The share of its edges that are folded by more than a right angle.
     """
 
@@ -50,6 +51,7 @@ class MeshFitted:
     p: Float[np.ndarray, "v 3"]
     to_given: float
     to_truth: float
+    farthest: float
     folded: float
 
 
@@ -97,11 +99,13 @@ def fit_mesh(
 
     for updates, loss in descend(p, gradient, counts, RATE):
         q = points_on_faces(p, faces, u)
+        off = nearest_both_ways(q, truth) if len(truth) else None
         yield MeshFitted(
             updates=updates,
             loss=loss,
             p=p.copy(),
             to_given=chamfer(q, given),
-            to_truth=chamfer(q, truth) if len(truth) else float("nan"),
+            to_truth=off.chamfer() if off else float("nan"),
+            farthest=float(off.d_b.max()) if off else float("nan"),
             folded=float((fold_angles(p, faces, pairs) > np.pi / 2).mean()),
         )
