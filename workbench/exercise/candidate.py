@@ -13,6 +13,9 @@ from workbench.exercise.sandbox import StudentError
 
 MOST_SHOWN = 12
 """How many numbers a call may have that is shown to the student."""
+LARGEST = 1e60
+"""How large a number of an answer may be, where the right ones are no larger than 1: squares and products of three such
+numbers are finite still, so that no check takes an overflow for a small distance."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,14 +165,28 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
     if wanted.dtype.kind == "b" and got.dtype.kind != "b":
         raise StudentError(f"{name} returned {got.dtype} values; the contract asks for true or false", "result")
     plain = got.astype({"b": np.bool_, "i": np.int64, "u": np.int64}.get(wanted.dtype.kind, np.float64))
-    if wanted.dtype.kind == "f" and np.isfinite(wanted).all() and not np.isfinite(plain).all():
-        strange = plain[~np.isfinite(plain)]
-        at = tuple(int(i) for i in np.argwhere(~np.isfinite(plain))[0])
-        what = f"{plain}" if plain.ndim == 0 else f"{len(strange)} of {plain.size} values not finite"
-        where = f"[{', '.join(map(str, at))}]" if at else "yours"
-        said = f"the contract asks for finite numbers. {where} is {plain[at]}, right is {number(wanted[at])}"
-        raise StudentError(f"{name} returned {what}; {said}", "result")
+    if wanted.dtype.kind == "f":
+        _must_be_judgeable(plain, wanted, name)
     return plain if isinstance(expected, np.ndarray) else plain.item()
+
+
+def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:
+    """Raise StudentError where a number that should be finite is not, or is too large to be computed with."""
+    known = np.isfinite(wanted)
+    finite = np.isfinite(got)
+    most = LARGEST * np.abs(wanted[known]).max(initial=1.0)
+    if known.all() and not finite.all():
+        strange, asked = ~finite, "finite numbers"
+        what = f"{got}" if got.ndim == 0 else f"{strange.sum()} of {got.size} values not finite"
+    elif np.abs(got[finite]).max(initial=0.0) > most:
+        strange, asked = finite & (np.abs(got) > most), "numbers that can be computed with"
+        what = f"{got}" if got.ndim == 0 else f"{strange.sum()} of {got.size} values too large to be judged"
+    else:
+        return
+    at = tuple(int(i) for i in np.argwhere(strange)[0])
+    where = f"[{', '.join(map(str, at))}]" if at else "yours"
+    said = f"the contract asks for {asked}. {where} is {got[at]}, right is {number(wanted[at])}"
+    raise StudentError(f"{name} returned {what}; {said}", "result")
 
 
 def _asked(args: tuple[Any, ...]) -> str:

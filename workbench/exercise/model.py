@@ -52,9 +52,11 @@ def fail(message: str) -> Verdict:
 
 
 def band(what: str, value: float, unit: str, *, good: float, fair: float, hint: str) -> Verdict:
-    """Judge a number that should be small: all points up to `good`, half up to `fair`, none beyond or where it is NaN."""
+    """Judge a number that should be small: all points up to `good`, half up to `fair`, none beyond or if not finite."""
     shown = f"{what} {number(value, 3)} {unit}".rstrip()
     limit = f"{brief(good)} {unit}".rstrip()
+    if not math.isfinite(value):
+        return fail(f"{shown}, which is no number to judge. {hint}")
     if value <= good:
         return full(f"{shown}, within {limit}.")
     if value <= fair:

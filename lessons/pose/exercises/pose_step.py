@@ -75,6 +75,8 @@ def arrived(
         T = candidate(T, p_world, xy)
         if not np.abs(T).max() < 1e9:
             return fail(f"The steps run away: the largest number of T is {number(np.abs(T).max(), 2)}. {HINT}")
+        if not 0.5 < np.linalg.det(T[:3, :3]) < 2:  # all points on one, or behind each other: nothing to step from
+            return motion_verdict(T, right, f"That is what a step gave. {HINT}", p=p_world)
     return motion_verdict(T, right, f"T is the pose after {steps} steps. {HINT}", p=p_world)
 
 
