@@ -212,9 +212,9 @@ def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
 
 
 def _all_turned(subject: Subject, fields: list[Field], base: Any, plain: Timeline) -> bool:
-    """Whether knobs that are turned together, to each of their ends once, change a run."""
-    values = {field.name: ends(field) for field in fields}
-    for k in range(max(map(len, values.values()))):
+    """Whether knobs that are turned together, to each of their ends once, change a run; own files have no ends."""
+    values = {field.name: ends(field) for field in fields if field.kind != "path"}
+    for k in range(max(map(len, values.values()), default=0)):
         all_at = {name: several[k % len(several)] for name, several in values.items()}
         if _effect(plain, subject.fresh(replace(base, **all_at), "a run with idle knobs turned", MOST_STEPS)):
             return True
