@@ -11,7 +11,7 @@ from workbench.scene import Chart, Curve, Primitive, Table
 CM2 = 1e4  # square centimetres in a square metre
 ROUNDING = 1e-16  # below this share nothing is left off the diagonal
 BINS = np.arange(0.0, 181.0, 10.0)
-OFF, TO_AXES = Chart("Off the diagonal", unit="of the whole"), Chart("Frame to the axes", unit="deg")
+OFF, TO_AXES = Chart("Off the diagonal", unit="of the norm"), Chart("Frame to the axes", unit="deg")
 OF_AXES, OF_H = Chart("Variance of each axis", "axis", "cm²"), Chart("Singular values of H", "direction", "cm²")
 BY_DIRECTION = Chart("Variance by direction", "angle in the plane (deg)", "cm²")
 ENDS = Chart("Where many turns end", "rotation error (deg)", "turns")

@@ -7,7 +7,7 @@ import numpy as np
 
 from lessons.alignment.state import AxesState, PairsState, Params, State, Turns
 from workbench.certain import as_a, sure
-from workbench.lesson import Preset, Question, View
+from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import counted, fixed, length, percent
 
 HOME = Params()
@@ -80,7 +80,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "stray", "One stray point",
-        "One point of 1,501 lies 2 m away. The axes hardly move, but the signs are made of cubes.",
+        "One point of 1,501 lies 2 m away. Axis 1 moves by 2° only, but the signs are made of cubes.",
         Params(stray=(0.0, 2.0, 0.0)), POSE, breaks=True,
     ),
     Preset(
@@ -123,7 +123,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "scale-clean", "Noise in the first scan only",
-        "Now the noise is where least squares expects it: the scale is 1.5 again, to 1 %. The ratio of sizes is not.",
+        "Now the noise is where least squares expects it: the scale is 1.50 again. The ratio of sizes is not.",
         replace(SCALE, noisy="target"), -1, LARGE,
     ),
 )  # fmt: skip
@@ -179,6 +179,15 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=HOME,
         step=10,
         tolerance=2.0,
+        wrong=(
+            (
+                1,
+                4,
+                "There are three entries, but a rotation brings the earlier ones back, smaller. Each has to be made zero"
+                " more than once.",
+            ),
+            (15, 200, "It is much faster: once the entries are small, three rotations square what is left."),
+        ),
     ),
     Question(
         "predict-frames",
@@ -191,6 +200,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=replace(HOME, turn=60.0),
         step=POSE,
         tolerance=0.5,
+        wrong=(
+            (1, 1, "As lines they are given, but each line has two ends, and nothing says which one is the tip."),
+            (2, 2, "Front and back is one choice of two. A second axis has two ends as well."),
+            (8, 8, "Three lines with two ends each make eight, but half of these are left-handed."),
+        ),
     ),
     Question(
         "predict-signs",
@@ -205,6 +219,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         step=TURNS,
         unit="%",
         tolerance=8.0,
+        wrong=(
+            (0, 10, "Some come home by chance: four frames are possible, and one of them is right."),
+            (45, 55, "There are two signs to get right, those of axes 1 and 2. Half of a half is a quarter."),
+            (90, 100, "The rule gives the same signs for the same numbers, but a turn changes the numbers."),
+        ),
     ),
     Question(
         "predict-negated",
@@ -218,7 +237,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=NEGATED,
         step=FLIP,
         unit="m",
-        tolerance=0.12,
+        tolerance=0.1,
+        wrong=(
+            (0.0, 0.34, "The least direction is the cheapest, and now two dearer ones are turned round as well."),
+            (
+                0.45,
+                0.55,
+                "That counts three directions of the same cost, √3 · 0.29 m. The others cost more than the least.",
+            ),
+            (0.85, 0.9, "Three times 0.29 m: but squares are added, not lengths, and the three do not cost the same."),
+        ),
     ),
     Question(
         "predict-product",
@@ -227,6 +255,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=lambda states: float(np.digitize(product(states), [0.98, 1.02])),
         why=_why_product,
         params=SCALE,
-        choices=("less than 1", "1, one being the inverse of the other", "more than 1"),
+        choices=(
+            Choice("less than 1"),
+            Choice(
+                "1, one being the inverse of the other",
+                "It would be so without noise. Each fit blames the noise on the other scan, so the two fits differ.",
+            ),
+            Choice(
+                "more than 1",
+                "Noise makes each scan look larger, but as the scan that is moved, which is then scaled down.",
+            ),
+        ),
     ),
 )

@@ -34,8 +34,8 @@ def _of_axes(state: AxesState) -> Caption:
         return Caption(_of_cloud(state) if moment == "cloud" else _of_centroid(state))
     if moment == "covariance":
         return Caption(
-            "The covariance as an ellipsoid, two standard deviations large. In the axes x, y, z of the scan its"
-            f" entries off the diagonal are {part(now.off)} of the whole."
+            "The covariance as an ellipsoid, two standard deviations large. In the axes x, y, z of the scan, the norm of"
+            f" its entries off the diagonal is {part(now.off)} of the norm of all."
         )
     if moment == "rotation":
         return Caption(_of_rotation(state))
@@ -84,7 +84,7 @@ def _of_rotation(state: AxesState) -> str:
     was = np.linalg.norm(before - np.diag(np.diag(before))) / np.linalg.norm(before)
     return (
         f"Rotation {state.rotations}: the frame turns by {angle(abs(np.degrees(now.angle)))} in its {i}-{j} plane, to where"
-        f" variance is largest and least. Off the diagonal {part(float(was))} → {part(now.off)}."
+        f" variance is largest and least. Off the diagonal, as a share of the norm: {part(float(was))} → {part(now.off)}."
     )
 
 

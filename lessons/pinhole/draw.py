@@ -117,7 +117,10 @@ def _ways(
     colors = np.array([PALETTE[role] for role in roles], np.uint8)
     parts: dict[str, Primitive] = {path: Segments(segments(corners), colors, 4, T_world_camera, name=name)}
     for i, (role, axis, way) in enumerate(zip(roles, "ZXY", (z, x, y), strict=True)):
-        parts[f"{path}/{axis}"] = Label(f"{axis} = {depth(way)}", corners[i : i + 2].mean(axis=0), role, T_world_camera)
+        at = corners[i : i + 2].mean(axis=0)
+        if axis == "Z" and z < 0:  # far behind the camera nobody sees it
+            at = np.array([0.0, 0.0, max(z / 2, -1.0)])
+        parts[f"{path}/{axis}"] = Label(f"{axis} = {depth(way)}", at, role, T_world_camera)
     return parts
 
 

@@ -5,7 +5,7 @@ import functools
 import numpy as np
 
 from lessons.transforms.state import FRONT, Body, Built, Ghost, Moved, State
-from lessons.transforms.words import caption_of_build, caption_of_move
+from lessons.transforms.words import caption_of_build, caption_of_move, times
 from workbench.data.framing import ground_grid
 from workbench.geometry.affine import decompose, is_affine, kind_of, transform, transform_directions, translation
 from workbench.geometry.invariants import Change
@@ -218,9 +218,8 @@ def _amount(change: Change) -> str:
     if change.name == "orientation":
         return "flipped"
     if change.unit == "rad":
-        return f"up to {angle(np.degrees(change.amount))}"
-    most = "up to " if change.name == "edge lengths" else ""  # area and volume are one number each
-    return f"{most}{percent(change.amount)}"
+        return f"by up to {angle(np.degrees(change.amount))}"
+    return f"by up to {percent(change.amount)}" if np.isnan(change.factor) else times(change.factor)
 
 
 def _invariants(state: State) -> Table:

@@ -8,7 +8,7 @@ from lessons.transforms.body import numbers_of
 from lessons.transforms.compare import in_degrees
 from lessons.transforms.state import Built, Moved, Params, State
 from workbench.geometry.rotations import euler_axes, triple_past_lock
-from workbench.lesson import Preset, Question, View
+from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import angle, fixed, length, percent
 
 VIEW = View(eye=(2.6, -3.9, 2.2), target=(0.85, 0.2, 0.32), grid=None, axes=False)
@@ -72,7 +72,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "inverse", "Undo with (Rᵀ, −t)", "The translation must be turned back too: (Rᵀ, −Rᵀt) returns to the start. After"
-        " this quarter turn (Rᵀ, −t) misses it by more than |t|.",
+        " this quarter turn (Rᵀ, −t) misses it by 1.97 m, farther than t is long (1.42 m).",
         INVERSE, -1, breaks=True,
     ),
     Preset(
@@ -171,6 +171,21 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="m",
         tolerance=0.15,
         step=-2,
+        wrong=(
+            (
+                0.0,
+                0.1,
+                "They would agree if the order did not matter. A turn is about the world's origin: it carries along"
+                " what was moved before.",
+            ),
+            (
+                1.4,
+                1.6,
+                "That is how far each of the two is from the origin. They lie at right angles to each other as seen"
+                " from there.",
+            ),
+            (2.9, 3.1, "That would be so after half a turn: then the two lie on opposite sides of the origin."),
+        ),
     ),
     Question(
         "lost-direction",
@@ -181,7 +196,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f" lost direction needs a jump from (30, 90, 50)° to {in_degrees(jump_out_of_lock())}."
         ),
         params=GIMBAL,
-        choices=("1", "2", "3"),
+        choices=(
+            Choice(
+                "1",
+                "Only the first and the third angle turn about the same line. The second still has a line of its own.",
+            ),
+            Choice("2"),
+            Choice(
+                "3", "Three numbers are not yet three directions: at this pitch two of them turn about the same line."
+            ),
+        ),
         step=-2,
     ),
     Question(
@@ -193,7 +217,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f" det = {fixed(float(np.linalg.det(complete(states).T[:3, :3])), 2)}."
         ),
         params=SHEAR,
-        choices=("It shrinks", "It stays", "It grows"),
+        choices=(
+            Choice("It shrinks", "Its upright edges lean and look squeezed, but base and height are what they were."),
+            Choice("It stays"),
+            Choice("It grows", "Its upright edges get longer, but base and height are what they were."),
+        ),
         step=1,
     ),
     Question(
@@ -207,6 +235,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=AVERAGE,
         unit="deg",
         tolerance=10.0,
+        wrong=(
+            (0.0, 10.0, "The house does turn: the two headings are 20° apart."),
+            (
+                15.0,
+                25.0,
+                "That is the shortest turn, through 180°. The number knows nothing of it: it runs from 170 down to"
+                " −170.",
+            ),
+            (160.0, 185.0, "That is half of the way: 170 to 0. The number goes on from 0 to −170."),
+        ),
     ),
     Question(
         "mean-matrix",
@@ -219,7 +257,25 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=ENTRIES,
         unit="%",
-        tolerance=5.0,
+        tolerance=2.0,
         step=15,
+        wrong=(
+            (
+                6.0,
+                12.0,
+                "Every length across the axis shrinks to 8.7 %. There are two such directions, so the volume shrinks"
+                " to the square.",
+            ),
+            (
+                40.0,
+                60.0,
+                "The entries are halved between two opposite values, and those cancel nearly: little is left of them.",
+            ),
+            (
+                90.0,
+                100.0,
+                "It would keep all of it if the average were a rotation. The average of two rotation matrices is none.",
+            ),
+        ),
     ),
 )

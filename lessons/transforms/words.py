@@ -22,6 +22,8 @@ _HOW: dict[Method, str] = {
     "screw": "here one screw turns and slides at constant speed",
 }
 
+TAKEN_BACK = ("nothing", "undo by (Rᵀ, −t)", "undo all as if rigid")  # what such runs are about
+
 
 def caption_of_build(state: Built) -> Caption:
     """Say what the newest factor did, and how the second reading compares once the map is complete."""
@@ -112,10 +114,36 @@ def _turn_caption(state: Built, moved: float, turned: str, point: int) -> Captio
 
 def _undo_caption(state: Built) -> Caption:
     if state.left < SAME:
-        n = len(state.body.solid.p)
-        return Caption(f"Taken back with (Rᵀ, −Rᵀt): all {n:,} vertices are where they were before the motion.", "good")
+        text = f"Taken back with (Rᵀ, −Rᵀt): all {len(state.body.solid.p):,} vertices are where they were before the motion."
+        stays = _shape_that_stays(state)
+        return Caption(text + stays, "good" if not stays and state.params.compare in TAKEN_BACK else "info")
     text = f"Taken back by the given inverse: the farthest vertex is {length(state.left)} from where it was before"
     return Caption(f"{text} the motion.", "wrong")
+
+
+def _shape_that_stays(state: Built) -> str:
+    """Say what the inverse of the motion leaves as it is: what was done to the shape before."""
+    params = state.params
+    done = [
+        name
+        for name, applied in (
+            ("scale", params.scale != (1.0, 1.0, 1.0)),
+            ("shear", params.shear != 0.0),
+            ("division by w", params.perspective != 0.0),
+            ("reflection", params.mirror != "none"),
+        )
+        if applied
+    ]
+    if not done:
+        return ""
+    volume = next((change for change in state.by_all if change.name == "volume" and not change.kept), None)
+    size = "" if volume is None else f", and with it the volume {times(volume.factor)}"
+    return f" The {' and the '.join(done)} came before it and {'stays' if len(done) == 1 else 'stay'}{size}."
+
+
+def times(factor: float) -> str:
+    """Write what an area or volume is multiplied by."""
+    return f"× {fixed(factor, 2) if factor >= 0.1 else brief(factor, 2)}"
 
 
 def _lock_words(state: Built) -> str:

@@ -208,6 +208,20 @@ class TestQuestions:
         assert answers["predict-negated"] == pytest.approx(0.737, abs=1e-3)
         assert answers["predict-product"] == 0
 
+    def test_known_wrong_answers_are_answered_and_not_right(self):
+        asked = {q.name: q for q in lesson.questions}
+        for name, wrong in (
+            ("predict-rotations", (3, 20)),
+            ("predict-frames", (1, 2, 8)),
+            ("predict-signs", (0, 50, 100)),
+            ("predict-negated", (0.29, 0.5, 0.87)),
+        ):
+            right = asked[name].answer(states(asked[name].params))
+            for given in wrong:
+                assert asked[name].reply(given), (name, given)
+                assert abs(given - right) > asked[name].tolerance
+        assert [bool(asked["predict-product"].reply(i)) for i in range(3)] == [False, True, True]
+
     def test_the_many_turns_are_what_their_picture_shows(self):
         for name in ("signs", "vase"):
             state = preset(name)[-1]
@@ -275,7 +289,11 @@ class TestPicture:
 
     def test_captions_carry_their_numbers(self):
         assert "34.4° in its y-z plane" in caption(HOME, 3)
-        assert "31 % → 15 %" in caption(HOME, 3)
+        assert "as a share of the norm: 31 % → 15 %" in caption(HOME, 3)
+        C = np.cov(states(HOME)[2].scans.p_source.T, bias=True)
+        share = np.linalg.norm(C - np.diag(np.diag(C))) / np.linalg.norm(C)  # of the sums of squares it is 10 %
+        assert f"off the diagonal is {100 * share:.0f} % of the norm of all" in caption(HOME, 2)
+        assert round(100 * share**2) == 10
         assert "nothing but rounding" in caption(HOME, 10)
         mirrored = lesson.preset("mirrored").params
         assert length(states(mirrored)[5].now.rmse) in caption(mirrored, 5)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lessons.transforms.body import numbers_of
-from lessons.transforms.experiments import directions_left, halfway
+from lessons.transforms.experiments import ENTRIES, directions_left, halfway
 from lessons.transforms.lesson import lesson
 from lessons.transforms.state import Compare, Method, Params
 from tests.lessons.transforms_runs import MOVE, built, exp_axis, moved, opened, opened_at, preset, survivors, timeline
@@ -21,7 +21,7 @@ from workbench.geometry.rotations import (
     rotation_from_axis_angle,
     triple_past_lock,
 )
-from workbench.scene import Segments, caption_of, is_rigid
+from workbench.scene import Segments, Table, caption_of, is_rigid
 
 # building -------------------------------------------------------------------------------------------------------------
 
@@ -268,6 +268,47 @@ def test_a_screw_takes_the_origin_along_an_arc():
     np.testing.assert_allclose(lerp, straight, atol=1e-12)
     steps = [b.T_world_body @ inverse(a.T_world_body) for a, b in itertools.pairwise(states)]
     np.testing.assert_allclose(steps, np.broadcast_to(steps[0], (len(steps), 4, 4)), atol=1e-12)  # one screw all along
+
+
+def test_areas_and_volumes_are_said_as_factors():
+    """A volume of "40 %" was meant as changed by that, where the captions mean left over."""
+    rows = {row[0]: row[1:] for row in survives(Params(), 1)}
+    assert rows["volume"] == ("× 1.40", "× 1.40")
+    assert rows["area"][0] == "× 1.28"
+    assert rows["edge lengths"][0] == "by up to 40 %"
+    middle = {row[0]: row[1:] for row in survives(ENTRIES, 15)}
+    assert middle["volume"] == ("× 0.0076",)
+    assert "the volume is 0.76 % of the start's" in timeline(ENTRIES)[15].caption.text
+
+
+def survives(params: Params, k: int):
+    tables = [one for one in timeline(params)[k].scene.values() if isinstance(one, Table)]
+    return next(table.rows for table in tables if table.title == "What survives")
+
+
+@pytest.mark.parametrize("params", [Params(), *(p.params for p in lesson.presets if p.params.half == "build a map")])
+def test_the_last_step_says_what_is_not_taken_back(params):
+    """All vertices were called back in green above a house 1.4 times as high as the first."""
+    last = timeline(params)[-1]
+    first, now = (step.state for step in (timeline(params)[0], last))
+    lies = np.allclose(now.T, np.eye(4)) and np.allclose(first.T, np.eye(4))
+    assert lies == ("came before it and stay" not in last.caption.text)
+    if last.caption.tone == "good":
+        assert lies
+
+
+def test_known_wrong_answers_are_answered_and_not_right():
+    asked = {question.name: question for question in lesson.questions}
+    right = {name: question.answer(timeline(question.params).states()) for name, question in asked.items()}
+    for name, given in (
+        ("which-order", (0.0, 1.5, 3.0)), ("mean-heading", (0.0, 20.0, 170.0)), ("mean-matrix", (8.7, 50.0, 100.0))
+    ):  # fmt: skip
+        for number in given:
+            assert asked[name].reply(number), (name, number)
+            assert abs(number - right[name]) > asked[name].tolerance
+    for question in lesson.questions:
+        for i, choice in enumerate(question.choices):
+            assert bool(question.reply(i)) == (i != right[question.name]), choice
 
 
 def test_all_ways_survive_half_a_turn():

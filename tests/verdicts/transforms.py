@@ -170,6 +170,19 @@ def _best_of_all(run: Run, k: int, m: re.Match[str]) -> bool:
     return bool(all(((R.apply(p) - q) ** 2).sum() >= best - SMALL for R in tried))
 
 
+def _stays(run: Run, k: int, m: re.Match[str]) -> bool:
+    """The last body does not lie on the first, by the factors that are named, and has so much of its volume."""
+    p, params = run.states[0].body.solid.p, run.params
+    named = {"scale": params.scale != (1, 1, 1), "shear": params.shear != 0, "division by w": params.perspective != 0,
+             "reflection": params.mirror != "none"}  # fmt: skip
+    grown = abs(volume(run, k) / volume(run, 0))
+    size = abs(grown - 1) < SMALL if m[2] is None else says(m[2], grown)
+    apart_by = farthest(product(run, k), np.eye(4), p)
+    return (
+        m[1].split(" and the ") == [name for name, is_there in named.items() if is_there] and size and apart_by > 0.01
+    )
+
+
 CAPTIONS = (
     Claim("Beside it: best rigid motion", _best_of_all),
     Claim(rf"The \S+ before anything is done: ({NUMBER}) vertices, volume ({NUMBER}) m³; T is the identity", _start),
@@ -199,6 +212,7 @@ CAPTIONS = (
         rf"all ({NUMBER}) vertices are where they were before the motion",
         lambda run, k, m: left_after_undo(run) < SMALL and number(m[1]) == len(run.states[0].body.solid.p),
     ),
+    Claim(rf"The (.*?) came before it and stays?(?:, and with it the volume × ({NUMBER}))?\.", _stays),
     Claim(
         rf"leaves its farthest vertex ({LENGTH}) off",
         lambda run, k, m: says_length(m[1], farthest(*wrong_undo(run), run.states[0].body.solid.p)),
@@ -282,7 +296,8 @@ def _misread(run: Run, k: int, m: re.Match[str]) -> bool:
 def _misses_by_more(run: Run, k: int, m: re.Match[str]) -> bool:
     t = float(np.linalg.norm(run.params.pose[:3]))
     quarter = abs(turn_between(np.eye(4), motion_of(run.params)) - 90) < SMALL
-    return quarter and farthest(*wrong_undo(run), run.states[0].body.solid.p) > t
+    off = farthest(*wrong_undo(run), run.states[0].body.solid.p)
+    return quarter and says(m[1], off) and says(m[2], t) and off > t
 
 
 def _pace(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -320,7 +335,10 @@ LINES = {
         turn_between(motion_of(run.params), run.states[complete_at(run)].ghosts[0].T), 80)),),
     "inverse": (
         Claim(r"\(Rᵀ, −Rᵀt\) returns to the start", lambda run, k, m: left_after_undo(run) < SMALL),
-        Claim(r"this quarter turn \(Rᵀ, −t\) misses it by more than \|t\|", _misses_by_more),
+        Claim(
+            rf"this quarter turn \(Rᵀ, −t\) misses it by ({NUMBER}) m, farther than t is long \(({NUMBER}) m\)",
+            _misses_by_more,
+        ),
     ),
     "hidden-scale": (Claim("the house ends 1.3² = 1.69 times as long, wide and high", _grown),),
     "xyzw": (Claim("a turn of 40° about z has become one of 140° about x", _misread),),

@@ -41,12 +41,14 @@ class Change:
     """One measure before and after.
 
     `amount` is 0 where nothing changed: the largest relative change of a length, area or volume (1 is 100 %), or the
-    largest change of an angle, in radians; for the orientation 1 means that it flipped.
+    largest change of an angle, in radians; for the orientation 1 means that it flipped. `factor` is what an area or volume
+    was multiplied by, NaN for measures that are more than one number.
     """
 
     name: str
     amount: float
     unit: str = ""
+    factor: float = float("nan")
 
     @property
     def kept(self) -> bool:
@@ -73,12 +75,16 @@ def changes(before: Measures, after: Measures) -> tuple[Change, ...]:
         Change("edge lengths", float(stretch.max())),
         Change("angles", angle, "rad"),
         Change("parallel edges", _spread(before.directions, after.directions), "rad"),
-        Change("area", abs(after.area / before.area - 1.0)),
+        _scaled("area", after.area / before.area),
     ]
     if np.isfinite(before.volume):
-        found.append(Change("volume", abs(abs(after.volume / before.volume) - 1.0)))
+        found.append(_scaled("volume", abs(after.volume / before.volume)))
         found.append(Change("orientation", float(np.sign(before.volume) != np.sign(after.volume))))
     return tuple(found)
+
+
+def _scaled(name: str, factor: float) -> Change:
+    return Change(name, abs(factor - 1.0), factor=factor)
 
 
 def _spread(before: np.ndarray, after: np.ndarray) -> float:
