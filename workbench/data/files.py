@@ -341,16 +341,13 @@ def text_rows(path: Path, what: str, kinds: tuple[str, ...] | None, comments: st
     stamp(path)
     if kinds is not None and path.suffix.lower() not in kinds:
         raise InputError(f"{path.name}: {what} are read from text files ({', '.join(kinds)})")
-    try:
-        text = text_of(path.read_bytes(), path.name)
-    except OSError as error:
-        raise InputError(f"{path.name}: not readable ({type(error).__name__})") from None
-    most = allowance().lines
-    if text.count("\n") > most:
-        said = f"{text.count(chr(10)):,} lines; {what} are read from at most {most:,}"
-        raise InputError(f"{path.name}: {said}{allowance().more}")
-    lines = text.splitlines()
-    return [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] not in comments]
+    text = text_of(_content(path)[0], path.name)
+    most, count = allowance().lines, text.count("\n")
+    if count > most:
+        raise InputError(f"{path.name}: {count:,} lines; {what} are read from at most {most:,}{allowance().more}")
+    return [
+        (i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip() and line.lstrip()[0] not in comments
+    ]
 
 
 def word_rows(path: Path, what: str, kinds: tuple[str, ...] | None) -> list[tuple[int, list[str]]]:
