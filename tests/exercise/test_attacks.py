@@ -2,8 +2,10 @@
 
 import json
 import os
+import resource
 import socket
 import struct
+import subprocess
 import textwrap
 import time
 from collections.abc import Iterable
@@ -46,7 +48,7 @@ def submitted(body: str, head: str = "") -> Submission:
 
 
 class Teacher:
-    """A teacher's machine: a file that is nobody's business, a result, and somebody who listens."""
+    """A teacher's machine: a file that is nobody's business, a result, another process, and somebody who listens."""
 
     def __init__(self, folder: Path):
         self.folder, self.secret, self.results = folder, folder / "secret.txt", folder / "students.json"
@@ -54,16 +56,32 @@ class Teacher:
         self.results.write_text('{"points": 0}')
         self.listening = socket.create_server(("127.0.0.1", 0))
         self.listening.setblocking(False)
+        self.victim = subprocess.Popen(["/bin/sleep", "600"], start_new_session=True)
+
+    def close(self):
+        self.listening.close()
+        self.victim.kill()
+        self.victim.wait()
 
     def told(self, body: str) -> str:
         names = {"secret": str(self.secret), "results": str(self.results), "folder": str(self.folder)}
-        return body.format(**names, lessons=str(LESSONS), pid=os.getpid(), port=self.listening.getsockname()[1])
+        processes = {"pid": os.getpid(), "victim": self.victim.pid}
+        port = self.listening.getsockname()[1]
+        return body.format(**names, **processes, lessons=str(LESSONS), port=port)
 
     def seen(self) -> dict[str, tuple]:
         return {
             path.name: (path.read_bytes(), path.stat().st_mode, path.stat().st_uid, int(path.stat().st_mtime))
             for path in sorted(self.folder.iterdir())
         }
+
+    def other(self) -> list[Any]:
+        """How the other process is, and how it is treated."""
+        if self.victim.poll() is not None:
+            return ["dead"]
+        pid = self.victim.pid
+        treated = [os.sched_getscheduler(pid), os.getpriority(os.PRIO_PROCESS, pid), os.sched_getaffinity(pid)]
+        return [*treated, resource.prlimit(pid, resource.RLIMIT_NOFILE)]
 
     def was_called(self) -> bool:
         try:
@@ -77,7 +95,7 @@ class Teacher:
 def teacher(tmp_path_factory):
     made = Teacher(tmp_path_factory.mktemp("teacher"))
     yield made
-    made.listening.close()
+    made.close()
 
 
 def left_of(first: int) -> int:
@@ -89,7 +107,7 @@ def left_of(first: int) -> int:
     return len(family(first))
 
 
-TOGETHER = attacks.READING | attacks.HARM | attacks.PROCESSES | attacks.DOORS
+TOGETHER = attacks.READING | attacks.HARM | attacks.SHARED | attacks.PROCESSES | attacks.DOORS
 """Those that do not spoil the process for the next one."""
 
 
@@ -122,10 +140,11 @@ def tried(student: Student, argument: np.ndarray) -> Any:
 
 @pytest.mark.parametrize("name", TOGETHER, ids=ids(TOGETHER))
 def test_it_gets_nothing_and_harms_nobody(teacher, attempting, name):
-    before = teacher.seen()
+    before, other = teacher.seen(), teacher.other()
     got = tried(attempting, np.array(list(TOGETHER).index(name)))
     assert not got, f"it got {got}"
     assert teacher.seen() == before
+    assert teacher.other() == other
     assert not teacher.was_called()
     assert attempting._process is None or len(family(attempting._process.pid)) <= 3  # bubblewrap's two, and its own
 
