@@ -226,7 +226,7 @@ PROCESSES = {
     "another's list of locks": SYSCALL + "return call(274, {victim}, bytes(8), bytes(8)) == 0",
     "another's thread as a lock's owner": SYSCALL
     + "import struct; lock = struct.pack('I', {victim}); import ctypes as c\n"
-    "call(202, lock, 6 | 128, 0, struct.pack('qq', 1, 0), None, 0); return c.get_errno() == 110",
+    "call(202, lock, 6, 0, struct.pack('qq', 1, 0), None, 0); return c.get_errno() == 110",
     "another's group": "import os; os.getpgid({victim}); return 1",
     "out of its session": "import os; os.setsid(); return 1",
     "compared with another": SYSCALL + "return call(312, {victim}, {pid}, 1, 0, 0) >= 0",

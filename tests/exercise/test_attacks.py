@@ -3,6 +3,7 @@
 import json
 import os
 import resource
+import shutil
 import socket
 import struct
 import subprocess
@@ -16,7 +17,7 @@ import numpy as np
 import pytest
 
 import lessons
-from tests.exercise import attacks
+from tests.exercise import attacks, honest
 from tests.exercise.centroid import EXERCISE
 from tests.exercise.processes import family
 from workbench.errors import InputError
@@ -56,7 +57,9 @@ class Teacher:
         self.results.write_text('{"points": 0}')
         self.listening = socket.create_server(("127.0.0.1", 0))
         self.listening.setblocking(False)
-        self.victim = subprocess.Popen(["/bin/sleep", "600"], start_new_session=True)
+        powerless = ["setpriv", "--inh-caps=-all", "--bounding-set=-all"]  # root's own are not everybody's to touch
+        sleeping = [*(powerless if os.geteuid() == 0 and shutil.which("setpriv") else []), "sleep", "600"]
+        self.victim = subprocess.Popen(sleeping, start_new_session=True)
 
     def close(self):
         self.listening.close()
@@ -169,6 +172,26 @@ def test_what_it_uses_is_bounded_and_its_own(teacher, wall, body):
     assert got != 1
     assert time.monotonic() - began < 60
     assert process is None or left_of(process.pid) == 0
+
+
+@pytest.fixture(scope="module")
+def working(wall):
+    """Return a function that does honest work by its name, in one process."""
+    with Student(Path(honest.__file__), "work", seconds=20.0, wall=wall) as student:
+        yield student
+
+
+@pytest.mark.parametrize("name", honest.NAMES)
+def test_honest_work_is_not_in_the_way(working, name):
+    assert working(name) == "done"
+
+
+def test_files_of_its_own_are_written_where_it_has_a_folder(wall, working):
+    if wall.name == "bubblewrap":
+        assert working("files_of_its_own") == "done"
+    else:
+        with pytest.raises(StudentError, match="No usable temporary directory"):
+            working("files_of_its_own")
 
 
 def test_an_honest_function_works_after_all_of_them(wall):
