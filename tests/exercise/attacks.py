@@ -1,10 +1,15 @@
 """What submissions try: each is the body of a function that returns something true where it got what it was after.
 
 In the texts, `{secret}` is a file of the teacher's, `{results}` a student's result, `{folder}` where both are, `{lessons}`
-the folder of the lessons, `{pid}` the grader's process, `{port}` where the teacher's machine listens.
+the folder of the lessons, `{pid}` the grader's process, `{victim}` another one of the same user, `{port}` where the
+teacher's machine listens.
 """
 
 SYSCALL = "import ctypes; call = ctypes.CDLL(None, use_errno=True).syscall; "
+PIPE = "import fcntl, os; r, w = map(os.fdopen, os.pipe(), 'rw'); "
+NUMPY_S = "import fcntl, os; f = open(np.__file__); "
+RAISE = "fcntl.fcntl(r, 4, os.O_ASYNC | os.O_NONBLOCK); w.write('x'); w.flush(); return 1"
+"""A pipe, a file that others read, and asking for a signal when there is something in the pipe."""
 
 READING = {
     "a path of text": "return len(open({secret!r}).read())",
@@ -82,6 +87,10 @@ SOLUTIONS = {
     "what the collector knows": (
         "import gc\nreturn any(getattr(o, '__name__', '') in ('is_the_mean', 'moves_along') for o in gc.get_objects())"
     ),
+    "descriptors that are not its own": (
+        "import os\ndef there(n):\n    try: return os.fstat(n) is not None\n    except OSError: return False\n"
+        "return sum(map(there, range(1024))) > 5"  # nothing, what it prints twice, the two ends of its pipes
+    ),
     "the call's message": (
         "import sys\nasked = sys._getframe(1).f_locals.get('request', {{}})\n"
         "return bool(set(asked) - {{'do', 'args', 'options', 'nonce', 'file'}})"
@@ -112,6 +121,39 @@ HARM = {
     "the child for the next": "import sys; open(sys.modules['__main__'].__file__, 'a').write(''); return 1",
     "modes for the next": "import os; os.chmod(np.__file__, 0o777); return 1",
     "a remount": SYSCALL + "return call(165, b'', b'/', None, 32 | 4096, None) == 0",
+}
+
+SHARED = {
+    "a lease to write": NUMPY_S + "fcntl.fcntl(f, fcntl.F_SETLEASE, fcntl.F_WRLCK); return 1",
+    "a lease to read": NUMPY_S + "fcntl.fcntl(f, fcntl.F_SETLEASE, fcntl.F_RDLCK); return 1",
+    "a lease by a system call": NUMPY_S + SYSCALL + "return call(72, f.fileno(), 1024, 1) == 0",
+    "a lease by the C library": (NUMPY_S + "import ctypes; return ctypes.CDLL(None).fcntl64(f.fileno(), 1024, 0) == 0"),
+    "a lease of a command with high bits": NUMPY_S + SYSCALL + "return call(72, f.fileno(), 1024 + 2**40, 1) == 0",
+    "leases on all of numpy": (
+        "import fcntl, glob, os; held = []\n"
+        "for name in glob.glob(os.path.dirname(np.__file__) + '/**/*.py', recursive=True)[:40]:\n"
+        "    f = open(name)\n"
+        "    try: fcntl.fcntl(f, fcntl.F_SETLEASE, fcntl.F_WRLCK); held.append(f)\n"
+        "    except OSError: pass\nreturn len(held)"
+    ),
+    "notes of who opens": "import fcntl, os; d = os.open(os.path.dirname(np.__file__), 0); "
+    "\ntry: fcntl.fcntl(d, fcntl.F_NOTIFY, fcntl.DN_ACCESS)\nfinally: os.close(d)\nreturn 1",
+    "notes of who reads": SYSCALL + "return call(294, 0) >= 0",
+    "a lock on a file": NUMPY_S + "fcntl.flock(f, fcntl.LOCK_EX); return 1",
+    "a lock on a part": NUMPY_S + "fcntl.lockf(f, fcntl.LOCK_SH); return 1",
+    "a lock of an open file": NUMPY_S
+    + "import struct; fcntl.fcntl(f, 37, struct.pack('hhqqi', 0, 0, 0, 0, 0)); return 1",
+    "who holds a lock": NUMPY_S + "import struct; fcntl.fcntl(f, 5, struct.pack('hhqqi', 1, 0, 0, 0, 0)); return 1",
+    "a hint for all who write": NUMPY_S + "import struct; fcntl.fcntl(f, 1036, struct.pack('Q', 1)); return 1",
+    "pages dropped": NUMPY_S + "os.posix_fadvise(f.fileno(), 0, 0, os.POSIX_FADV_DONTNEED); return 1",
+    "pages put out": NUMPY_S + "import mmap; mmap.mmap(f.fileno(), 0, prot=1).madvise(21); return 1",
+    "pages counted": SYSCALL + "m = ctypes.create_string_buffer(9); a = ctypes.addressof(m); "
+    "return call(27, a - a % 4096, 4096, bytes(1)) == 0",
+    "pages merged": "import mmap; mmap.mmap(-1, 4096).madvise(12); return 1",
+    "pages locked": SYSCALL + "m = bytes(4096); return call(149, m, 4096) == 0",
+    "a handle of a file": SYSCALL
+    + "return call(303, -100, np.__file__.encode(), b'\\x80' + bytes(200), bytes(8), 0) == 0",
+    "every file written to disk": SYSCALL + "return call(162) == 0",
 }
 
 PROCESSES = {
@@ -147,12 +189,60 @@ PROCESSES = {
         "import os, signal; f = os.pidfd_open({pid}); signal.pidfd_send_signal(f, 0); return 1"
     ),
     "a descriptor of the grader": SYSCALL + "return call(438, call(434, {pid}, 0), 1, 0) >= 0",
+    "a signal by a pipe to the grader": PIPE
+    + "fcntl.fcntl(r, fcntl.F_SETOWN, {pid}); fcntl.fcntl(r, 10, 28); "
+    + RAISE,
+    "a signal by a pipe to a group": PIPE
+    + "fcntl.fcntl(r, fcntl.F_SETOWN, -{victim}); fcntl.fcntl(r, 10, 28); "
+    + RAISE,
+    "a signal by a pipe to its own": (
+        PIPE + "fcntl.fcntl(r, fcntl.F_SETOWN, os.getpid()); fcntl.fcntl(r, 10, 28); " + RAISE
+    ),
+    "a signal by a pipe, the other way": (
+        PIPE + "import struct; fcntl.fcntl(r, 15, struct.pack('ii', 1, {victim})); fcntl.fcntl(r, 10, 28); " + RAISE
+    ),
+    "a signal by a system call for the pipe": (PIPE + SYSCALL + "return call(72, r.fileno(), 8, {victim}) == 0"),
+    "a signal that a pipe would send": PIPE + "fcntl.fcntl(r, 10, 28); return 1",
+    "a pipe that sends signals": PIPE + "fcntl.fcntl(r, 4, os.O_ASYNC); return 1",
+    "a pipe that sends signals, by ioctl": PIPE + "fcntl.ioctl(r, 0x5452, b'\\x01\\0\\0\\0'); return 1",
+    "the owner of a pipe, by ioctl": PIPE
+    + "import struct; fcntl.ioctl(r, 0x8901, struct.pack('i', {victim})); return 1",
+    "the group of a pipe, by ioctl": PIPE
+    + "import struct; fcntl.ioctl(r, 0x8902, struct.pack('i', {victim})); return 1",
+    "who owns its input": "import fcntl; fcntl.fcntl(0, fcntl.F_GETOWN); return 1",
+    "a clock that sends signals": SYSCALL + "return call(222, 1, None, bytes(8)) == 0",
+    "another's processor": "import os; os.sched_setaffinity({victim}, {{0}}); return 1",
+    "another's turn": "import os; os.sched_setscheduler({victim}, os.SCHED_IDLE, os.sched_param(0)); return 1",
+    "another's turn, its param": "import os; os.sched_setparam({victim}, os.sched_param(0)); return 1",
+    "another's turn, all of it": (
+        SYSCALL + "import struct; return call(314, {victim}, struct.pack('IIQiIQQQ', 48, 5, 0, 0, 0, 0, 0, 0), 0) == 0"
+    ),
+    "its own processor": "import os; os.sched_setaffinity(0, {{0}}); return 1",
+    "another's nice value": "import os; os.setpriority(os.PRIO_PROCESS, {victim}, 5); return 1",
+    "another's disk": SYSCALL + "return call(251, 1, {victim}, 3 << 13) == 0",
+    "another's limits": "import resource; resource.prlimit({victim}, resource.RLIMIT_NOFILE); return 1",
+    "another's pages": SYSCALL + "return call(279, {victim}, 0, None, None, None, 0) == 0",
+    "another's memory elsewhere": SYSCALL + "return call(256, {victim}, 64, bytes(8), bytes(8)) >= 0",
+    "another's list of locks": SYSCALL + "return call(274, {victim}, bytes(8), bytes(8)) == 0",
+    "another's thread as a lock's owner": SYSCALL
+    + "import struct; lock = struct.pack('I', {victim}); import ctypes as c\n"
+    "call(202, lock, 6, 0, struct.pack('qq', 1, 0), None, 0); return c.get_errno() == 110",
+    "another's group": "import os; os.getpgid({victim}); return 1",
+    "out of its session": "import os; os.setsid(); return 1",
+    "compared with another": SYSCALL + "return call(312, {victim}, {pid}, 1, 0, 0) >= 0",
+    "a descriptor for another": SYSCALL + "return call(434, {victim}, 0) >= 0",
+    "another's memory given back": SYSCALL + "return call(448, call(434, {victim}, 0), 0) == 0",
+    "another's memory advised": SYSCALL + "return call(440, call(434, {victim}, 0), bytes(16), 1, 20, 0) >= 0",
+    "writing the grader": SYSCALL + "return call(311, {victim}, bytes(16), 1, bytes(16), 1, 0) >= 0",
     "ptrace": SYSCALL + "return call(101, 16, {pid}, 0, 0) == 0",
     "ptrace by its parent": SYSCALL + "return call(101, 0, 0, 0, 0) == 0",
     "reading the grader": SYSCALL + "return call(310, {pid}, bytes(16), 1, bytes(16), 1, 0) >= 0",
     "the grader's limits": "import resource; resource.prlimit({pid}, resource.RLIMIT_NOFILE, (3, 3)); return 1",
     "the grader's priority": "import os; os.setpriority(os.PRIO_PROCESS, {pid}, 19); return 1",
     "outliving the grader": SYSCALL + "return call(157, 1, 0, 0, 0, 0) == 0",
+    "a signal by a pipe": PIPE
+    + "fcntl.fcntl(r, fcntl.F_SETOWN, {victim}); fcntl.fcntl(r, 10, 9); "
+    + RAISE,  # the last: it dies
 }
 
 DOORS = {
@@ -175,6 +265,24 @@ DOORS = {
     "keys of the kernel": SYSCALL + "return call(250, 0, -3, 0) >= 0",
     "a module of the kernel": SYSCALL + "return call(175, bytes(9), 9, b'') == 0",
     "other numbers of calls": SYSCALL + "return call(0x40000000 + 39) > 0",
+    "numbers of 32 bits": (
+        "import mmap, ctypes as c; code = mmap.mmap(-1, 4096, prot=7); code.write(bytes.fromhex('b814000000cd80c3'))\n"
+        "return c.CFUNCTYPE(c.c_int)(c.addressof(c.c_char.from_buffer(code)))() > 0"
+    ),
+    "numbers that are none yet": SYSCALL
+    + "return call(2000) >= 0 or c.get_errno() not in (1, 38)".replace("c.get", "ctypes.get"),
+    "shared memory by a name": "from multiprocessing.shared_memory import SharedMemory as M; M('x', True, 9); return 1",
+    "a semaphore": SYSCALL + "return call(64, 0, 1, 0o1600) >= 0",
+    "a queue of messages": SYSCALL + "return call(240, b'x', 0o100 | 2, 0o600, None) >= 0",
+    "a ring's work": SYSCALL + "return call(426, 0, 1, 0, 0, None, 0) >= 0",
+    "events": SYSCALL + "return call(291, 0) >= 0 or call(290, 0, 0) >= 0 or call(283, 1, 0) >= 0",
+    "a signal's descriptor": SYSCALL + "return call(289, -1, bytes(8), 8, 0) >= 0",
+    "a larger pipe": PIPE + "fcntl.fcntl(r, 1031, 1 << 20); return 1",
+    "pages into a pipe": PIPE + SYSCALL + "return call(278, w.fileno(), bytes(16), 0, 0) >= 0",
+    "a file into a pipe": PIPE + "f = open(np.__file__); return os.splice(f.fileno(), w.fileno(), 9) > 0",
+    "keys of memory": SYSCALL + "return call(330, 0, 0) >= 0",
+    "a filter of its own": SYSCALL + "return call(317, 2, 0, bytes(4)) == 0",
+    "walls of its own": SYSCALL + "return call(444, None, 0, 1) > 0",
     "shared memory": SYSCALL + "return call(29, 0, 1 << 30, 0o1600) >= 0",
     "memory without a limit": SYSCALL + "return call(319, b'x', 0) >= 0",
     "messages": SYSCALL + "return call(68, 0, 0o1600) >= 0",

@@ -2,8 +2,11 @@
 
 import json
 import os
+import resource
+import shutil
 import socket
 import struct
+import subprocess
 import textwrap
 import time
 from collections.abc import Iterable
@@ -14,7 +17,7 @@ import numpy as np
 import pytest
 
 import lessons
-from tests.exercise import attacks
+from tests.exercise import attacks, honest
 from tests.exercise.centroid import EXERCISE
 from tests.exercise.processes import family
 from workbench.errors import InputError
@@ -46,7 +49,7 @@ def submitted(body: str, head: str = "") -> Submission:
 
 
 class Teacher:
-    """A teacher's machine: a file that is nobody's business, a result, and somebody who listens."""
+    """A teacher's machine: a file that is nobody's business, a result, another process, and somebody who listens."""
 
     def __init__(self, folder: Path):
         self.folder, self.secret, self.results = folder, folder / "secret.txt", folder / "students.json"
@@ -54,16 +57,34 @@ class Teacher:
         self.results.write_text('{"points": 0}')
         self.listening = socket.create_server(("127.0.0.1", 0))
         self.listening.setblocking(False)
+        powerless = ["setpriv", "--inh-caps=-all", "--bounding-set=-all"]  # root's own are not everybody's to touch
+        sleeping = [*(powerless if os.geteuid() == 0 and shutil.which("setpriv") else []), "sleep", "600"]
+        self.victim = subprocess.Popen(sleeping, start_new_session=True)
+
+    def close(self):
+        self.listening.close()
+        self.victim.kill()
+        self.victim.wait()
 
     def told(self, body: str) -> str:
         names = {"secret": str(self.secret), "results": str(self.results), "folder": str(self.folder)}
-        return body.format(**names, lessons=str(LESSONS), pid=os.getpid(), port=self.listening.getsockname()[1])
+        processes = {"pid": os.getpid(), "victim": self.victim.pid}
+        port = self.listening.getsockname()[1]
+        return body.format(**names, **processes, lessons=str(LESSONS), port=port)
 
     def seen(self) -> dict[str, tuple]:
         return {
             path.name: (path.read_bytes(), path.stat().st_mode, path.stat().st_uid, int(path.stat().st_mtime))
             for path in sorted(self.folder.iterdir())
         }
+
+    def other(self) -> list[Any]:
+        """How the other process is, and how it is treated."""
+        if self.victim.poll() is not None:
+            return ["dead"]
+        pid = self.victim.pid
+        treated = [os.sched_getscheduler(pid), os.getpriority(os.PRIO_PROCESS, pid), os.sched_getaffinity(pid)]
+        return [*treated, resource.prlimit(pid, resource.RLIMIT_NOFILE)]
 
     def was_called(self) -> bool:
         try:
@@ -77,7 +98,7 @@ class Teacher:
 def teacher(tmp_path_factory):
     made = Teacher(tmp_path_factory.mktemp("teacher"))
     yield made
-    made.listening.close()
+    made.close()
 
 
 def left_of(first: int) -> int:
@@ -89,7 +110,7 @@ def left_of(first: int) -> int:
     return len(family(first))
 
 
-TOGETHER = attacks.READING | attacks.HARM | attacks.PROCESSES | attacks.DOORS
+TOGETHER = attacks.READING | attacks.HARM | attacks.SHARED | attacks.PROCESSES | attacks.DOORS
 """Those that do not spoil the process for the next one."""
 
 
@@ -122,10 +143,11 @@ def tried(student: Student, argument: np.ndarray) -> Any:
 
 @pytest.mark.parametrize("name", TOGETHER, ids=ids(TOGETHER))
 def test_it_gets_nothing_and_harms_nobody(teacher, attempting, name):
-    before = teacher.seen()
+    before, other = teacher.seen(), teacher.other()
     got = tried(attempting, np.array(list(TOGETHER).index(name)))
     assert not got, f"it got {got}"
     assert teacher.seen() == before
+    assert teacher.other() == other
     assert not teacher.was_called()
     assert attempting._process is None or len(family(attempting._process.pid)) <= 3  # bubblewrap's two, and its own
 
@@ -150,6 +172,26 @@ def test_what_it_uses_is_bounded_and_its_own(teacher, wall, body):
     assert got != 1
     assert time.monotonic() - began < 60
     assert process is None or left_of(process.pid) == 0
+
+
+@pytest.fixture(scope="module")
+def working(wall):
+    """Return a function that does honest work by its name, in one process."""
+    with Student(Path(honest.__file__), "work", seconds=20.0, wall=wall) as student:
+        yield student
+
+
+@pytest.mark.parametrize("name", honest.NAMES)
+def test_honest_work_is_not_in_the_way(working, name):
+    assert working(name) == "done"
+
+
+def test_files_of_its_own_are_written_where_it_has_a_folder(wall, working):
+    if wall.name == "bubblewrap":
+        assert working("files_of_its_own") == "done"
+    else:
+        with pytest.raises(StudentError, match="No usable temporary directory"):
+            working("files_of_its_own")
 
 
 def test_an_honest_function_works_after_all_of_them(wall):

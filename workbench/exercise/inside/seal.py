@@ -17,13 +17,22 @@ from typing import Any
 
 import syscalls  # type: ignore[import-not-found]
 
-PR_SET_PDEATHSIG, PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, SECCOMP_MODE_FILTER, SIGKILL = 1, 38, 22, 2, 9
+PR_SET_PDEATHSIG, PR_SET_NO_NEW_PRIVS, SIGKILL = 1, 38, 9
+SECCOMP = {"x86_64": 317, "aarch64": 277}
+SET_FILTER, ALL_THREADS = 1, 1
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446  # the same on every machine
 ASK_VERSION, PATH_BENEATH = 1, 1
 CAPABILITIES = 0x20080522  # the version of what capset takes
-LEAST_VERSION = 3  # of Landlock: from here on it stops truncating too
 EXECUTE, READ_FILE, READ_DIR = 1 << 0, 1 << 2, 1 << 3
-ALL_RIGHTS = {3: (1 << 15) - 1, 5: (1 << 16) - 1}  # by version: what is denied wherever no rule gives it
+HANDLED = {
+    # from this version of Landlock on: what is denied wherever no rule gives it, of files, of ports, of other processes
+    1: ((1 << 13) - 1,),
+    2: ((1 << 14) - 1,),  # links and names across folders
+    3: ((1 << 15) - 1,),  # truncating
+    4: ((1 << 15) - 1, 3),  # binding and connecting
+    5: ((1 << 16) - 1, 3),  # asking devices
+    6: ((1 << 16) - 1, 3, 3),  # abstract sockets, and signals to who is not shut in with it
+}
 
 
 def shut(settings: dict[str, Any]) -> None:
@@ -57,21 +66,22 @@ def shut(settings: dict[str, Any]) -> None:
     _prctl(PR_SET_NO_NEW_PRIVS, 1)
     if settings["landlock"] is not None:
         _landlock(settings["landlock"])
-        _checked(_libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24)))  # of an administrator's powers, none
-    if platform.machine() in syscalls.MACHINES:
-        code = ctypes.create_string_buffer(syscalls.program(platform.machine()))
-        length = (len(code) - 1) // 8  # of the string; the buffer ends with a zero
-        _prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, struct.pack("@HP", length, ctypes.addressof(code)))
+    _checked(_libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24)))  # of an administrator's powers, none
+    machine = platform.machine()
+    if machine in syscalls.MACHINES:
+        lines = syscalls.program(machine, writes=settings["writes"])
+        code = ctypes.create_string_buffer(lines, len(lines))
+        filtered = struct.pack("@HP", len(lines) // 8, ctypes.addressof(code))
+        if _call(SECCOMP[machine], SET_FILTER, ALL_THREADS, filtered):
+            raise OSError("a thread has a filter of system calls of its own")
     elif settings["landlock"] is not None or settings["user"] is not None:
-        raise OSError(f"no filter of system calls is known for {platform.machine()}")
+        raise OSError(f"no filter of system calls is known for {machine}")
 
 
 def _landlock(readable: Iterable[str]) -> None:
     version = _call(CREATE_RULESET, None, 0, ASK_VERSION)
-    if version < LEAST_VERSION:
-        raise OSError(f"Landlock is of version {version}, older than {LEAST_VERSION}")
-    rights = ALL_RIGHTS[5 if version >= 5 else 3]
-    rules = _call(CREATE_RULESET, struct.pack("=Q", rights), 8, 0)
+    handled = HANDLED[min(version, max(HANDLED))]
+    rules = _call(CREATE_RULESET, struct.pack(f"={len(handled)}Q", *handled), 8 * len(handled), 0)
     for path in readable:
         held = os.open(path, os.O_PATH | os.O_CLOEXEC)
         allowed = EXECUTE | READ_FILE | (READ_DIR if os.path.isdir(path) else 0)

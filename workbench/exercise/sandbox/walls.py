@@ -59,14 +59,14 @@ class Wall:
             cpu_seconds: Most processor time.
         """
         files = python.here()
+        boxed = self.name == "bubblewrap"
         settings = {
             "in": pipe_in, "out": pipe_out, "packages": files.places, "megabytes": megabytes, "cpu": cpu_seconds,
-            "output": OUTPUT_BYTES, "filter": self.holds,
-            "grader": None if self.name == "bubblewrap" else os.getpid(),  # it has parents of its own
+            "output": OUTPUT_BYTES, "filter": self.holds, "writes": boxed,
+            "grader": None if boxed else os.getpid(),  # it has parents of its own
             "landlock": list(files.listed()) if self.name == "landlock" else None,
             "user": NOBODY if self.name == "user" else None, "closed": python.ours(),
         }  # fmt: skip
-        boxed = self.name == "bubblewrap"
         child = f"{bubblewrap.CHILD}/child.py" if boxed else str(python.INSIDE / "child.py")
         quiet = ["-W", "ignore::RuntimeWarning"]  # numpy's are not what the student printed
         environment = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": bubblewrap.FOLDER if boxed else folder}
