@@ -132,6 +132,22 @@ def few_outvote_many(candidate: Function) -> Verdict:
     return worst(verdicts)
 
 
+@check(1, public=False)
+def against_the_farthest_point(candidate: Function) -> Verdict:
+    """One point far away does not outvote a tail of many; where the third moment is 0 an axis stays as it is."""
+    rng = np.random.default_rng(GRADERS + 60)
+    along = np.concatenate([np.tile([[-0.7], [0.2]], (1, 3)).repeat([60, 240], axis=0), np.full((30, 3), 1.4)])
+    along = np.concatenate([along + 0.02 * rng.normal(size=along.shape), np.full((1, 3), -2.0)]) * [0.6, 0.35, 0.2]
+    p = along @ a_rotation(rng).T
+    axes = of_any_signs(rng, p)
+    verdicts = [signs_verdict(candidate(axes, p), axes, p, f"One point is far away. {SIGNS_HINT}")]
+    box = np.array([[x, y, z] for x in (-4.0, 4.0) for y in (-1.0, -1.0, 2.0) for z in (-1.0, 1.0)])
+    for signs in ([-1.0, -1.0, 1.0], [1.0, 1.0, -1.0]):
+        axes = np.diag(signs)
+        verdicts.append(signs_verdict(candidate(axes, box), axes, box, "The third moment of axis 1 is 0: it stays."))
+    return worst(verdicts)
+
+
 @mistake(
     "You make the largest entry of each axis positive. That looks at coordinates, not at the cloud: turn the cloud, and the"
     " signs change. Use third moments."

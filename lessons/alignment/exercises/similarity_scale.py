@@ -117,6 +117,16 @@ def far_away(candidate: Function) -> Verdict:
 
 
 @check(1, public=False)
+def small_and_large(candidate: Function) -> Verdict:
+    """Objects of centimetres and of kilometres have their scale too."""
+    verdicts = []
+    for k, size in enumerate((0.01, 1000.0)):
+        p_target, p_source = pairs(GRADERS + 40 + k, 0.8, 0.05)
+        verdicts.append(scale_verdict(candidate, size * p_target, size * p_source, f"Small, or large. {SCALE_HINT}"))
+    return worst(verdicts)
+
+
+@check(1, public=False)
 def no_scale_to_see(candidate: Function) -> Verdict:
     """Source points that coincide, and a single pair, give 1; no pairs are refused."""
     p_target, p_source = pairs(GRADERS + 30, 1.2)

@@ -41,7 +41,7 @@ def pose_from_homography(K: Float[np.ndarray, "3 3"], H: Float[np.ndarray, "3 3"
     """Return T_camera_board, metres: the board's pose before the camera.
 
     H ~ K [r1 r2 t] up to a scale of either sign. r1 and r2 are unit vectors. The board's origin is before the camera:
-    t_z > 0.
+    t_z > 0. It may show its front or its back.
 
     Args:
         K: Intrinsics, pixels.
@@ -108,9 +108,14 @@ def other_noise(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def before_the_camera(candidate: Function) -> Verdict:
-    """H and -H give the same pose, with the board's origin before the camera."""
-    T, H = views(GRADERS + 20, 1)[0]
-    return worst(motion_verdict(candidate(CAMERA, sign * H), T, HINT, p=BOARD) for sign in (1.0, -1.0))
+    """H and -H give the same pose, with the board's origin before the camera, seen from the front or from the back."""
+    T, _ = views(GRADERS + 20, 1)[0]
+    verdicts = []
+    for turn in (np.eye(3), np.diag([1.0, -1.0, -1.0])):  # about the board's own x axis: its back is seen
+        T_board = motion(T[:3, :3] @ turn, T[:3, 3])
+        H = CAMERA @ T_board[:3, [0, 1, 3]]
+        verdicts += [motion_verdict(candidate(CAMERA, sign * H), T_board, HINT, p=BOARD) for sign in (1.0, -1.0)]
+    return worst(verdicts)
 
 
 def _parts(K: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

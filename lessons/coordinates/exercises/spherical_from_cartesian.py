@@ -27,7 +27,7 @@ def spherical_from_cartesian(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "
     has a polar angle of 1e-9. The azimuth runs from +x towards +y, in (-pi, pi].
 
     Args:
-        p: One row (x, y, z) per point, metres.
+        p: One row (x, y, z) per point, metres. A coordinate may be -0.0, which is 0: (-1, -0.0, 0) has the azimuth pi.
 
     Returns:
         Rows (r, polar, azimuth). On the axis, where the azimuth has no meaning, it is 0; the origin is (0, 0, 0).
@@ -109,6 +109,13 @@ def a_single_point(candidate: Function) -> Verdict:
     return judged(candidate, all_round(GRADERS + 2, 3)[2:])
 
 
+@check(1, public=False)
+def zeros_of_either_sign(candidate: Function) -> Verdict:
+    """-0.0 is 0: on -x the azimuth is pi and not -pi, and on the axis it is 0."""
+    p = np.array([[-1.0, -0.0, 0.5], [-0.0, -0.0, -2.0], [-0.0, 0.0, 1.0], [2.0, -0.0, 0.0], [-0.0, -0.0, -0.0]])
+    return judged(candidate, p, "atan2 listens to the sign of a zero, and x + 0.0 takes it away.")
+
+
 def columns(r: np.ndarray, polar: np.ndarray, azimuth: np.ndarray) -> np.ndarray:
     """Return three columns."""
     return np.column_stack([r, polar, azimuth])
@@ -140,8 +147,8 @@ def atan_and_nan(p: np.ndarray) -> np.ndarray:
 )
 def arccos_of_the_quotient(p: np.ndarray) -> np.ndarray:
     """Takes the arc cosine, also of 0 / 0."""
-    r, _, azimuth = curvilinear.spherical_from_cartesian(p).T
-    return columns(r, np.arccos(p[:, 2] / np.linalg.norm(p, axis=1)), azimuth)
+    r, azimuth = np.linalg.norm(p, axis=1), np.arctan2(p[:, 1], p[:, 0])
+    return columns(r, np.arccos(p[:, 2] / r), azimuth)
 
 
 @mistake(
@@ -150,9 +157,8 @@ def arccos_of_the_quotient(p: np.ndarray) -> np.ndarray:
 )
 def arccos_with_care(p: np.ndarray) -> np.ndarray:
     """Takes the arc cosine, but not of 0 / 0."""
-    r, _, azimuth = curvilinear.spherical_from_cartesian(p).T
-    length = np.linalg.norm(p, axis=1)
-    return columns(r, np.arccos(np.divide(p[:, 2], length, out=np.ones(len(p)), where=length > 0)), azimuth)
+    r, azimuth = np.linalg.norm(p, axis=1), np.arctan2(p[:, 1], p[:, 0])
+    return columns(r, np.arccos(np.divide(p[:, 2], r, out=np.ones(len(p)), where=r > 0)), azimuth)
 
 
 @mistake("Your second angle is the elevation above the x-y plane. The polar angle starts at +z: the two add up to π/2.")
@@ -195,9 +201,20 @@ def distance_from_the_axis(p: np.ndarray) -> np.ndarray:
     return columns(np.hypot(p[:, 0], p[:, 1]), polar, azimuth)
 
 
+@mistake(
+    "All is right but where a coordinate is −0.0: atan2 listens to the sign of a zero and says −π, or π on the axis. Add 0.0"
+    " to the coordinates first."
+)
+def sign_of_a_zero(p: np.ndarray) -> np.ndarray:
+    """Takes the arctangents of what comes in."""
+    x, y, z = p.T
+    return columns(np.linalg.norm(p, axis=1), np.arctan2(np.hypot(x, y), z), np.arctan2(y, x))
+
+
 @alternative
 def by_complex_numbers(p: np.ndarray) -> np.ndarray:
     """Takes angles of complex numbers."""
+    p = p + 0.0  # -0.0 becomes 0
     flat = p[:, 0] + 1j * p[:, 1]
     up = p[:, 2] + 1j * np.abs(flat)
     return columns(np.abs(up), np.angle(up), np.angle(flat))
@@ -207,7 +224,7 @@ def by_complex_numbers(p: np.ndarray) -> np.ndarray:
 def point_by_point(p: np.ndarray) -> np.ndarray:
     """Goes through the points with Python's own functions."""
     rows = []
-    for x, y, z in p:
+    for x, y, z in p + 0.0:
         rho = math.hypot(x, y)
         rows.append((math.hypot(rho, z), math.atan2(rho, z), math.atan2(y, x) if rho else 0.0))
     return np.array(rows)

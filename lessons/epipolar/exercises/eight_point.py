@@ -52,7 +52,8 @@ def eight_point(uv_first: Float[np.ndarray, "n 2"], uv_second: Float[np.ndarray,
         uv_second: Their matches in the second, row k for row k.
 
     Returns:
-        F at any scale; the examples have Frobenius norm one.
+        F at any scale that keeps its numbers within 1e9; the examples have Frobenius norm one. F33 may be 0: do not
+        divide by it.
 
     Raises:
         ValueError: If there are fewer than eight matches.
@@ -134,6 +135,24 @@ def other_matches(candidate: Function) -> Verdict:
     """Other noisy matches give lines as near, and none of their F has rank three."""
     verdicts = [judged(candidate, a_pair(GRADERS + k), 0.9, 1.8) for k in (2, 3, 4)]
     return worst([*verdicts, ranked(candidate, a_pair(GRADERS + 5))])
+
+
+@check(1, public=False)
+def the_last_entry_is_zero(candidate: Function) -> Verdict:
+    """Where the two origins are partners F33 is 0, and F is found as well."""
+    rng = np.random.default_rng(GRADERS + 6)
+    uv = rng.integers(-300, 300, (20, 2)).astype(float)
+    partners = uv + rng.integers(10, 60, (20, 1)) * [1.0, 0.0]  # a camera that moved aside: v' = v
+    F = candidate(uv, partners)
+    largest = float(np.abs(F).max())
+    right = np.array([[0.0, 0, 0], [0, 0, -1], [0, 1, 0]]) / np.sqrt(2)
+    unit = F * (np.sign(F[2, 1]) / np.linalg.norm(F))
+    if not largest < 1e9:
+        return fail(
+            f"F33 is 0 here, and the largest entry of F is {number(largest)}, right is 1 or so: scale F by its norm."
+        )
+    told = beside(unit, right, HINT, "F over its norm")
+    return band("F over its norm is off by", float(np.abs(unit - right).max()), "", good=1e-6, fair=1e-3, hint=told)
 
 
 def similarity(uv: np.ndarray) -> np.ndarray:

@@ -30,7 +30,7 @@ def triangulate(
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the points (x, y, z) that two cameras see at these pixels, metres.
+    """Return the points (x, y, z) that two cameras see at these pixels, metres, in the frame from which both P take them.
 
     Each pixel is two equations in homogeneous coordinates, from (u, v, 1) x P p = 0; the four of both cameras are solved
     in the sense of least squares. With exact pixels the points are exact; with noise, any weights of the equations will do.
@@ -106,13 +106,17 @@ def far_and_single(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def another_origin(candidate: Function) -> Verdict:
-    """Neither camera need stand at the origin."""
+    """Neither camera need stand at the origin, and points may have a negative z in the world."""
     pair = a_pair(GRADERS + 2, 10)
     P, Q = matrices(pair)
     T = a_pair(GRADERS + 3, 1).T_second_first
     T4 = T @ T
-    moved = apply(np.linalg.inv(T4), pair.p_first)
-    return judged(candidate(P @ T4, Q @ T4, pair.clean_first, pair.clean_second), moved, 1e-5, 1e-3)
+    verdicts = []
+    for T_first_world in (T4, T4 @ np.diag([1.0, -1.0, -1.0, 1.0])):  # half a turn: all z are negative in the world
+        args = P @ T_first_world, Q @ T_first_world, pair.clean_first, pair.clean_second
+        p_world = apply(np.linalg.inv(T_first_world), pair.p_first)
+        verdicts.append(judged(candidate(*args), p_world, 1e-5, 1e-3))
+    return worst(verdicts)
 
 
 def equations(P_first, P_second, uv_first, uv_second) -> np.ndarray:

@@ -103,6 +103,17 @@ def like_histograms(candidate: Function) -> Verdict:
     return judged(candidate, np.abs(60 * a), np.abs(60 * b), 0.9, "80 and 80")
 
 
+@check(1, public=False)
+def equal_descriptors(candidate: Function) -> Verdict:
+    """Of equal rows of a the first has the match; equal rows of b are no match; a distance of 0 is one."""
+    rng = np.random.default_rng(GRADERS + 30)
+    b = rng.permutation(np.arange(40.0).reshape(10, 4) ** 2 % 37)
+    a = b[[3, 3, 0, 7, 5, 5, 5, 0, 1]] + np.array([1.0, 1, 0, 0, 2, 2, 2, 2, 12])[:, None]
+    twice = np.concatenate([b, b[[7]]])
+    verdicts = [judged(candidate, a, b, 0.5, "Equal rows of a"), judged(candidate, a, twice, 0.5, "Equal rows of b")]
+    return worst(verdicts)
+
+
 def distances(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Return all distances, (n, m)."""
     return np.sqrt(((a[:, None] - b[None]) ** 2).sum(axis=-1))

@@ -38,8 +38,9 @@ def points_on_faces(
 ) -> Float[np.ndarray, "n 3"]:
     """Return a point on the mesh for each row of numbers: evenly spread, as the rows are over the unit cube.
 
-    The first number picks the face, each as likely as it is large. With s the square root of the second and t the third,
-    the point is (1 - s) a + s (1 - t) b + s t c. (Another way that is as even earns as much.)
+    The first number picks the face, each as likely as it is large. The second and the third place the point in it: with s
+    the square root of the second and t the third it is (1 - s) a + s (1 - t) b + s t c. (Another way to place it that is
+    as even earns as much.)
 
     Args:
         p: Vertices, metres, one row each.
@@ -162,7 +163,22 @@ def the_same_row_gives_the_same_point(candidate: Function) -> Verdict:
     q, again = candidate(p, faces, u), candidate(p, faces, u[::-1].copy())
     off = float(np.linalg.norm(q - again[::-1], axis=1).max())
     hint = "Use the rows of u, in their order, and no numbers of your own."
-    return nothing("The same rows give points apart by, m", off, hint)
+    return worst([nothing("The same rows give points apart by, m", off, hint), each_number_counts(candidate)])
+
+
+def each_number_counts(candidate: Function) -> Verdict:
+    """Judge whether the second number and the third each move the point in its face, and the first does not."""
+    triangle, one = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]]), np.array([[0, 1, 2]])
+    u = np.array([[0.3, 0.4, 0.2], [0.6, 0.4, 0.2], [0.3, 0.7, 0.2], [0.3, 0.4, 0.6]])
+    q = candidate(triangle, one, u)
+    moved = np.linalg.norm(q[1:] - q[0], axis=1)
+    for k, name in ((1, "second"), (2, "third")):
+        if moved[k] < 1e-3:
+            return fail(
+                f"Another {name} number moves the point by {moved[k]:.3g} m, right is more than 0. {PLACE_HINT}"
+            )
+    hint = "With a single face the first number has nothing to pick, and it does not place the point."
+    return nothing("In a single face another first number moves the point by, m", float(moved[0]), hint)
 
 
 @check(1, public=False)

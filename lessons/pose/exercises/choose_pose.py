@@ -9,7 +9,7 @@ from lessons.pose.exercises import GRADERS, STUDENTS, a_view
 from workbench.algorithms import camera_search
 from workbench.exercise import Function, Verdict, alternative, check, contract, fail, full, left_alone, mistake, worst
 from workbench.geometry.camera_motions import reprojection_errors
-from workbench.geometry.motions import apply, inverse
+from workbench.geometry.motions import apply, exp_so3, inverse, motion
 from workbench.geometry.three_points import p3p
 from workbench.numerals import brief
 
@@ -103,6 +103,22 @@ def half_behind(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return np.stack([amid, off]), p_world, p_camera[:, :2] / p_camera[:, 2:]
 
 
+def told_apart(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return poses of which the least root mean square chooses another one than each of four sums like it."""
+    rng = np.random.default_rng(seed)
+    while True:
+        T, p_world, xy = a_view(rng, 7)
+        Ts = np.stack([motion(exp_so3(0.003 * rng.normal(size=3)), 0.02 * rng.normal(size=3)) @ T for _ in range(6)])
+        xy = xy + 1e-3 * rng.standard_t(2, xy.shape)
+        off = seen(Ts, p_world)[0] - xy
+        away = np.linalg.norm(off, axis=2)
+        rms = np.sqrt(np.square(away).mean(axis=1))
+        others = (away.mean(axis=1), np.median(away, axis=1), np.abs(off).sum(axis=(1, 2)), away.max(axis=1))
+        first, second = np.sort(rms)[:2]
+        if second > 1.02 * first and rms.argmin() not in [other.argmin() for other in others]:
+            return Ts, p_world, xy
+
+
 @check(3)
 def of_three_points(candidate: Function) -> Verdict:
     """Of the solutions of three points the one is chosen that fits eight."""
@@ -133,6 +149,22 @@ def of_other_points(candidate: Function) -> Verdict:
     one, p_world, xy = several(GRADERS + 30)
     verdicts = [judged(candidate, *several(GRADERS + 10 + k, 20, 3e-3)) for k in range(8)]
     return worst([*verdicts, judged(candidate, one[:1], p_world, xy)])
+
+
+@check(1, public=False)
+def the_root_mean_square_decides(candidate: Function) -> Verdict:
+    """It is the root mean square that is least, not the mean, the median, the sum of |dx| + |dy| or the largest."""
+    hint = "Square the distances, both coordinates of all points, and take their mean."
+    return worst(judged(candidate, *told_apart(GRADERS + 50 + k), hint) for k in range(3))
+
+
+@check(1, public=False)
+def of_small_things(candidate: Function) -> Verdict:
+    """Points some centimetres before the camera are in front too: Z > 0 is asked, not some distance."""
+    Ts, p_world, xy = several(GRADERS + 60)
+    near = Ts[np.argsort(np.abs(Ts - camera_search.choose_pose(Ts, p_world, xy)).sum(axis=(1, 2)))[::-1]]  # right: last
+    near[:, :3, 3] *= 0.005
+    return judged(candidate, near, 0.005 * p_world, xy, "Z > 0 is in front, however near.")
 
 
 @check(1, public=False)

@@ -10,6 +10,7 @@ from workbench.exercise import (
     Function,
     Verdict,
     alternative,
+    band,
     check,
     contract,
     fail,
@@ -20,7 +21,7 @@ from workbench.exercise import (
     worst,
 )
 from workbench.geometry.camera_motions import gauss_newton_step, linearised, refined
-from workbench.geometry.motions import exp_so3, motion, skew
+from workbench.geometry.motions import apply, exp_so3, motion, skew
 
 
 @contract(
@@ -59,17 +60,29 @@ def pose_step(
 HINT = "Rows of the Jacobian: (1/Z, 0, −X/Z²) and (0, 1/Z, −Y/Z²), each times v + w × p_camera; residual: seen − xy."
 
 
+def a_start(
+    seed: int, n: int = 12, *, aside: float = 0.0, degrees: float = 15.0, metres: float = 0.3
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.random.Generator]:
+    """Return the right T_camera_world, points, where they are seen, and a start that is off by so much."""
+    rng = np.random.default_rng(seed)
+    T_true, p_world, xy = a_view(rng, n, aside=aside)
+    w, p_mean = rng.standard_normal(3), p_world.mean(axis=0)
+    R = exp_so3(np.radians(degrees) * w / np.linalg.norm(w)) @ T_true[:3, :3]
+    t = T_true[:3, :3] @ p_mean + T_true[:3, 3] + rng.uniform(-metres, metres, 3) - R @ p_mean
+    return T_true, p_world, xy, motion(R, t), rng
+
+
+def farthest(T: np.ndarray, T_right: np.ndarray, p: np.ndarray) -> float:
+    """Return the largest distance, in metres, between where two motions take points."""
+    return float(np.linalg.norm(apply(T, p) - apply(T_right, p), axis=1).max())
+
+
 def arrived(
     candidate: Function, seed: int, *, steps: int = 6, sigma: float = 0.0, n: int = 12, aside: float = 0.0
 ) -> Verdict:
     """Judge where some steps arrive from a start that is some 15 degrees and half a metre off."""
-    rng = np.random.default_rng(seed)
-    T_true, p_world, xy = a_view(rng, n, aside=aside)
+    T_true, p_world, xy, T, rng = a_start(seed, n, aside=aside)
     xy = xy + sigma * rng.standard_normal(xy.shape)
-    p_mean = p_world.mean(axis=0)
-    w = rng.standard_normal(3)
-    R = exp_so3(np.radians(15.0) * w / np.linalg.norm(w)) @ T_true[:3, :3]
-    T = motion(R, T_true[:3, :3] @ p_mean + T_true[:3, 3] + rng.uniform(-0.3, 0.3, 3) - R @ p_mean)
     right = refined(T_true[None], p_world, xy)[0] if sigma else T_true
     for _ in range(steps):
         T = candidate(T, p_world, xy)
@@ -117,6 +130,26 @@ def other_starts(candidate: Function) -> Verdict:
 def away_from_the_origin(candidate: Function) -> Verdict:
     """Points some metres from the origin make no difference."""
     return worst(arrived(candidate, GRADERS + 30 + k, aside=4.0, steps=8) for k in range(2))
+
+
+@check(1, public=False)
+def each_call_is_one_step(candidate: Function) -> Verdict:
+    """From 1 degree and 2 cm away one step leaves 2 mm at most; from 15 degrees and 30 cm it cannot arrive."""
+    verdicts = []
+    for k in range(4):
+        T_true, p_world, xy, T, _ = a_start(GRADERS + 40 + k, aside=2.0 * k, degrees=1.0, metres=0.02)
+        left = farthest(candidate(T, p_world, xy), T_true, p_world)
+        hint = "The small motion moves t too: it is composed on the left of all of T, (exp(w) R, exp(w) t + v)."
+        verdicts.append(band("One step from nearby leaves", left, "m, right is some tenths of a millimetre",
+                             good=2e-3, fair=1e-2, hint=hint))  # fmt: skip
+    left = []
+    for k in range(4):
+        T_true, p_world, xy, T, _ = a_start(GRADERS + 50 + k, aside=4.0)
+        left.append(farthest(candidate(T, p_world, xy), T_true, p_world))
+    if max(left) < 0.02:
+        said = f"One call from 15 degrees away leaves {number(max(left), 2)} m, right is some decimetres"
+        verdicts.append(fail(f"{said}. Return T after a single step: the lesson goes on from there."))
+    return worst(verdicts)
 
 
 def small(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray, turned: float = 1.0) -> np.ndarray:

@@ -231,3 +231,24 @@ def wrong_moves_the_points(axes, p):
 def wrong_sign_of_zero(axes, p):
     m = np.sign(tails(axes, p).round(0))
     return with_cross(axes[:, 0] * m[0], axes[:, 1] * m[1])
+
+
+def wrong_to_the_farthest_point(axes, p):
+    q = (p - p.mean(axis=0)) @ axes
+    signs = np.sign(q[np.abs(q).argmax(axis=0), range(3)])
+    out = axes * signs
+    out[:, 2] = np.cross(out[:, 0], out[:, 1])
+    return out
+
+
+def wrong_zero_turns_round(axes, p):
+    m = (((p - p.mean(axis=0)) @ axes) ** 3).sum(axis=0)
+    out = axes * np.where(m > 0, 1.0, -1.0)
+    out[:, 2] = np.cross(out[:, 0], out[:, 1])
+    return out
+
+
+def wrong_zero_becomes_zero(axes, p):
+    out = axes * np.sign((((p - p.mean(axis=0)) @ axes) ** 3).sum(axis=0))
+    out[:, 2] = np.cross(out[:, 0], out[:, 1])
+    return out

@@ -209,3 +209,32 @@ def wrong_sign_of_depth(candidates, p_world, xy):
         p = p_world @ T[:3, :3].T + T[:3, 3]
         errors.append(np.linalg.norm(p[:, :2] / p[:, 2:] - xy) if (p[:, 2] < 0).all() else np.inf)
     return candidates[int(np.argmin(errors))]
+
+
+def chosen(candidates, p_world, xy, cost, least=0.0):
+    p = np.einsum("mij,nj->mni", candidates[:, :3, :3], p_world) + candidates[:, None, :3, 3]
+    with np.errstate(all="ignore"):
+        off = p[..., :2] / p[..., 2:] - xy
+    costs = np.array([cost(one) for one in off])
+    costs[(p[..., 2] <= least).any(1)] = np.inf
+    return candidates[np.argmin(costs)]
+
+
+def wrong_mean_distance(candidates, p_world, xy):
+    return chosen(candidates, p_world, xy, lambda off: np.linalg.norm(off, axis=1).mean())
+
+
+def wrong_median_distance(candidates, p_world, xy):
+    return chosen(candidates, p_world, xy, lambda off: np.median(np.linalg.norm(off, axis=1)))
+
+
+def wrong_sum_of_absolutes(candidates, p_world, xy):
+    return chosen(candidates, p_world, xy, lambda off: np.abs(off).sum())
+
+
+def wrong_largest_distance(candidates, p_world, xy):
+    return chosen(candidates, p_world, xy, lambda off: np.linalg.norm(off, axis=1).max())
+
+
+def wrong_ten_centimetres(candidates, p_world, xy):
+    return chosen(candidates, p_world, xy, lambda off: np.square(off).sum(), 0.1)

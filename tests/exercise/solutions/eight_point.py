@@ -45,7 +45,7 @@ def right_plain(a, b):
     return T2.T @ two(null(h(a) @ T1.T, h(b) @ T2.T)) @ T1
 
 
-def right_f33(a, b):
+def wrong_f33(a, b):
     F = right_plain(a, b)
     return F / F[2, 2]
 

@@ -88,6 +88,21 @@ def right_lists(E):
     return np.array(out)
 
 
+def right_horn(E):
+    E = E / np.sqrt(0.5 * np.trace(E @ E.T))
+    c = np.stack([np.cross(E[:, 0], E[:, 1]), np.cross(E[:, 1], E[:, 2]), np.cross(E[:, 2], E[:, 0])])
+    t = c[np.argmax(np.linalg.norm(c, axis=1))]
+    t = t / np.linalg.norm(t)
+    cofactors = np.stack([np.cross(E[1], E[2]), np.cross(E[2], E[0]), np.cross(E[0], E[1])])
+    Ts = np.tile(np.eye(4), (4, 1, 1))
+    for k in range(4):
+        b = t if k % 2 else -t
+        X = np.array([[0, -b[2], b[1]], [b[2], 0, -b[0]], [-b[1], b[0], 0]])
+        U, _, Vt = np.linalg.svd(cofactors - X @ E)
+        Ts[k, :3, :3], Ts[k, :3, 3] = U @ Vt, b if k < 2 else -b
+    return Ts
+
+
 def wrong_no_signs(E):
     U, _, Vt = np.linalg.svd(E)
     return pack([U @ W @ Vt, U @ W.T @ Vt], [U[:, 2], -U[:, 2]])
@@ -194,4 +209,15 @@ def wrong_zeros(E):
 def wrong_minus_rotation(E):
     Ts = right_plain(E)
     Ts[2:, :3, :3] *= -1
+    return Ts
+
+
+def wrong_no_rotation_with_noise(E):
+    E = E / np.sqrt(0.5 * np.trace(E @ E.T))
+    t = np.linalg.svd(E)[0][:, 2]
+    cofactors = np.stack([np.cross(E[1], E[2]), np.cross(E[2], E[0]), np.cross(E[0], E[1])])
+    X = np.array([[0, -t[2], t[1]], [t[2], 0, -t[0]], [-t[1], t[0], 0]])
+    Ts = np.tile(np.eye(4), (4, 1, 1))
+    Ts[:2, :3, :3], Ts[2:, :3, :3] = cofactors - X @ E, cofactors + X @ E
+    Ts[:, :3, 3] = t, -t, t, -t
     return Ts

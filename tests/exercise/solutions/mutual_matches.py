@@ -273,3 +273,38 @@ def wrong_third_nearest(a, b, ratio):
     j = D.argmin(1)
     far = s[:, min(2, s.shape[1] - 1)]
     return np.where((s[:, 0] < ratio * far) & (D.argmin(0)[j] == np.arange(len(a))), j, -1)
+
+
+def wrong_all_of_equal_rows(a, b, ratio):
+    D = np.linalg.norm(a[:, None] - b[None], axis=2)
+    two = np.sort(D, axis=1)[:, :2]
+    j = D.argmin(axis=1)
+    mutual = D[np.arange(len(a)), j] <= D.min(axis=0)[j]
+    return np.where(mutual & (two[:, 0] < ratio * two[:, 1]), j, -1)
+
+
+def wrong_last_of_equal_rows(a, b, ratio):
+    D = np.linalg.norm(a[:, None] - b[None], axis=2)
+    two = np.sort(D, axis=1)[:, :2]
+    j = D.argmin(axis=1)
+    back = len(a) - 1 - D[::-1].argmin(axis=0)
+    return np.where((back[j] == np.arange(len(a))) & (two[:, 0] < ratio * two[:, 1]), j, -1)
+
+
+def wrong_equal_rows_of_b_count_once(a, b, ratio):
+    D = np.linalg.norm(a[:, None] - b[None], axis=2)
+    j, i = D.argmin(axis=1), D.argmin(axis=0)
+    out = np.full(len(a), -1)
+    for k in range(len(a)):
+        lengths = np.unique(D[k])
+        if i[j[k]] == k and lengths[0] < ratio * lengths[1]:
+            out[k] = j[k]
+    return out
+
+
+def wrong_distance_zero_is_none(a, b, ratio):
+    D = np.linalg.norm(a[:, None] - b[None], axis=2)
+    two = np.sort(D, axis=1)[:, :2]
+    j, i = D.argmin(axis=1), D.argmin(axis=0)
+    keep = (i[j] == np.arange(len(a))) & (two[:, 0] < ratio * two[:, 1]) & (two[:, 0] > 0)
+    return np.where(keep, j, -1)

@@ -213,3 +213,17 @@ def wrong_fold_by_clipping(p, faces, u):
     t = np.minimum(u[:, 2], 1 - s)
     a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
     return a + s[:, None] * (b - a) + t[:, None] * (c - a)
+
+
+def wrong_without_the_third(p, faces, u):
+    areas = _areas(p, faces)
+    reached = np.cumsum(areas) / areas.sum()
+    k = np.clip(np.searchsorted(reached, u[:, 0], side="right"), 0, len(faces) - 1)
+    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
+    r = np.sqrt(u[:, [1]])
+    t = ((u[:, 0] - reached[k]) * areas.sum() / areas[k] + 1)[:, None]
+    return (1 - r) * a + r * (1 - t) * b + r * t * c
+
+
+def wrong_second_number_twice(p, faces, u):
+    return right_osada(p, faces, np.column_stack([u[:, 0], u[:, 1], (u[:, 1] * 997) % 1]))

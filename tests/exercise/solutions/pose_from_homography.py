@@ -223,3 +223,10 @@ def wrong_in_place(K, H):
 def wrong_millimetres(K, H):
     r1, r2, t = parts(K, H)
     return four(nearest(np.column_stack([r1, r2, np.cross(r1, r2)])), 1000 * t)
+
+
+def wrong_front_side_only(K, H):
+    T = right_zhang(K, H)
+    if T[2, 2] < 0:
+        T[:3, 1:3] *= -1
+    return T

@@ -234,3 +234,27 @@ def wrong_rotation_only(T, p_world, xy):
 
 def wrong_inverse(T, p_world, xy):
     return np.linalg.inv(right_lstsq(T, p_world, xy))
+
+
+def wrong_t_not_turned(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    d = np.linalg.lstsq(J, -r, rcond=None)[0]
+    out = np.eye(4)
+    out[:3, :3] = rodrigues(d[3:]) @ T[:3, :3]
+    out[:3, 3] = T[:3, 3] + d[:3]
+    return out
+
+
+def wrong_two_steps(T, p_world, xy):
+    return right_lstsq(right_lstsq(T, p_world, xy), p_world, xy)
+
+
+def wrong_until_it_arrives(T, p_world, xy):
+    for _ in range(20):
+        T = right_lstsq(T, p_world, xy)
+    return T
+
+
+def wrong_careful_step(T, p_world, xy):
+    J, r = rows(T, p_world, xy)
+    return moved(0.9 * np.linalg.lstsq(J, -r, rcond=None)[0], T)

@@ -287,3 +287,16 @@ def wrong_variance_per_coordinate(p_target, p_source):
         return 1.0
     _U, D, _Vt, sign = svd(a, b)
     return float((D * [1, 1, sign]).sum() / len(a) / b.var())
+
+
+def wrong_centimetres_coincide(p_target, p_source):
+    if len(p_source) and ((p_source - p_source.mean(0)) ** 2).sum(1).mean() < 1e-3:
+        return 1.0
+    return right_umeyama(p_target, p_source)
+
+
+def wrong_a_little_added(p_target, p_source):
+    if len(p_source) and np.ptp(p_source, axis=0).max() > 0:
+        centred = p_source - p_source.mean(0)
+        return right_umeyama(p_target, p_source) / (1 + 1e-6 / (centred**2).sum(1).mean())
+    return right_umeyama(p_target, p_source)

@@ -5,6 +5,8 @@ import math
 import numpy as np
 
 NAMED = {
+    "wrong_sign_of_a_zero": "sign of a zero",
+    "wrong_sign_of_a_zero_in_a_loop": "sign of a zero",
     "wrong_atan": "atan and nan",
     "wrong_atan_silent": "atan and nan",
     "wrong_atan_where": "atan of the quotient",
@@ -23,18 +25,21 @@ NAMED = {
 
 
 def right_plain(p):
+    p = p + 0.0
     x, y, z = p[:, 0], p[:, 1], p[:, 2]
     r = np.sqrt(x**2 + y**2 + z**2)
     return np.stack([r, np.arctan2(np.sqrt(x**2 + y**2), z), np.arctan2(y, x)], axis=1)
 
 
 def right_hypot(p):
+    p = p + 0.0
     x, y, z = p.T
     rho = np.hypot(x, y)
     return np.c_[np.hypot(rho, z), np.arctan2(rho, z), np.arctan2(y, x)]
 
 
 def right_filled(p):
+    p = p + 0.0
     out = np.zeros_like(p)
     out[:, 0] = np.linalg.norm(p, axis=1)
     out[:, 1] = np.arctan2(np.linalg.norm(p[:, :2], axis=1), p[:, 2])
@@ -43,6 +48,7 @@ def right_filled(p):
 
 
 def right_loop(p):
+    p = p + 0.0
     rows = []
     for x, y, z in p:
         r = math.sqrt(x * x + y * y + z * z)
@@ -51,12 +57,14 @@ def right_loop(p):
 
 
 def right_complex(p):
+    p = p + 0.0
     c = p[:, 0] + 1j * p[:, 1]
     s = p[:, 2] + 1j * abs(c)
     return np.column_stack((abs(s), np.angle(s), np.angle(c)))
 
 
 def right_masked(p):
+    p = p + 0.0
     r = np.linalg.norm(p, axis=1)
     rho = np.linalg.norm(p[:, :2], axis=1)
     polar = np.arctan2(rho, p[:, 2])
@@ -65,6 +73,7 @@ def right_masked(p):
 
 
 def right_half_angle(p):
+    p = p + 0.0
     x, y, z = p.T
     rho = np.hypot(x, y)
     r = np.hypot(rho, z)
@@ -76,6 +85,7 @@ def right_half_angle(p):
 
 
 def right_arcsin_and_cases(p):
+    p = p + 0.0
     out = []
     for q in np.asarray(p, dtype=float):
         r = float(np.sqrt(q @ q))
@@ -89,12 +99,15 @@ def right_arcsin_and_cases(p):
 
 
 def right_einsum(p):
+    p = p + 0.0
     squares = np.einsum("ij,ij->i", p, p)
     flat = np.einsum("ij,ij->i", p[:, :2], p[:, :2])
     return np.array([np.sqrt(squares), np.arctan2(np.sqrt(flat), p[:, 2]), np.arctan2(p[:, 1], p[:, 0])]).T
 
 
 def right_apply(p):
+    p = p + 0.0
+
     def one(q):
         return [np.sqrt((q**2).sum()), np.arctan2(np.sqrt(q[0] ** 2 + q[1] ** 2), q[2]), np.arctan2(q[1], q[0])]
 
@@ -246,4 +259,24 @@ def wrong_epsilon(p):
 def wrong_single_angle(p):
     out = right_plain(p)
     out[:, 1] = out[:, 2]
+    return out
+
+
+def wrong_sign_of_a_zero(p):
+    x, y, z = p.T
+    rho = np.hypot(x, y)
+    return np.c_[np.hypot(rho, z), np.arctan2(rho, z), np.arctan2(y, x)]
+
+
+def wrong_sign_of_a_zero_in_a_loop(p):
+    rows = []
+    for x, y, z in p:
+        r = math.sqrt(x * x + y * y + z * z)
+        rows.append([r, math.atan2(math.sqrt(x * x + y * y), z), math.atan2(y, x)])
+    return np.array(rows)
+
+
+def wrong_minus_pi(p):
+    out = right_plain(p)
+    out[out[:, 2] == np.pi, 2] = -np.pi
     return out

@@ -211,3 +211,8 @@ def wrong_rounded(P, Q, a, b):
 
 def wrong_missing_equation(P, Q, a, b):
     return solve(P, Q, a, b, lambda A: np.linalg.svd(A[:2])[2][-1])
+
+
+def wrong_in_front_of_the_world(P_first, P_second, uv_first, uv_second):
+    p = right_loop(P_first, P_second, uv_first, uv_second)
+    return np.where(p[:, 2:] < 0, -p, p)
