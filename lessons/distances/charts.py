@@ -4,7 +4,7 @@ import numpy as np
 
 from lessons.distances.plane import WITHIN
 from lessons.distances.stages import relative
-from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, State, Trials
+from lessons.distances.state import Ball, Found, Front, Landmarks, Params, Scatter, State, Trials
 from workbench.certain import sure
 from workbench.numerals import brief, length, percent
 from workbench.scene import Chart, Primitive, Role, Table
@@ -29,7 +29,7 @@ def beside(state: State) -> dict[str, Primitive]:
         case Found():
             return _so_far(state, now.d, np.isfinite(now.d)) | _found(state, now)
         case Ball():
-            return _nearest(now)
+            return _nearest(state.params, now)
         case Trials():
             return _axioms(now)
         case Scatter():
@@ -94,11 +94,13 @@ def _goal(state: State, now: Found) -> dict[str, Primitive]:
     return {"to the goal": Table("From source to goal", ("way", "length"), tuple(rows))}
 
 
-def _nearest(now: Ball) -> dict[str, Primitive]:
+def _nearest(params: Params, now: Ball) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {"radius": Chart("Radius of the ball").scalar(now.radius, "radius")}
     if now.nearest:
-        rows = tuple((name, f"point {index}") for name, index in now.nearest.items())
-        scene["nearest by"] = Table("Nearest to the purple point", ("by", "nearest"), rows)
+        rows = [(name, f"point {index}") for name, index in now.nearest.items()]
+        if params.stretch > 1:
+            rows.append(("euclid, both in metres", f"point {now.straight}"))
+        scene["nearest by"] = Table("Nearest to the purple point", ("by", "nearest"), tuple(rows))
     return scene
 
 

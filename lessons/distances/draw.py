@@ -108,9 +108,8 @@ def _ball(now: Ball) -> dict[str, Primitive]:
     if now.nearest:
         first = int(np.argmin(now.d))
         scene["nearest"] = Points(at_height(now.p[[first]], 0.005), "source", 0.035, name="nearest by this distance")
-        straight = now.nearest["euclid"]
         scene["nearest/euclid"] = Points(
-            at_height(now.p[[straight]], -0.005), "correspondence", 0.045, name="by Euclid's"
+            at_height(now.p[[now.straight]], -0.005), "correspondence", 0.045, name="by Euclid's"
         )
         told = Classes.marking(now.changed, "wrong", "another nearest", others=("neutral", "the same"))
         scene["queries"] = Points(at_height(now.queries, -0.01), told, 0.009, name="queries")

@@ -50,7 +50,8 @@ def balls(params: Params, _: Functions) -> Steps:
     )
     names = METRICS if params.metric in METRICS else (*METRICS, params.metric)
     nearest = {name: int(np.argmin(from_point(distance_in(params, name), p, query))) for name in names}
-    yield None, replace(ball, queries=asked, changed=changed, nearest=nearest)
+    straight = int(np.argmin(from_point(metrics.distance_of("euclid"), p, query)))
+    yield None, replace(ball, queries=asked, changed=changed, nearest=nearest, straight=straight)
 
 
 @traced

@@ -11,10 +11,13 @@ from lessons.distances.slots import Functions
 from lessons.distances.state import Found, Front, Now, Params, Subject
 from lessons.distances.subjects import reference, subject_of, ways_in_square
 from workbench.algorithms.fast_marching import Update, eikonal_update, march
-from workbench.algorithms.heat_method import HeatMethod, heat_method
+from workbench.algorithms.heat_method import HeatMethod, directions_of, heat_method
 from workbench.data import surfaces
 from workbench.errors import InputError
 from workbench.geometry import geodesics
+from workbench.geometry.intrinsic import intrinsic_delaunay
+from workbench.geometry.laplacian import negative_weights
+from workbench.geometry.meshes import Corners, corners
 from workbench.tracing import traced
 
 BANDS = 10
@@ -41,22 +44,33 @@ def grid(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
             yield subject, front
         path = _path(subject, edges, lengths, d)
     found = _found(subject, d, path)
+    if params.neighbours == "march":
+        found = replace(found, eight=_by_eight(params, subject))
     yield subject, found
     yield subject, replace(found, study=finer_grids())
+
+
+def _by_eight(params: Params, subject: Subject) -> float:
+    """Return the worst relative error of ways to 8 neighbours on the same grid."""
+    edges, lengths = ways_in_square(params.grid, params.wall, 8)
+    d = geodesics.shortest_distances(edges, lengths, len(subject.p), subject.source)
+    return _found(subject, d, np.empty(0, int)).worst
 
 
 def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
     """Yield distances over a mesh, along its edges or by heat, and how far off they are."""
     subject = subject_of(params)
     if params.method == "heat":
-        d, method = np.empty(0), (subject.p, subject.faces, 10.0**params.time * subject.h**2)
-        for now in heat_method(subject.p, subject.faces, subject.source, method[2]):
+        shown = corners(subject.p, subject.faces)
+        measured = intrinsic_delaunay(subject.p, subject.faces) if params.delaunay else shown
+        time, d = 10.0**params.time * subject.h**2, np.empty(0)
+        for now in heat_method(measured, subject.source, time):
             d = now.d
-            yield subject, now
-        found = _found(subject, d, np.empty(0, int))
+            yield subject, replace(now, X=directions_of(shown, now.u)) if len(now.X) else now
+        found = replace(_found(subject, d, np.empty(0, int)), negative=negative_weights(measured))
         yield subject, found
-        asymmetry, broken = _as_a_metric(HeatMethod(*method))
-        found = replace(found, asymmetry=asymmetry, broken=broken, times=_over_time(subject))
+        asymmetry, broken = _as_a_metric(HeatMethod(measured, time))
+        found = replace(found, asymmetry=asymmetry, broken=broken, times=_over_time(subject, measured))
     else:
         nodes, edges, lengths = geodesics.with_points_on_edges(subject.p, subject.faces, params.extra)
         d = distances_by(functions, edges, lengths, len(nodes), subject.source)
@@ -67,7 +81,7 @@ def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now
         way = geodesics.shortest_path(edges, lengths, d, goal)
         found = replace(found, path=nodes[way])
         yield subject, found
-    if subject.is_sphere:
+    if params.shape == "sphere" and subject.is_sphere:
         found = replace(found, study=finer_spheres(params.jitter))
     if found.study or found.times is not None:
         yield subject, found
@@ -139,21 +153,21 @@ def relative(d: np.ndarray, truth: np.ndarray) -> np.ndarray:
 
 def _as_a_metric(method: HeatMethod) -> tuple[np.ndarray, float]:
     """Return the asymmetry of heat distances between some vertices, and the share of triples that break the triangle."""
-    chosen = np.unique(np.linspace(0, len(method.p) - 1, PAIRS).astype(int))
+    chosen = np.unique(np.linspace(0, method.measured.count - 1, PAIRS).astype(int))
     D = method.between(chosen)
     i, j = np.triu_indices(len(chosen), 1)
     over = D[:, :, None] + D[None, :, :]  # a to b to c
     excess = D[:, None, :] - over
     n = len(chosen)
     apart = np.array([len({a, b, c}) == 3 for a in range(n) for b in range(n) for c in range(n)]).reshape(n, n, n)
-    return np.abs(D - D.T)[i, j] / np.maximum(D, D.T)[i, j], float((excess > 1e-9)[apart].mean())
+    return np.abs(D - D.T)[i, j] / np.maximum(np.abs(D), np.abs(D.T))[i, j], float((excess > 1e-9)[apart].mean())
 
 
-def _over_time(subject: Subject) -> tuple[np.ndarray, np.ndarray]:
+def _over_time(subject: Subject, measured: Corners) -> tuple[np.ndarray, np.ndarray]:
     """Return the mean size of the error of heat for each time, per cent."""
     truth, errors = reference(subject), []
     for time in TIMES:
-        *_, last = heat_method(subject.p, subject.faces, subject.source, 10.0**time * subject.h**2)
+        *_, last = heat_method(measured, subject.source, 10.0**time * subject.h**2)
         errors.append(100 * float(np.nanmean(np.abs(relative(last.d, truth)))))
     return TIMES, np.array(errors)
 
@@ -195,7 +209,7 @@ def finer_spheres(jitter: float = 0.0) -> dict[str, tuple[np.ndarray, np.ndarray
             errors.setdefault(name, []).append(_worst(d, truth))
             if extra == 0:
                 spacing.append(float(lengths.mean()))
-        *_, last = heat_method(ball.p, ball.faces, 0, spacing[-1] ** 2)
+        *_, last = heat_method(corners(ball.p, ball.faces), 0, spacing[-1] ** 2)
         errors.setdefault("heat", []).append(_worst(last.d, truth))
     return _log(np.array(spacing), errors)
 

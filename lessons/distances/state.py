@@ -13,7 +13,7 @@ from workbench.geometry.metrics import Metric
 from workbench.knobs import Knob, Pick
 
 Stage = Literal["balls", "axioms", "whiten", "stereo", "grid", "surface", "roll"]
-Shape = Literal["sphere", "torus", "rabbit"]
+Shape = Literal["sphere", "wrung sphere", "torus", "rabbit"]
 Neighbours = Literal["4", "8", "16", "march"]
 MOST_OWN = 6000
 IN_PLANE = {"stage": ("balls", "axioms")}
@@ -80,6 +80,11 @@ class Params:
         Knob("How long heat flows, in squared mean edges: log₁₀", -2, 3, step=0.5,
              needs=ON_SURFACE | {"method": ("heat",)}),
     ] = 0.0  # fmt: skip
+    delaunay: Annotated[
+        bool,
+        Knob("Edges are flipped within the surface until no weight is negative",
+             needs=ON_SURFACE | {"method": ("heat",)}),
+    ] = False  # fmt: skip
     k: Annotated[int, Knob("Neighbours of every point of the roll", 4, 30, needs={"stage": ("roll",)})] = 15
     source: Annotated[
         int,
@@ -167,6 +172,8 @@ class Found:
         broken: The share of triples of these nodes that break the triangle inequality.
         study: Of ever finer grids or meshes: log10 of their spacing, and by method log10 of the worst error in per cent.
         times: Of heat: log10 of the time in squared edges, and the mean size of the error in per cent.
+        negative: Of heat: how many edges have a negative weight.
+        eight: Of fast marching: the worst error of ways to 8 neighbours on the same grid; NaN elsewhere.
     """
 
     d: np.ndarray
@@ -177,6 +184,13 @@ class Found:
     broken: float = float("nan")
     study: dict[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
     times: tuple[np.ndarray, np.ndarray] | None = None
+    negative: int = 0
+    eight: float = float("nan")
+
+    @property
+    def below(self) -> float:
+        """The share of distances below 0, which none can be."""
+        return float((self.d < -1e-9).mean())
 
     @property
     def worst(self) -> float:
@@ -201,7 +215,8 @@ class Ball:
         d: Their distances from it; inf for itself.
         radius: Of the ball.
         rims: The outline of the ball by this distance, and of Euclid's, closed or open lines.
-        nearest: By every distance the nearest of the others.
+        nearest: By every distance the nearest of the others, y being in the unit of the params.
+        straight: The nearest by Euclid's distance with x and y in metres.
         changed: Of many other queries: which have another nearest point than by Euclid's; empty before the end.
         queries: Where these are.
     """
@@ -212,6 +227,7 @@ class Ball:
     radius: float
     rims: tuple[np.ndarray, np.ndarray]
     nearest: dict[str, int] = field(default_factory=dict)
+    straight: int = -1
     queries: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
     changed: np.ndarray = field(default_factory=lambda: np.empty(0, bool))
 

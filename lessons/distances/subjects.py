@@ -23,6 +23,7 @@ OWN_SIZE, MOST_CLOUD = 2.0, 3000
 TOWARDS_EYE = np.array([0.3, -0.8, 0.55])  # where the source is, on a surface
 FROM, TO = (-0.3, 0.0), (0.3, -0.2)  # in the square, the origin being its middle
 SHORTCUT = 3.0  # so many times as far apart on the sheet as in space
+WRUNG = 3.0  # how far a wrung sphere is turned per metre of height, radians
 POINTS_ON_EDGES = 4  # what the reference of a surface without formula is made with; 2 on large ones
 LARGE = 1500
 
@@ -105,7 +106,9 @@ def ways_in_square(side: int, wall: float, neighbours: int) -> tuple[np.ndarray,
 
 
 def _made_surface(params: Params) -> Subject:
-    return _surface(only(params, "shape", "points", *(("jitter", "seed") if params.jitter else ())))
+    return _surface(
+        only(params, "shape", "points", *(("jitter", "seed") if params.jitter and params.shape == "sphere" else ()))
+    )
 
 
 @functools.lru_cache(maxsize=8)
@@ -116,6 +119,12 @@ def _surface(params: Params) -> Subject:
         ring = surfaces.torus(max(params.points, 50), 0.7, 0.3)
         return _mesh("the torus", ring.p, ring.faces)
     ball = surfaces.sphere(params.points, jitter=params.jitter, rng=np.random.default_rng(params.seed))
+    if params.shape == "wrung sphere":
+        turn = WRUNG * ball.p[:, 2]
+        along, across = np.cos(turn), np.sin(turn)
+        x = along * ball.p[:, 0] - across * ball.p[:, 1]
+        y = across * ball.p[:, 0] + along * ball.p[:, 1]
+        return replace(_mesh("the wrung sphere", np.column_stack([x, y, ball.p[:, 2]]), ball.faces), is_sphere=True)
     return replace(_mesh("the sphere", ball.p, ball.faces), is_sphere=True)
 
 

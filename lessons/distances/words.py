@@ -12,6 +12,7 @@ from workbench.numerals import brief, counted, fixed, length, percent
 from workbench.scene import Caption
 
 GOOD, BAD = 0.02, 0.06  # mean sizes of the relative error: up to the one it is right, above the other wrong
+MANY = 0.3  # edges of negative weight per vertex, a tenth of all edges: from there on they are named as a cause
 BALLS = {
     "euclid": "a disc",
     "manhattan": "a square on its corner",
@@ -85,9 +86,12 @@ def _of_heat(state: State, now: HeatState) -> str:
 
 
 def tone_of(now: Found) -> Literal["good", "wrong", "info"]:
-    """Return whether distances are right: on average to 2 %, and wrong from 6 % on."""
+    """Return whether distances are right: on average to 2 %, and wrong from 6 % on.
+
+    Right distances that are no metric claim nothing.
+    """
     known = np.abs(now.error[np.isfinite(now.error)])
-    if not len(known):
+    if not len(known) or (len(now.asymmetry) and known.mean() <= GOOD):
         return "info"
     return "good" if known.mean() <= GOOD else "wrong" if known.mean() > BAD else "info"
 
@@ -107,7 +111,8 @@ def _of_found(state: State, now: Found) -> Caption:
         )
     tone = tone_of(now)
     known = np.abs(now.error[np.isfinite(now.error)])
-    text = f"By {by}: {percent(float(known.mean()))} off on average, at worst {_too(now.worst)}"
+    median = f" (median {percent(float(np.median(known)))})" if way_of(state.params) == "heat" else ""
+    text = f"By {by}: {percent(float(known.mean()))} off on average{median}, at worst {_too(now.worst)}"
     if not len(subject.truth):
         text += ", beside ways over many points of the edges"
     if subject.goal >= 0 and np.isfinite(now.d[subject.goal]):
@@ -118,10 +123,30 @@ def _of_found(state: State, now: Found) -> Caption:
     if reached < where:
         text += f" {where - reached:,} nodes cannot be reached."
     if len(now.asymmetry):
-        text += f" There and back differ by up to {percent(now.asymmetry.max())},"
-        text += f" and of the triples {percent(now.broken)} break the triangle inequality."
-    text += {"good": " Right to 2 %.", "wrong": " That is wrong, also on average.", "info": ""}[tone]
+        text += f" There and back differ by {percent(float(np.median(now.asymmetry)))} in the median and"
+        text += f" {percent(now.asymmetry.max())} at most; {percent(now.broken)} of the triples break the triangle"
+        text += " inequality."
+    else:
+        text += _of_weights(now)
+        text += {"good": " Right to 2 %.", "wrong": " That is wrong, also on average.", "info": ""}[tone]
+        text += _of_eight(now)
     return Caption(text + _of_study(state, now), tone)
+
+
+def _of_weights(now: Found) -> str:
+    """Return what negative weights did, where they did harm."""
+    if not now.below and not (tone_of(now) != "good" and now.negative > MANY * len(now.d)):
+        return ""
+    below = f" {percent(now.below)} of the distances are below 0." if now.below else ""
+    edges = counted(now.negative, "edge has", "edges have")
+    return f"{below} {edges} a negative weight: the angles opposite are more than 180° together."
+
+
+def _of_eight(now: Found) -> str:
+    if not np.isfinite(now.eight):
+        return ""
+    nearer = "nearer to the truth" if abs(now.eight) < abs(now.worst) else "farther off"
+    return f" Ways to 8 neighbours are {nearer} on this grid: at worst {_too(now.eight)}."
 
 
 def _of_study(state: State, now: Found) -> str:
@@ -148,10 +173,11 @@ def _of_ball(params: Params, now: Ball) -> str:
         shape += ", but for the unit of y"
     if not now.nearest:
         return f"All within {brief(now.radius)} of the purple point by this distance: {shape}."
-    mine, straight = int(np.argmin(now.d)), now.nearest["euclid"]
+    mine = int(np.argmin(now.d))
+    in_metres = ", with both in metres," if params.stretch > 1 else ""
     text = (
         f"The ball touches its first point, {mine}: the nearest by this distance, {brief(now.radius)} away."
-        f" By Euclid's it is {'the same' if mine == straight else f'point {straight}'}."
+        f" By Euclid's{in_metres} it is {'the same' if mine == now.straight else f'point {now.straight}'}."
     )
     return f"{text} Of {len(now.changed)} other queries {percent(float(now.changed.mean()))} have another nearest."
 

@@ -110,7 +110,7 @@ def matrices(laplacian: Laplacian, count: int) -> Iterator[Matrix]:
     yield Matrix(part="degrees", laplacian=laplacian, shown=degrees, order=as_numbered)
     yield Matrix(part="laplacian", laplacian=laplacian, shown=L, order=as_numbered)
     yield Matrix(part="applied", laplacian=laplacian, shown=L, order=as_numbered)
-    fiedler = laplacian.smallest(2)[1][:, 1]
+    _, fiedler = laplacian.second()
     order = np.argsort(fiedler, kind="stable")  # nodes that are joined have similar values, and come to stand together
     yield Matrix(part="ordered", laplacian=laplacian, shown=L[order][:, order], order=order)
 

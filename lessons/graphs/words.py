@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from lessons.graphs.measures import apart, from_clean, predicted, reached, right, tone, volume_share
+from lessons.graphs.measures import apart, from_clean, predicted, reached, right, tone, two_sides, volume_share
 from lessons.graphs.state import Grown, Matrix, Mode, State
 from workbench.algorithms.diffusion import Heat, Smoothed
 from workbench.algorithms.graph_network import Layer, Trained
 from workbench.algorithms.spectral_cut import Cut
-from workbench.geometry.graphs import degrees, edges_of
+from workbench.certain import sure
+from workbench.geometry.graphs import cut_weight, degrees, edges_of
 from workbench.numerals import brief, counted, fixed_or_power, percent
 from workbench.scene import Caption
 
@@ -85,11 +86,12 @@ def _matrix(state: State, now: Matrix) -> str:
 
 def _mode(state: State, now: Mode) -> str:
     if now.spectra:
-        same = [bool(np.allclose(*(each[k] for each in now.spectra), atol=1e-9)) for k in (0, 1)]
-        told = {True: "the same for both", False: "different"}
+        told = " and ".join(
+            f"of {name} {_both([each[k] for each in now.spectra])}" for k, name in enumerate(("A", "L = D − A"))
+        )
         return (
-            f"Two graphs of {counted(len(now.spectra[0][0]), 'node')} each: the eigenvalues of A are {told[same[0]]}, those"
-            f" of L = D − A are {told[same[1]]}. Eigenvector {now.index + 1} of both: λ = {brief(now.values[now.index])}."
+            f"Two graphs of {counted(len(now.spectra[0][0]), 'node')} each. Eigenvalues {told}. Drawn: eigenvector"
+            f" {now.index + 1} of the two taken as one graph, λ = {brief(now.values[now.index])}."
         )
     value, number = float(now.values[now.index]), now.index + 1
     text = f"Eigenvector {number}: λ = {brief(value)}"
@@ -110,6 +112,12 @@ def _mode(state: State, now: Mode) -> str:
     return f"{text}. Slow first: {changes} of the {counted(len(edges_of(state.adjacency)), 'edge')} join two signs."
 
 
+def _both(spectra: list[np.ndarray]) -> str:
+    """Return the eigenvalues of two graphs, once where they are the same."""
+    lists = [", ".join(brief(round(float(value), 9) + 0.0) for value in values) for values in spectra]
+    return f"{lists[0]} for both" if lists[0] == lists[1] else f"{lists[0]} for the first, {lists[1]} for the second"
+
+
 def _sign_changes(state: State, now: Mode) -> int:
     above = now.functions[:, now.index] > 0
     a, b = edges_of(state.adjacency).T
@@ -121,23 +129,38 @@ def _cut(state: State, now: Cut) -> str:
     if now.phase == "graph":
         return f"The graph: {counted(n, 'node')}, {counted(len(edges_of(now.adjacency)), 'edge')}. Where is it thin?"
     if now.phase == "fiedler":
-        zero = now.eigenvalues[1] < 1e-9 * max(float(degrees(now.adjacency).max()), 1.0)
-        rest = (
-            "0 twice: the graph has no path from one part to another"
-            if zero
-            else f"λ₂ = {brief(float(now.eigenvalues[1]))}"
+        zeros = int(np.count_nonzero(now.eigenvalues < 1e-9 * max(float(degrees(now.adjacency).max()), 1.0)))
+        if zeros < 2:
+            rest = f"λ₂ = {brief(float(now.eigenvalues[1]))}. It changes little along edges."
+            return f"The second eigenvector of L, after the constant one: {rest}"
+        pieces = "0 twice: the graph has no path from one part to another" if zeros == 2 else "0 three times or more"
+        left = "one value on each part" if zeros == 2 else "a mixture that is not determined"
+        return (
+            f"The smallest eigenvalue of L is {pieces}. A solver returns any mixture of the parts' constants; with the"
+            f" constant of all nodes taken out, what is left is {left}."
         )
-        return f"The second eigenvector of L, after the constant one: {rest}. It changes little along edges."
     sizes = f"{counted(int(now.side.sum()), 'node')} against {n - int(now.side.sum()):,}"
     cost = f"{brief(now.cut)} {'edge is' if now.cut == 1 else 'edges are'} cut"
     if state.params.weighted and state.params.graph == "karate":
         cost = f"edges of weight {brief(now.cut)} are cut"
-    text = f"{sizes}, {cost}, conductance {brief(now.conductance, 2)}."
+    share = f"conductance {brief(now.conductance, 2)}" if np.isfinite(now.conductance) else "conductance 0/0"
+    text = f"{sizes}, {cost}, {share}."
     if now.phase == "sign":
         return f"Cut by sign: {text}{_sides(state)}"
     if now.phase == "sweep":
         return f"One of the {n - 1:,} cuts along the vector, after node {now.k + 1:,}: {text}"
-    return f"The cut of least conductance along the vector: {text}{_sides(state)}"
+    return f"The cut of least conductance along the vector: {text}{_sides(state)}{_by_sign(state, now)}"
+
+
+def _by_sign(state: State, now: Cut) -> str:
+    """Return how many the sign had right, where that were more."""
+    if not len(state.subject.classes):
+        return ""
+    before = int(np.count_nonzero(two_sides(now.fiedler > 0, state.subject.classes) == state.subject.classes))
+    edges = brief(cut_weight(now.adjacency, now.fiedler > 0))
+    if before <= sure(right(state)):
+        return ""
+    return f" By sign it was {before:,}, for a cut of {edges}: the least conductance need not be the truth."
 
 
 def _sides(state: State) -> str:

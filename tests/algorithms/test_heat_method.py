@@ -6,10 +6,11 @@ import pytest
 from workbench.algorithms.heat_method import HeatMethod, heat_method, mean_edge_length
 from workbench.data import surfaces
 from workbench.geometry.laplacian import mixed_areas
+from workbench.geometry.meshes import corners
 
 
 def last(p, faces, source=0, times=1.0):
-    *_, state = heat_method(p, faces, source, times * mean_edge_length(p, faces) ** 2)
+    *_, state = heat_method(corners(p, faces), source, times * mean_edge_length(p, faces) ** 2)
     return state
 
 
@@ -37,7 +38,7 @@ def test_on_a_flat_sheet_it_is_straight_away_from_the_border():
 
 def test_directions_have_length_one_and_lead_away():
     ball = surfaces.sphere(642)
-    states = list(heat_method(ball.p, ball.faces, 0, 0.02))
+    states = list(heat_method(corners(ball.p, ball.faces), 0, 0.02))
     assert [state.phase for state in states] == ["flow", "directions", "distances"]
     X = states[1].X
     np.testing.assert_allclose(np.linalg.norm(X, axis=1), 1)
@@ -60,7 +61,7 @@ def test_it_moves_with_the_mesh_and_grows_with_it():
 
 def test_heat_adds_up_to_what_was_put_in():
     ball = surfaces.sphere(162)
-    method = HeatMethod(ball.p, ball.faces, 0.05)
+    method = HeatMethod(corners(ball.p, ball.faces), 0.05)
     u = method.heat(np.array([0, 5]))
     np.testing.assert_allclose(mixed_areas(ball.p, ball.faces) @ u, 1)
     np.testing.assert_allclose(u[5, 0], u[0, 1])  # A + t L is symmetric
@@ -68,7 +69,9 @@ def test_heat_adds_up_to_what_was_put_in():
 
 def test_it_is_nearly_a_metric():
     ball = surfaces.sphere(642, jitter=0.2, rng=np.random.default_rng(1))
-    D = HeatMethod(ball.p, ball.faces, mean_edge_length(ball.p, ball.faces) ** 2).between(np.arange(0, 640, 40))
+    D = HeatMethod(corners(ball.p, ball.faces), mean_edge_length(ball.p, ball.faces) ** 2).between(
+        np.arange(0, 640, 40)
+    )
     assert (np.diag(D) == 0).all()
     uneven = np.abs(D - D.T)[np.triu_indices(16, 1)]
     assert 0 < uneven.max() < 0.1

@@ -24,6 +24,7 @@ from workbench.algorithms.fast_marching import march
 from workbench.algorithms.heat_method import HeatMethod, mean_edge_length
 from workbench.data import surfaces
 from workbench.geometry import geodesics, metrics
+from workbench.geometry.meshes import corners
 
 FLOORS = {"dijkstra": 1.3, "heat": 1.3, "mahalanobis": 0.13}
 SIDE = 81
@@ -93,7 +94,7 @@ def heats(
     time = mean_edge_length(p, faces) ** 2
 
     def ours() -> float:
-        method = HeatMethod(p, faces, time)
+        method = HeatMethod(corners(p, faces), time)
         u = method.heat(np.array([0]))[:, 0]
         return float(method.distances(method.directions(u), 0).max())
 

@@ -27,7 +27,7 @@ def true_distances(state: State) -> np.ndarray:
         return np.array(found)
     if state.params.stage == "roll" and state.params.cloud is None:
         return unrolled(p, s.source)
-    if state.params.shape == "sphere" and state.params.mesh is None:
+    if state.params.shape in ("sphere", "wrung sphere") and state.params.mesh is None:
         return np.arccos(np.clip(p @ q / np.linalg.norm(q) ** 2, -1, 1)) * np.linalg.norm(q)
     assert isinstance(state.now, Found)
     return state.now.truth

@@ -7,6 +7,7 @@ import numpy as np
 
 from lessons.graphs.state import Grown, Mode
 from lessons.graphs.words import caption
+from tests.own_seed import of_preset
 from tests.readings import NUMBER, POWER, near, number, says_percent
 from tests.truths.graphs import A, correct, modes, off, parts, told, volume
 from tests.verdicts import Claim, Run
@@ -177,9 +178,10 @@ CAPTIONS = [
         _cut,
     ),
     Claim(r"The cut of least conductance along the vector", _least),
+    Claim(rf"By sign it was (?P<n>[\d,]+), for a cut of (?P<edges>{NUMBER})", lambda run, k, m: _sign_truer(run, k, m)),
     Claim(r"(?P<edges>[\d,]+) edges?, (?P<parts>[\d,]+) components?", _pieces),
     Claim(r"(?P<share>[\d.]+ %) of the namings are not returned", _one_way),
-    Claim(r"0 twice: the graph has no path", lambda run, k, m: len(parts(A(run.states[k]))) > 1),
+    Claim(r"0 twice: the graph has no path", lambda run, k, m: len(parts(A(run.states[k]))) == 2),
     Claim(rf"Eigenvector \d+: λ = {VALUE}(?=[,.:])", _mode),
     Claim(rf"off the exact heat by {VALUE}", lambda run, k, m: near(m["value"], exact_error(run, k), 2)),
     Claim(r"off the exact heat by less than 0\.00001", lambda run, k, m: exact_error(run, k) < 1.05e-5),
@@ -225,9 +227,30 @@ def _bridge(run: Run, k: int, m: re.Match[str]) -> bool:
     return sign.cut > 2 * last_cut(run).cut and middle(run) < 0.9 and correct(run.states[-1]) >= 412
 
 
+def _spectra_of_pair(run: Run, of_A: tuple, of_L: tuple) -> bool:
+    """The eigenvalues of both graphs, from their dense matrices."""
+    whole, classes = A(run.states[0]), run.states[0].subject.classes
+    good = True
+    for which in (0, 1):
+        one = whole[np.ix_(classes == which, classes == which)]
+        good &= np.allclose(np.linalg.eigvalsh(one), of_A[which], atol=1e-9)
+        good &= np.allclose(np.linalg.eigvalsh(np.diag(one.sum(axis=1)) - one), of_L[which], atol=1e-9)
+    return bool(good)
+
+
+def _sign_truer(run: Run, k: int, m: re.Match[str]) -> bool:
+    """By the sign of the vector more nodes are on their side, for so many edges cut."""
+    state = run.states[k]
+    above = state.now.fiedler > 0
+    by_sign = max(int((above == state.subject.classes).sum()), int((~above == state.subject.classes).sum()))
+    edges = A(state)[above][:, ~above].sum()
+    return number(m["n"]) == by_sign > correct(state) and near(m["edges"], float(edges))
+
+
 LINES = {
     "one-way": [
         Claim(r"1,500 points", lambda run, k, m: len(run.states[0].subject.p) == 1500),
+        Claim(r"(?P<share>39 %) of the namings are not returned", of_preset(lambda run, k, m: _one_way(run, 0, m))),
     ],
     "matrix": [
         Claim(
@@ -242,6 +265,7 @@ LINES = {
     ],
     "split": [
         Claim(r"0 is an eigenvalue twice", lambda run, k, m: len(parts(A(run.states[0]))) == 2),
+        Claim(r"it is 100 against 100 nodes", lambda run, k, m: run.states[2].now.side.sum() == 100),
     ],
     "square": [
         Claim(
@@ -266,8 +290,8 @@ LINES = {
     "uneven": [Claim(r"the three slowest should be alike and are not", _uneven)],
     "twins": [
         Claim(
-            r"both adjacency matrices have the same eigenvalues\. L tells them apart",
-            lambda run, k, m: bool(np.allclose(*(pair[0] for pair in run.states[0].now.spectra), atol=1e-9)),
+            r"both A have eigenvalues −2, 0, 0, 0, 2\. Those of L differ: 0, 1, 1, 1, 5 and 0, 0, 2, 2, 4",
+            lambda run, k, m: _spectra_of_pair(run, ((-2, 0, 0, 0, 2), (-2, 0, 0, 0, 2)), ((0, 1, 1, 1, 5), (0, 0, 2, 2, 4))),
         ),
     ],
     "warm": [
@@ -284,9 +308,8 @@ LINES = {
     ],
     "taubin": [
         Claim(
-            r"the volume stays",
-            lambda run, k, m: abs(volume(run.states[-1].now.p, run.states[-1].subject.faces)
-                                  / volume(run.states[0].now.p, run.states[0].subject.faces) - 1) < 0.02,
+            r"(?P<share>101 %) of the volume",
+            of_preset(lambda run, k, m: _volume(run, len(run.states) - 1, m)),
         ),
     ],
     "deep": [
@@ -297,7 +320,7 @@ LINES = {
             ),
         ),
     ],
-    "trained": [Claim(r"most of the others follow", lambda run, k, m: correct(run.states[-1]) >= 30)],
+    "trained": [Claim(r"in the end 33 of 34 are right", of_preset(lambda run, k, m: correct(run.states[-1]) == 33))],
     "deeper": [Claim(r"watch what is right", None)],
     "same": [
         Claim(r"every message is the same too", lambda run, k, m: _same(run, k)),

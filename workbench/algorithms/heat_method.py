@@ -12,8 +12,8 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int
 
-from workbench.geometry.laplacian import cotangent_laplacian, mixed_areas_of
-from workbench.geometry.meshes import Corners, corners, edges
+from workbench.geometry.laplacian import cotangent_laplacian_of, mixed_areas_of
+from workbench.geometry.meshes import Corners, edges
 from workbench.tracing import traced
 
 Points = Float[np.ndarray, "v 3"]
@@ -36,36 +36,35 @@ class HeatMethod:
     """A mesh made ready for distances by heat: its two matrices, factored once for any number of sources.
 
     Attributes:
-        p: Vertices, metres.
-        faces: Triangles, without borders or with them (there heat does not leave).
+        measured: The corners of its triangles, as they stand in space (`corners`) or laid out each for itself
+            (`intrinsic_delaunay`). Heat does not leave over a border.
         time: How long heat flows, m^2.
     """
 
-    def __init__(self, p: Points, faces: Faces, time: float) -> None:
-        self.p, self.faces, self.time = p, faces, time
-        self._corners = corners(p, faces)
-        areas = mixed_areas_of(self._corners)
-        L = cotangent_laplacian(p, faces)
+    def __init__(self, measured: Corners, time: float) -> None:
+        self.measured, self.time = measured, time
+        areas = mixed_areas_of(measured)
+        L = cotangent_laplacian_of(measured)
         shift = SHIFT * float(L.diagonal().mean())
         self._flow = _factored(time * L + scipy.sparse.diags_array(areas))  # (3): A + t L
-        self._rise = _factored(L + shift * scipy.sparse.eye_array(len(p)))
+        self._rise = _factored(L + shift * scipy.sparse.eye_array(measured.count))
 
     def heat(self, sources: Int[np.ndarray, " s"]) -> Float[np.ndarray, "v s"]:
         """Return the heat of every vertex, one column per source, after one implicit step from a unit there."""
-        unit = np.zeros((len(self.p), len(sources)))
+        unit = np.zeros((self.measured.count, len(sources)))
         unit[sources, np.arange(len(sources))] = 1.0
         return self._flow.solve(unit)
 
     def directions(self, heat: Float[np.ndarray, " v"]) -> Float[np.ndarray, "f 3"]:
         """Return on every face the unit vector X along which heat falls; zero where it does not fall."""
-        return _directions(self._corners, heat)
+        return directions_of(self.measured, heat)
 
     def distances(self, directions: Float[np.ndarray, "f 3"], source: int) -> Float[np.ndarray, " v"]:
         """Return the function that rises along X as well as one can, 0 at the source, m: L phi = -div X.
 
         Reference: Crane et al. 2013, section 3.2.
         """
-        phi = self._rise.solve(-_divergence(self._corners, directions))
+        phi = self._rise.solve(-_divergence(self.measured, directions))
         return phi - phi[source]
 
     def between(self, sources: Int[np.ndarray, " s"]) -> Float[np.ndarray, "s s"]:
@@ -93,16 +92,15 @@ class HeatState:
 
 
 @traced
-def heat_method(p: Points, faces: Faces, source: int, time: float) -> Iterator[HeatState]:
+def heat_method(measured: Corners, source: int, time: float) -> Iterator[HeatState]:
     """Yield heat that has flowed for a time, its directions, and the distances that rise along them.
 
     Args:
-        p: Vertices, metres.
-        faces: Triangles.
+        measured: The corners of a mesh' triangles.
         source: A vertex.
         time: m^2; the paper takes the squared mean length of the edges.
     """
-    method = HeatMethod(p, faces, time)
+    method = HeatMethod(measured, time)
     u = method.heat(np.array([source]))[:, 0]  # (A + t L) u = 1 at the source
     yield (now := HeatState(phase="flow", u=u))
     X = method.directions(u)  # X = -grad u / |grad u|
@@ -118,7 +116,7 @@ def _factored(matrix: "scipy.sparse.csr_array") -> "scipy.sparse.linalg.SuperLU"
     )
 
 
-def _directions(measured: Corners, u: np.ndarray) -> np.ndarray:
+def directions_of(measured: Corners, u: Float[np.ndarray, " v"]) -> Float[np.ndarray, "f 3"]:
     """Return -grad u / |grad u| of a function that is linear on each face: grad u = sum_k u_k (N x e_k) / 2 A."""
     e, N, at = measured.edges, measured.normals, u[measured.vertices]
     level = np.abs(at).max(axis=0)

@@ -63,8 +63,7 @@ def spectral_cut(adjacency: Sparse, laplacian: Laplacian, shown: int = 6) -> Ite
     now = Cut(phase="graph", adjacency=adjacency)
     yield now
 
-    values, functions = laplacian.smallest(min(3, adjacency.shape[0]))
-    fiedler = functions[:, 1]  # of the first, L u = 0, nothing can be learned: it is constant
+    values, fiedler = laplacian.second(min(3, adjacency.shape[0]))  # the first is constant and tells nothing
     yield (now := replace(now, phase="fiedler", eigenvalues=values, fiedler=fiedler))
 
     yield (now := _with(now, "sign", fiedler > 0, -1))

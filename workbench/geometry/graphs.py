@@ -172,19 +172,20 @@ def cut_weight(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
 
 
 def conductance(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
-    """Return the weight of a cut over the smaller of the two sides' sums of degrees; 1 where a side has none.
+    """Return the weight of a cut over the smaller of the two sides' sums of degrees; NaN where a side has none.
 
     Reference: Spielman, Spectral and algebraic graph theory, 2019, section 21.1.
     """
     d = degrees(adjacency)
     smaller = min(d[side].sum(), d[~side].sum())
-    return cut_weight(adjacency, side) / smaller if smaller > 0 else 1.0
+    return cut_weight(adjacency, side) / smaller if smaller > 0 else float("nan")
 
 
 def sweep(adjacency: Sparse, values: Float[np.ndarray, " n"]) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, " m"]]:
     """Return the nodes in ascending order of a value, and the conductance of each of the n - 1 cuts along that order.
 
-    Cut k has the first k + 1 nodes on one side. One pass over the edges finds all of them.
+    Cut k has the first k + 1 nodes on one side. Where a side has no edges it is given 1, so that it is not the best. One
+    pass over the edges finds all of them.
 
     Reference: Spielman 2019, section 21.2 (Cheeger's inequality: the best of these cuts is at most sqrt(2 nu_2), nu_2 being
     the second eigenvalue of the normalised Laplacian, where the values are its second eigenvector over D^(1/2)).

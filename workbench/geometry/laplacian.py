@@ -9,6 +9,7 @@ from workbench.geometry.spectra import Laplacian, smallest_eigenpairs
 
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
+ROUNDING = 1e-9  # of a weight; weights have no unit
 
 
 def cotangent_laplacian(p: Points, faces: Faces) -> "scipy.sparse.csr_array":
@@ -19,13 +20,27 @@ def cotangent_laplacian(p: Points, faces: Faces) -> "scipy.sparse.csr_array":
 
     Reference: Pinkall and Polthier, Computing discrete minimal surfaces and their conjugates, 1993, section 4.
     """
-    measured = corners(p, faces)
+    return cotangent_laplacian_of(corners(p, faces))
+
+
+def cotangent_laplacian_of(measured: Corners) -> "scipy.sparse.csr_array":
+    """Return the cotangent Laplacian of corners that were measured already."""
+    n = measured.count
     a, b = measured.vertices[[1, 2, 0]].ravel(), measured.vertices[[2, 0, 1]].ravel()
     weights = measured.cotangents.ravel() / 2
-    diagonal = np.bincount(a, weights, len(p)) + np.bincount(b, weights, len(p))
-    rows, columns = np.concatenate([a, b, np.arange(len(p))]), np.concatenate([b, a, np.arange(len(p))])
+    diagonal = np.bincount(a, weights, n) + np.bincount(b, weights, n)
+    rows, columns = np.concatenate([a, b, np.arange(n)]), np.concatenate([b, a, np.arange(n)])
     values = np.concatenate([-weights, -weights, diagonal])
-    return scipy.sparse.csr_array((values, (rows, columns)), shape=(len(p), len(p)))
+    return scipy.sparse.csr_array((values, (rows, columns)), shape=(n, n))
+
+
+def negative_weights(measured: Corners) -> int:
+    """Return how many edges have a negative cotangent weight: the angles opposite them are more than pi together.
+
+    With such weights heat may fall below 0 and the largest value need not lie where heat was put in.
+    """
+    L = scipy.sparse.triu(cotangent_laplacian_of(measured), 1)
+    return int(np.count_nonzero(L.data > ROUNDING))
 
 
 def mixed_areas(p: Points, faces: Faces) -> Float[np.ndarray, " v"]:

@@ -14,6 +14,8 @@ DENSE = 300
 """Up to so many nodes all eigenvectors of a dense matrix cost less than a few of a sparse one."""
 SHIFT = 1e-4
 """How far below 0 the matrix is inverted, as a share of its mean diagonal."""
+ZERO = 1e-9
+"""Up to this share of the largest entry of the diagonal an eigenvalue is 0."""
 Sparse: TypeAlias = scipy.sparse.csr_array
 
 
@@ -61,6 +63,25 @@ class Laplacian:
             raise ValueError(f"asked for {count} eigenvectors of {len(self.mass)} nodes")
         values, vectors = smallest_eigenpairs(self.symmetric(), count)
         return values, vectors / np.sqrt(self.mass)[:, None]
+
+    def second(self, count: int = 2) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, " n"]]:
+        """Return the smallest eigenvalues, and a function of the second that holds nothing of the constant.
+
+        A solver may return any mixture of the functions of one eigenvalue. Where 0 is double, the graph being in two pieces,
+        what is left once the constant is taken out has one value on each piece; with more pieces it is not determined.
+
+        Raises:
+            ValueError: If `count` is not between 2 and the number of nodes.
+        """
+        values, functions = self.smallest(max(count, 2))
+        zeros = int(np.count_nonzero(np.abs(values) < ZERO * max(float(self.matrix.diagonal().max()), 1e-300)))
+        if zeros < 2:
+            return values, functions[:, 1]
+        of_zero = functions[:, :zeros]
+        left = of_zero - (self.mass @ of_zero) / self.mass.sum()
+        sizes = self.mass @ left**2
+        most = int(np.argmax(sizes))
+        return values, left[:, most] / np.sqrt(sizes[most])
 
 
 def smallest_eigenpairs(
