@@ -291,7 +291,9 @@ LINES = {
     "twins": [
         Claim(
             r"both A have eigenvalues −2, 0, 0, 0, 2\. Those of L differ: 0, 1, 1, 1, 5 and 0, 0, 2, 2, 4",
-            lambda run, k, m: _spectra_of_pair(run, ((-2, 0, 0, 0, 2), (-2, 0, 0, 0, 2)), ((0, 1, 1, 1, 5), (0, 0, 2, 2, 4))),
+            lambda run, k, m: _spectra_of_pair(
+                run, ((-2, 0, 0, 0, 2), (-2, 0, 0, 0, 2)), ((0, 1, 1, 1, 5), (0, 0, 2, 2, 4))
+            ),
         ),
     ],
     "warm": [
