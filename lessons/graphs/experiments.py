@@ -166,7 +166,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         choices=(
             Choice(
                 "They still do",
-                why="Most are, but a point comes loose as soon as its own three neighbours do not name it. So do small groups.",
+                why="Most are. But a point comes loose where its own three neighbours do not name it. So do small groups.",
             ),
             Choice(
                 "They fall into a few dozen components",
