@@ -166,7 +166,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         choices=(
             Choice(
                 "They still do",
-                why="Most are. But a point comes loose where its own three neighbours do not name it. So do small groups.",
+                why="Most points are named back. But one comes loose where its three neighbours do not. So do small groups.",
             ),
             Choice(
                 "They fall into a few dozen components",
