@@ -221,7 +221,9 @@ def grade(
     if lesson is not None:
         lesson_given(lesson)  # what is wrong with it is told once, before the first submission
     worth = None if assignment is None else read_file(assignment).worth
-    asked = Asked(only, Path(lesson).resolve() if lesson is not None and is_path(lesson) else None, sandbox)
+    asked = Asked(
+        (only,) if only else (), Path(lesson).resolve() if lesson is not None and is_path(lesson) else None, sandbox
+    )
     return grade_folder(
         folder,
         out or folder / "graded",

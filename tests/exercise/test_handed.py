@@ -110,8 +110,10 @@ def test_a_student_has_one_row_and_it_counts_out_of_all_that_was_handed_in(tmp_p
     results = graded(tmp_path, files)
     found = {row["student"]: row for row in rows(tmp_path)}
     assert found["ada"] | {"trouble": ""} == {
-        "student": "ada", "points": "5", "possible": "8", "centroid": "4", "middle": "1", "trouble": ""
+        "student": "ada", "points": "5", "possible": "8", "centroid": "4", "middle": "1", "handed in": "", "trouble": ""
     }  # fmt: skip
+    assert found["eve"]["handed in"] == "fake 1 of 2"
+    assert "- fake 1 of 2: 1 student\n" in (tmp_path / "out" / "summary.md").read_text()
     assert (found["bob"]["points"], found["bob"]["possible"], found["bob"]["middle"]) == ("4", "8", "0")
     assert "my_middle.py, line 1" in found["bob"]["trouble"]
     assert (found["eve"]["points"], found["eve"]["possible"], found["eve"]["middle"]) == ("0", "4", "")
@@ -125,6 +127,62 @@ def test_a_student_has_one_row_and_it_counts_out_of_all_that_was_handed_in(tmp_p
     for place in (tmp_path / "out" / "students").iterdir():
         jsonschema.validate(json.loads(place.read_text()), json.loads(reports.SCHEMA.read_text()))
     assert len(results) == 3
+
+
+def test_words_of_a_files_name_say_what_it_is_for(tmp_path):
+    both = "def centroid(p):\n    return p.mean(axis=0)\ndef middle(p):\n    return p.sum(axis=0)\n"
+    files: dict[str, str | bytes] = {
+        "ada/hw3_Centroid (final).py": both,
+        "bob/My_MIDDLE-2.py": both,
+        "eve/middle_project.py": RIGHT,
+        "kim/my_middle.py": RIGHT,
+        "lea/my_Centroid.py": RIGHT.replace("centroid", "Centroid"),
+        "max/work.py": both,
+        "sue/12_centroid_and_middle.py": both,
+    }
+    results = graded(tmp_path, files)
+    found = {name: points(result) for name, result in results.items()}
+    assert found == {
+        "ada": {"centroid": 4.0}, "bob": {"middle": 1.0}, "eve": {"centroid": 4.0}, "kim": {}, "lea": {},
+        "max": {"centroid": 4.0, "middle": 1.0}, "sue": {"centroid": 4.0, "middle": 1.0},
+    }  # fmt: skip
+    assert results["kim"]["error"] == "my_middle.py: is for middle and defines no such function"
+    assert results["lea"]["error"].endswith("defines no such function; it defines Centroid, which is another name")
+
+
+def test_what_fits_nothing_is_a_line(tmp_path):
+    files: dict[str, str | bytes] = {
+        "ada/my_centroid.py": RIGHT,
+        "ada/my_centre.py": "def centre(p):\n    return p.mean(axis=0)\n",
+        "ada/broken.py": "def f(:\n",
+        "ada/photo.png": b"\x89PNG",
+        "bob.zip": b"PK",
+        "eve.zip": b"PK",
+        "eve/my_centroid.py": RIGHT,
+        "kim.py.txt": RIGHT,
+    }
+    results = graded(tmp_path, files)
+    assert sorted(results) == ["ada", "bob", "eve", "kim"]
+    assert results["ada"]["note"].split("; ") == [
+        "not read, since neither .py nor .ipynb: photo.png",
+        "broken.py, line 1: invalid syntax",
+        "my_centre.py: defines none of the exercises' functions (centroid, middle)",
+    ]
+    assert results["ada"]["handed"] == ["fake 1 of 2"]
+    assert "bob.zip: not read: unpack it" in results["bob"]["error"]
+    assert "kim.py.txt: not read" in results["kim"]["error"]
+    assert points(results["eve"]) == {"centroid": 4.0}
+
+
+def test_who_is_asked_for_one_is_told_that_another_is_not_it(tmp_path):
+    files: dict[str, str | bytes] = {
+        "ada/my_middle.py": RIGHT + "def middle(p):\n    return 0\n",
+        "bob.py": "def centre(p):\n    return 0\n",
+    }
+    results = graded(tmp_path, files, asked=Asked(only=("centroid",)))
+    assert results["ada"]["reports"] == []  # its helper has the name, and is a helper
+    assert results["ada"]["error"] == "my_middle.py: is for middle, which is not asked for"
+    assert results["bob"]["error"] == "bob.py: defines no function centroid"
 
 
 def test_hanging_crashing_and_wrong_are_told_apart(tmp_path):
@@ -202,11 +260,12 @@ def test_who_handed_in_nothing_has_a_row(tmp_path, text):
     (tmp_path / "roster.csv").write_text(text)
     files: dict[str, str | bytes] = {"ada.py": RIGHT, "mallory.py": RIGHT, "empty/readme.txt": "x"}
     graded(tmp_path, files, roster=tmp_path / "roster.csv")
+    unread = "not read, since neither .py nor .ipynb: readme.txt"
     told = [(row["student"], row["points"], row["trouble"]) for row in rows(tmp_path)]
     assert told == [
         ("ada", "4", ""),
         ("Nobody", "0", "handed in nothing"),
-        ("empty", "0", "the folder holds no .py file and no notebook; not in the roster"),
+        ("empty", "0", f"the folder holds no .py file and no notebook; {unread}; not in the roster"),
         ("mallory", "4", "not in the roster"),
     ]
 
@@ -229,13 +288,13 @@ def test_what_changed_is_graded_again(tmp_path, monkeypatch):
 
     assert again() == ["ada"]
     assert again() == []
-    assert again(asked=Asked(only="centroid")) == ["ada"]
-    assert again(asked=Asked(only="centroid")) == []
+    assert again(asked=Asked(only=("centroid",))) == ["ada"]
+    assert again(asked=Asked(only=("centroid",))) == []
     monkeypatch.setattr("sys.version", "4.0")
     from workbench.exercise import marking
 
     marking._grader.cache_clear()
-    assert again(asked=Asked(only="centroid")) == ["ada"]
+    assert again(asked=Asked(only=("centroid",))) == ["ada"]
     monkeypatch.undo()
     marking._grader.cache_clear()
 

@@ -91,9 +91,25 @@ def test_gradescope_gives_the_samples_what_they_deserve(gradescope, bare, tmp_pa
     found = scored(gradescope, bare, tmp_path, gradescope / "teacher" / sample)
     assert found["score"] == pytest.approx(score)
     hidden = [test for test in found["tests"] if test["visibility"] == "after_due_date"]
-    assert len(hidden) == sum(
-        not c.public for n in ("invert_rigid", "iterations_needed") for c in exercises()[n].checks
-    )
+    checks = [c for n in ("invert_rigid", "iterations_needed") for c in exercises()[n].checks]
+    assert len(hidden) == (sum(not c.public for c in checks) if sample == "full" else 0)
+    if sample == "none":  # that a function is not written yet is said once, and not by each of its checks
+        assert [test["name"] for test in found["tests"]] == ["invert_rigid", "iterations_needed"]
+        assert all(test["output"].endswith(f"{test['name']} is not written yet") for test in found["tests"])
+
+
+def test_gradescope_says_once_what_was_not_handed_in(gradescope, bare, tmp_path):
+    right = (gradescope / "teacher" / "full" / "my_invert_rigid.py").read_text()
+    found = scored(gradescope, bare, tmp_path, {"my_invert_rigid.py": right, "notes.py": "x = 1", "b.txt": "x"})
+    assert json.dumps(found).count("iterations_needed: not handed in") == 1
+    assert found["output"].splitlines() == [
+        "iterations_needed: not handed in",
+        "notes.py: defines no function invert_rigid or iterations_needed",
+        "not read, since neither .py nor .ipynb: b.txt",
+    ]
+    missing = [test for test in found["tests"] if test["name"] == "iterations_needed"]
+    assert [test["score"] for test in missing] == [0]
+    assert found["score"] == sum(test["max_score"] for test in found["tests"]) - missing[0]["max_score"]
 
 
 def test_gradescope_takes_a_file_of_any_name_and_says_what_is_missing(gradescope, bare, tmp_path):
@@ -107,9 +123,9 @@ def test_gradescope_takes_a_file_of_any_name_and_says_what_is_missing(gradescope
     ("submitted", "said"),
     [
         ({"a.py": "def invert_rigid(T:\n"}, "a.py, line 1"),
-        ({"a.py": "import os\nos._exit(0)\n"}, "its process ended"),
+        ({"a.py": "import os\nos._exit(0)\ndef invert_rigid(T): return T\n"}, "its process ended"),
         ({"notes.txt": "x"}, "no .py file"),
-        ({"a.py": "x = 1", "b.py": "y = 1"}, "none of the 2 files defines invert_rigid"),
+        ({"a.py": "x = 1", "b.py": "y = 1"}, "b.py: defines no function invert_rigid"),
     ],
 )
 def test_gradescope_has_results_for_what_cannot_be_graded(gradescope, bare, tmp_path, submitted, said):

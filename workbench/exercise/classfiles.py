@@ -32,7 +32,8 @@ def class_csv(results: Sequence[Result], worth: Mapping[str, float] | None = Non
             other exercises count nothing. None counts the points of the checks, out of what was handed in.
     """
     names = list(worth or dict.fromkeys(i["exercise"] for result in results for i in _items(result) if i["exercise"]))
-    rows = [["student", "points", "possible", *names, "trouble"]]
+    counted = ["handed in"] if worth is None and any(result["handed"] for result in results) else []
+    rows = [["student", "points", "possible", *names, *counted, "trouble"]]
     for result in results:
         points: dict[str, float] = {}
         for item in _items(result):
@@ -43,7 +44,16 @@ def class_csv(results: Sequence[Result], worth: Mapping[str, float] | None = Non
         cells = [f"{points[name]:g}" if name in points else "" for name in names]
         other = dict.fromkeys(item["exercise"] for item in _items(result) if item["exercise"] not in (None, *names))
         trouble = "; ".join(filter(None, [_trouble(result), *(f"{name} is not asked for" for name in other)]))
-        rows.append([result["student"], f"{sum(points.values()):g}", f"{possible:g}", *cells, trouble])
+        rows.append(
+            [
+                result["student"],
+                f"{sum(points.values()):g}",
+                f"{possible:g}",
+                *cells,
+                *(", ".join(result["handed"]) for _ in counted),
+                trouble,
+            ]
+        )
     return _csv(rows)
 
 
@@ -77,9 +87,14 @@ def summary(results: Sequence[Result], worth: Mapping[str, float] | None = None)
     graded = [result for result in results if result["reports"]]
     perfect = sum(is_full(result, worth) for result in results)
     lines = [f"# {counted(len(results), 'submission')}", ""]
-    lines.append(f"{len(graded)} graded, {perfect} with full marks, {len(results) - len(graded)} could not be graded.")
+    perfectly = f"{perfect} with full marks{_of_what(results, worth)}"
+    lines.append(f"{len(graded)} graded, {perfectly}, {len(results) - len(graded)} could not be graded.")
     if any(result["sandbox"] == "none" for result in results):
         lines += ["", f"**{UNSAFE}**"]
+    parts = Counter(part for result in results for part in result["handed"]) if worth is None else Counter()
+    if parts:
+        lines += ["", "Of these lessons not all exercises were handed in:", ""]
+        lines += [f"- {part}: {_students(count)}" for part, count in sorted(parts.items())]
     mistakes = Counter(r["mistake"]["sentence"] for result in graded for r in result["reports"] if r["mistake"])
     if mistakes:
         told = (f"- {count} × {_plain(said)}" for said, count in mistakes.most_common(8))
@@ -101,6 +116,14 @@ def _trouble(result: Result) -> str:
         kinds = Counter(HOW[check["kind"]] for check in report["checks"] if check["kind"] in ("timeout", "died"))
         said += [f"{report['exercise']} {how} in {_checks(count)}" for how, count in kinds.items()]
     return "; ".join([*said, *([result["note"]] if result["note"] else [])])
+
+
+def _of_what(results: Sequence[Result], worth: Mapping[str, float] | None) -> str:
+    return " in what they handed in" if worth is None and any(result["handed"] for result in results) else ""
+
+
+def _students(count: int) -> str:
+    return "1 student" if count == 1 else f"{count} students"
 
 
 def _checks(count: int) -> str:

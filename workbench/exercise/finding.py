@@ -5,8 +5,10 @@ import importlib
 import importlib.util
 import inspect
 import pkgutil
+import re
 import warnings
-from pathlib import Path
+from collections.abc import Iterable
+from pathlib import Path, PurePath
 
 from workbench.errors import InputError, LeftOutWarning, not_among
 from workbench.exercise.model import Exercise, exercise_in
@@ -101,21 +103,21 @@ def find_exercise(name: str, lesson: Lesson | None = None) -> Exercise:
     Raises:
         InputError: If there is none; lists those there are.
     """
-    found = _of(lesson)
+    found = known(lesson)
     if name not in found:
         raise InputError(f"no exercise is named {name[:80]!r}; {not_among(name, found)}")
     return found[name]
 
 
-def _of(lesson: Lesson | None) -> dict[str, Exercise]:
+def known(lesson: Lesson | None) -> dict[str, Exercise]:
+    """Return the exercises of a lesson by name; of the catalogue where none is given."""
     return exercises() if lesson is None else {exercise.name: exercise for exercise in exercises_of(lesson)}
 
 
 def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
     """Return the exercises that a student's file is handed in for, without running it.
 
-    They are those that a starter's first line or the file's name says; where neither says any, those whose functions the
-    file defines.
+    They are those that `said_for` finds; where it finds none, those whose functions the file defines.
 
     Args:
         given: The file, or what was read of it.
@@ -125,20 +127,64 @@ def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tupl
         InputError: If the file cannot be read, does not parse (with the line), or defines none of them.
     """
     submission = given if isinstance(given, Submission) else read_submission(given)
-    asked = _of(lesson)
-    defined = submission.defined()
-    marked = said_for(submission, lesson)
-    found = marked or tuple(exercise for name, exercise in asked.items() if name in defined)
-    missing = [exercise.name for exercise in marked if exercise.name not in defined]
+    if submission.broken:
+        raise InputError(submission.broken)
+    asked = known(lesson)
+    said = said_for(submission, lesson)
+    found = said or tuple(exercise for name, exercise in asked.items() if name in submission.defines)
     if not found:
         listed = ", ".join(asked) or "there are none"
         raise InputError(f"{submission.file}: defines none of the exercises' functions ({listed})")
+    missing = [exercise.name for exercise in found if exercise.name not in submission.defines]
     if missing:
-        raise InputError(f"{submission.file}: is for {', '.join(missing)} and defines no such function")
+        raise InputError(f"{submission.file}: is for {', '.join(missing)} and defines {_nearly(submission, missing)}")
     return found
 
 
 def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
-    """Return the exercises that a file says it is handed in for, whether or not it is Python."""
-    asked = _of(lesson)
-    return tuple(asked[name] for name in submission.marked() if name in asked)
+    """Return the exercises that a file says it is handed in for, whether or not it is Python.
+
+    A starter's first line says so, or else words of the file's name. What it says counts where the file defines such a
+    function. Where it does not, the first line still counts, and so does a name like `my_match.py`; other words may be no
+    exercise's ("final_project.py"), and count only where the file defines no exercise's function at all.
+    """
+    asked = known(lesson)
+    lines, words = [name for name in submission.said if name in asked], _in_words(submission.file, asked)
+    said = next((names for names in (lines, words) if not submission.defines.isdisjoint(names)), [])
+    if not said and (lines or submission.defines.isdisjoint(asked) or _begins_with_my(submission.file, words)):
+        said = lines or words
+    return tuple(asked[name] for name in said)
+
+
+def _in_words(file: str, names: Iterable[str]) -> list[str]:
+    """Return those of some names whose words stand in a row in a file's name, in any case; of two there the longer."""
+    words = _words(file)
+    places: list[tuple[int, int, str]] = []
+    for name in names:
+        parts = name.lower().split("_")
+        ends = range(len(parts), len(words) + 1)
+        places += [(end - len(parts), end, name) for end in ends if words[end - len(parts) : end] == parts]
+    longest = [
+        (first, end, name)
+        for first, end, name in places
+        if not any(a <= first and end <= b and b - a > end - first for a, b, _ in places)
+    ]
+    return list(dict.fromkeys(name for _, _, name in sorted(longest)))
+
+
+def _begins_with_my(file: str, names: list[str]) -> bool:
+    words = _words(file)
+    starts = [words[k + 1 :] for k, word in enumerate(words) if word == "my"]
+    parts = [name.lower().split("_") for name in names]
+    return any(rest[: len(one)] == one for rest in starts for one in parts)
+
+
+def _words(file: str) -> list[str]:
+    return [word for word in re.split(r"[\W_]+", PurePath(file).stem.lower()) if word]
+
+
+def _nearly(submission: Submission, missing: list[str]) -> str:
+    """Say that a file has no such function, and which other spelling it has."""
+    wanted = {name.replace("_", "").lower() for name in missing}
+    near = [name for name in sorted(submission.defines) if name.replace("_", "").lower() in wanted]
+    return f"no such function; it defines {near[0]}, which is another name" if near else "no such function"

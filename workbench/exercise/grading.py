@@ -71,6 +71,12 @@ class Report:
         """Whether every check that was run earned all its points."""
         return all(outcome.verdict.share == 1.0 for outcome in self.outcomes)
 
+    @property
+    def said_once(self) -> str:
+        """The sentence that all of several checks say, such as that nothing is written yet; nothing where they differ."""
+        said = {outcome.verdict.message for outcome in self.outcomes}
+        return said.pop() if len(said) == 1 and self.outcomes[1:] else ""
+
 
 def grade_file(
     given: Path | Submission,

@@ -11,6 +11,10 @@ from workbench.errors import InputError
 from workbench.exercise.submission import SUFFIXES, content
 
 MOST_FILES, MOST_TOGETHER = 200, 8 << 20
+NOT_READ = "not read: unpack it, or save it as a .py file or a notebook"
+ARCHIVES = (".zip", ".tar", ".gz", ".tgz", ".bz2", ".xz", ".7z", ".rar")
+MOST_NAMED = 5
+"""How many files are named of those that were not read."""
 NOT_IN_ROSTER = "not in the roster"
 COLUMNS = ("student", "name", "login", "username", "id", "sid", "email")
 
@@ -50,6 +54,11 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, Handed]:
             continue
         if path.suffix.lower() in SUFFIXES and not path.is_dir():
             handed = _read(path.stem, folder, [path])
+        elif _was_meant(path) and not path.is_dir():
+            student = path.name.partition(".")[0]
+            if any((folder / f"{student}{end}").exists() for end in ("", *SUFFIXES)):
+                continue  # what was in it lies beside it
+            handed = Handed(student, {}, ((path.name, f"{path.name}: {NOT_READ}"),))
         elif path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
             handed = Handed(path.name, {}, ((path.name, "a link that leads out of the folder"),))
         elif path.is_dir():
@@ -70,7 +79,23 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, Handed]:
 
 def handed_by(student: str, folder: Path) -> Handed:
     """Return what one student handed in: the files of a folder, at any depth."""
-    return _read(student, folder, list(_below(folder)))
+    paths = list(_below(folder))
+    others = [path.relative_to(folder).as_posix() for path in paths if path.suffix.lower() not in SUFFIXES]
+    handed = _read(student, folder, [path for path in paths if path.suffix.lower() in SUFFIXES])
+    if not others:
+        return handed
+    more = f" and {len(others) - MOST_NAMED} more" if others[MOST_NAMED:] else ""
+    return _noted(handed, f"not read, since neither .py nor .ipynb: {', '.join(others[:MOST_NAMED])}{more}")
+
+
+def _noted(handed: Handed, said: str) -> Handed:
+    return replace(handed, note="; ".join(filter(None, [handed.note, said])))
+
+
+def _was_meant(path: Path) -> bool:
+    """Whether a file that is not read was handed in all the same: an archive, or Python under another name."""
+    name = path.name.lower()
+    return name.endswith(ARCHIVES) or any(f"{suffix}." in name for suffix in SUFFIXES)
 
 
 def with_roster(found: dict[str, Handed], roster: Path) -> dict[str, Handed]:
@@ -82,7 +107,7 @@ def with_roster(found: dict[str, Handed], roster: Path) -> dict[str, Handed]:
     names = _names(roster)
     by_name = {name.casefold(): handed for name, handed in found.items()}
     listed = {name: by_name.pop(name.casefold(), Handed(name, {}, (("", "handed in nothing"),))) for name in names}
-    others = {handed.student: replace(handed, note=NOT_IN_ROSTER) for handed in by_name.values()}
+    others = {handed.student: _noted(handed, NOT_IN_ROSTER) for handed in by_name.values()}
     return {handed.student: handed for handed in (*listed.values(), *others.values())}
 
 
@@ -122,11 +147,7 @@ def _read(student: str, root: Path, paths: list[Path]) -> Handed:
 def _below(folder: Path) -> Iterator[Path]:
     for place, folders, names in os.walk(folder):  # follows no link
         folders[:] = sorted(name for name in folders if not name.startswith((".", "__")))
-        yield from (
-            Path(place, name)
-            for name in sorted(names)
-            if os.path.splitext(name)[1].lower() in SUFFIXES and not name.startswith(".")
-        )
+        yield from (Path(place, name) for name in sorted(names) if not name.startswith("."))
 
 
 def _clashing(one: Handed, other: Handed) -> Handed:

@@ -4,7 +4,6 @@ import functools
 import hashlib
 import inspect
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -18,6 +17,7 @@ from workbench.exercise import finding
 from workbench.exercise.grading import Report, grade_file
 from workbench.exercise.handed import Handed
 from workbench.exercise.model import Exercise
+from workbench.exercise.reading import Reader
 from workbench.exercise.reports import SCHEMA_VERSION, as_dict, ungraded
 from workbench.exercise.sandbox import Wall, named
 from workbench.exercise.submission import Submission, submission
@@ -25,6 +25,8 @@ from workbench.lesson import Lesson
 from workbench.loading import load
 
 Result = dict[str, Any]
+MOST_STRAYS = 5
+"""Of how many files that fit no exercise a line is said."""
 
 
 @dataclass(frozen=True)
@@ -32,34 +34,35 @@ class Asked:
     """What a class was asked for, and how it is graded.
 
     Attributes:
-        only: The one exercise; None for those that each file is handed in for.
+        only: The exercises that are graded; empty for those that each file is handed in for.
         lesson: The path of a lesson that the catalogue does not have; the processes that grade load it by that.
         sandbox: The name of the wall that shuts submissions in.
     """
 
-    only: str | None = None
+    only: tuple[str, ...] = ()
     lesson: Path | None = None
     sandbox: str = "auto"
 
-    def exercises(self, given: Submission) -> tuple[Exercise, ...]:
-        """Return the exercises that a submission is graded by.
+    def exercises(self) -> tuple[Exercise, ...]:
+        """Return the exercises that are asked for; none where that is for each file to say.
+
+        Raises:
+            InputError: If there is none of such a name.
+        """
+        return tuple(finding.find_exercise(name, self.loaded()) for name in self.only)
+
+    def of(self, given: Submission) -> tuple[Exercise, ...]:
+        """Return the exercises that a file is graded by.
 
         Raises:
             InputError: If there are none.
         """
-        return (self.one(),) if self.only else finding.exercises_in(given, self.loaded())
-
-    def one(self) -> Exercise:
-        """Return the only exercise.
-
-        Raises:
-            InputError: If there is none of that name.
-        """
-        return finding.find_exercise(self.only or "", self.loaded())
+        found = finding.exercises_in(given, self.loaded())
+        return tuple(exercise for exercise in found if not self.only or exercise.name in self.only)
 
     def wanted(self, given: Submission) -> tuple[Exercise, ...]:
         """Return the exercises that a file says it is for, though it may be no Python."""
-        return (self.one(),) if self.only else finding.said_for(given, self.loaded())
+        return finding.said_for(given, self.loaded())
 
     def loaded(self) -> Lesson | None:
         """Return the lesson of the path, None where the catalogue is meant."""
@@ -70,9 +73,35 @@ class Asked:
         if self.lesson is not None:
             folders = [self.lesson]
         else:
-            asked = [finding.find_exercise(self.only)] if self.only else finding.exercises().values()
+            asked = self.exercises() or finding.exercises().values()
             folders = [Path(inspect.getfile(exercise.reference)).parent for exercise in asked]
         return f"{self.only} {self.sandbox} {_grader()} {''.join(map(_text, dict.fromkeys(folders)))}"
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A file of a student that is graded by an exercise: by its path in the student's folder, and as it was read."""
+
+    file: str
+    given: Submission
+    exercise: Exercise
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Chosen:
+    """What is to be graded of what one student handed in.
+
+    Attributes:
+        graded: Which file by which exercise.
+        troubles: What cannot be graded, as `ungraded` says it.
+        notes: One line on each file that fits no exercise.
+        missing: The exercises that are asked for, and that no file is for.
+    """
+
+    graded: list[Part]
+    troubles: list[dict[str, Any]]
+    notes: list[str]
+    missing: list[Exercise]
 
 
 @functools.cache
@@ -99,34 +128,51 @@ def grade_student(handed: Handed, asked: Asked) -> Result:
     try:
         wall = named(asked.sandbox)
         result["sandbox"] = wall.name
-        for found in marked(handed, asked, wall):
-            if isinstance(found, Report):
-                result["reports"].append(as_dict(found))
+        found = chosen(handed, asked)
+        result["ungraded"] += found.troubles
+        for part in found.graded:
+            graded = marked(part, wall)
+            if isinstance(graded, Report):
+                result["reports"].append(as_dict(graded))
             else:
-                result["ungraded"].append(found)
+                result["ungraded"].append(graded)
+        if asked.only:
+            result["ungraded"] += [not_handed_in(exercise) for exercise in found.missing if handed.files]
+        else:
+            result["handed"] = _parts_of_lessons(result, asked)
+        result["note"] = "; ".join(filter(None, [handed.note, *found.notes]))
     except Exception as error:  # a fault of ours with one student must not stop a class
         said = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {one_line(str(error))}"
         result["ungraded"].append(ungraded("", None, f"could not be graded: {said}"))
     return summed(result)
 
 
-def marked(handed: Handed, asked: Asked, wall: Wall, megabytes: int | None = None) -> Iterator[Report | dict[str, Any]]:
-    """Yield the reports on what one student handed in, and what cannot be graded, as `ungraded` says it.
+def marked(part: Part, wall: Wall, megabytes: int | None = None) -> Report | dict[str, Any]:
+    """Return the report on a file, or as what `ungraded` makes of it that it cannot be graded.
 
     Args:
-        handed: What the student handed in.
-        asked: What for.
+        part: The file, and the exercise.
         wall: What shuts the student's process in.
         megabytes: Address space of that process, where it is not what it has everywhere.
     """
-    chosen, troubles = _chosen(handed, asked)
-    yield from troubles
-    for name, (given, exercise) in chosen.items():
-        file = name.partition("\0")[0]
-        try:
-            yield replace(grade_file(given, exercise, wall=wall, megabytes=megabytes), file=file)
-        except InputError as error:
-            yield ungraded(file, exercise, str(error))
+    try:
+        return replace(grade_file(part.given, part.exercise, wall=wall, megabytes=megabytes), file=part.file)
+    except InputError as error:
+        return ungraded(part.file, part.exercise, str(error))
+
+
+def not_handed_in(exercise: Exercise) -> dict[str, Any]:
+    """Return that an exercise was asked for and is not there."""
+    return ungraded("", exercise, f"{exercise.name}: not handed in")
+
+
+def _parts_of_lessons(result: Result, asked: Asked) -> list[str]:
+    """Say of each lesson of which some exercises are there and others not how many are: "pose 2 of 3"."""
+    all_of_them = finding.known(asked.loaded()).values()
+    there = {item["exercise"] for item in (*result["reports"], *result["ungraded"])}
+    lessons = dict.fromkeys(exercise.lesson for exercise in all_of_them if exercise.name in there)
+    named = {lesson: {one.name for one in all_of_them if one.lesson == lesson} for lesson in lessons}
+    return [f"{lesson} {len(names & there)} of {len(names)}" for lesson, names in named.items() if names - there]
 
 
 def empty(handed: Handed, asked: Asked) -> Result:
@@ -137,6 +183,7 @@ def empty(handed: Handed, asked: Asked) -> Result:
         "digest": digest(handed, asked),
         "sandbox": asked.sandbox,
         "note": handed.note,
+        "handed": [],
         "reports": [],
         "ungraded": [],
     }
@@ -148,63 +195,74 @@ def summed(result: Result) -> Result:
     return result | {"error": "; ".join(said) or None}
 
 
-def _chosen(handed: Handed, asked: Asked) -> tuple[dict[str, tuple[Submission, Exercise]], list[dict[str, Any]]]:
-    """Return what is graded, by its file and exercise, and what cannot be; what only helps other files is neither."""
+def chosen(handed: Handed, asked: Asked) -> Chosen:
+    """Return what is graded of what a student handed in, and what cannot be; what only helps other files is neither."""
     troubles = [ungraded(file, None, said) for file, said in handed.troubles]
     read: dict[str, Submission] = {}
-    for file in handed.files:
-        try:
-            read[file] = read_one(handed, file)
-        except InputError as error:
-            troubles.append(ungraded(file, None, str(error)))
+    with Reader() as reader:
+        for file in handed.files:
+            try:
+                read[file] = _read_one(handed, file, reader)
+            except InputError as error:
+                troubles.append(ungraded(file, None, str(error)))
     helping = {str(PurePosixPath(file).with_name(f"{name}.py")) for file, one in read.items() for name in one.modules}
-    found: dict[str, list[tuple[str, Submission, Exercise]]] = {}
-    nothing: list[dict[str, Any]] = []
+    found: dict[str, list[Part]] = {}
+    strays: list[dict[str, Any]] = []
     for file, one in read.items():
-        if file in helping and not asked.wanted(one):
-            continue
-        try:
-            for exercise in asked.exercises(one):
-                found.setdefault(exercise.name, []).append((file, one, exercise))
-        except InputError as error:
-            wanted = asked.wanted(one) or (None,)
-            (troubles if wanted[0] else nothing).extend(ungraded(file, exercise, str(error)) for exercise in wanted)
-    chosen: dict[str, tuple[Submission, Exercise]] = {}
+        said = asked.wanted(one)
+        if said and asked.only and not any(exercise.name in asked.only for exercise in said):
+            strays.append(ungraded(file, None, f"{file}: is for {said[0].name}, which is not asked for"))
+        elif said or file not in helping:
+            try:
+                parts = [Part(file, one, exercise) for exercise in asked.of(one)]
+                for part in parts:
+                    found.setdefault(part.exercise.name, []).append(part)
+                if not parts:
+                    strays.append(ungraded(file, None, _defines_none(file, asked)))
+            except InputError as error:
+                wanted = [exercise for exercise in said if not asked.only or exercise.name in asked.only]
+                troubles += [ungraded(file, exercise, str(error)) for exercise in wanted]
+                told = str(error) if one.broken or not asked.only else _defines_none(file, asked)
+                strays += [] if wanted else [ungraded(file, None, told)]
+    graded: list[Part] = []
     for name, several in found.items():
-        meant = [one for one in several if name in one[1].marked()]
-        if not meant and several[1:] and not any(_defines(one, name) for _, one, _ in several):
-            troubles.append(ungraded("", several[0][2], f"none of the {len(several)} files defines {name}"))
-            continue
-        meant = meant or several
-        if asked.only:
-            meant = [one for one in meant if _defines(one[1], name)] or meant[:1]
-        if len({one.source for _, one, _ in meant}) > 1:
-            files = ", ".join(file for file, _, _ in meant)
-            troubles.append(ungraded(files, meant[0][2], f"{name} is in several files ({files}): leave one of them"))
+        meant = [part for part in several if part.exercise in asked.wanted(part.given)] or several
+        if len({part.given.source for part in meant}) > 1:
+            files = ", ".join(part.file for part in meant)
+            said = f"{name} is in several files ({files}): leave one of them"
+            troubles.append(ungraded(files, meant[0].exercise, said))
         else:
-            file, one, exercise = meant[0]
-            chosen[f"{file}\0{name}"] = (one, exercise)
-    return chosen, troubles if chosen or troubles else nothing[:3]
+            graded.append(meant[0])
+    strays = strays[:MOST_STRAYS]
+    notes = [item["error"] for item in strays] if graded or troubles else []
+    troubles = troubles if graded or troubles else strays
+    there = {part.exercise.name for part in graded} | {item["exercise"] for item in troubles}
+    missing = [exercise for exercise in asked.exercises() if exercise.name not in there]
+    if len(asked.only) == len(missing) == 1 and troubles:  # whatever was handed in was meant for it
+        troubles = [ungraded(item["file"], missing[0], item["error"]) for item in troubles[:1]] + troubles[1:]
+        missing = []
+    return Chosen(graded=graded, troubles=troubles, notes=notes, missing=missing)
+
+
+def _defines_none(file: str, asked: Asked) -> str:
+    return f"{file}: defines no function {' or '.join(asked.only)}"
 
 
 def read_one(handed: Handed, file: str) -> Submission:
     """Return one file of what a student handed in, with the modules beside it that it imports.
 
     Raises:
-        InputError: If it is no text; one line.
+        InputError: If it is no text, or takes too long to read; one line.
     """
+    with Reader() as reader:
+        return _read_one(handed, file, reader)
 
+
+def _read_one(handed: Handed, file: str, reader: Reader) -> Submission:
     def beside(name: str) -> bytes | None:
         return handed.files.get(str(PurePosixPath(file).with_name(name)))
 
-    return submission(PurePosixPath(file).name, handed.files[file], beside)
-
-
-def _defines(given: Submission, name: str) -> bool:
-    try:
-        return name in given.defined()
-    except InputError:  # who runs it says why not
-        return False
+    return submission(PurePosixPath(file).name, handed.files[file], beside, reader)
 
 
 def digest(handed: Handed, asked: Asked) -> str:

@@ -27,7 +27,8 @@ def terminal(report: Report) -> str:
     for outcome in report.outcomes:
         points = f"{outcome.points:g}/{outcome.check.points:g}"
         lines.append(f"  {MARKS[outcome.verdict.word]} {outcome.verdict.word:<7} {points:>5}  {outcome.check.promise}")
-        lines.append(f"{'':18}{outcome.verdict.message}")
+        lines += [] if report.said_once else [f"{'':18}{outcome.verdict.message}"]
+    lines += [f"  {report.said_once}"] if report.said_once else []
     if report.mistake is not None:
         lines.append(f"  → {report.mistake.sentence}")
     printed = shown(report.printed)
@@ -116,6 +117,7 @@ def gradescope(
     *,
     factors: Mapping[str, float] | None = None,
     hidden: str = "after_published",
+    notes: Sequence[str] = (),
 ) -> dict[str, Any]:
     """Return the `results.json` that Gradescope reads.
 
@@ -124,11 +126,13 @@ def gradescope(
         failed: What could not be, as `ungraded` says it.
         factors: What a point of an exercise is worth, by the exercise's name; 1 where nothing is said.
         hidden: When hidden checks are shown: `after_published` or `after_due_date`.
+        notes: What else is to be said.
 
     Source: Gradescope autograder specification, "Output format".
     """
     worth = dict(factors or {})
-    tests = [
+    tests = [_said_once(report, worth.get(report.exercise.name, 1.0)) for report in reports if report.said_once]
+    tests += [
         {
             "name": f"{report.exercise.name}: {outcome.check.promise}",
             "score": outcome.points * worth.get(report.exercise.name, 1.0),
@@ -138,6 +142,7 @@ def gradescope(
             "visibility": "visible" if outcome.check.public else hidden,
         }
         for report in reports
+        if not report.said_once
         for outcome in report.outcomes
     ]
     tests += [
@@ -146,17 +151,29 @@ def gradescope(
             "score": 0,
             "max_score": item["possible"] * worth.get(item["exercise"], 1.0),
             "status": "failed",
-            "output": item["error"],
+            "output": "",  # a sentence is read once: it stands above all tests
             "visibility": "visible",
         }
         for item in failed
     ]
-    said = [item["error"] for item in failed]
+    said = [*dict.fromkeys(item["error"] for item in failed), *notes]
     said += [
         f"{report.exercise.name} printed:\n" + "\n".join(shown(report.printed)) for report in reports if report.printed
     ]
     said += [UNSAFE] if any(map(_is_unsafe, reports)) else []
     return {"score": sum(test["score"] for test in tests), "output": "\n".join(said), "tests": tests}
+
+
+def _said_once(report: Report, factor: float) -> dict[str, Any]:
+    """Return one test for all checks of a report that say the same: a sentence is read once."""
+    return {
+        "name": report.exercise.name,
+        "score": report.points * factor,
+        "max_score": report.possible * factor,
+        "status": "passed" if report.is_full else "failed",
+        "output": "\n".join([report.said_once, *([report.mistake.sentence] if report.mistake else [])]),
+        "visibility": "visible",
+    }
 
 
 def _named(report: Report, outcome: Outcome) -> list[str]:
@@ -211,8 +228,10 @@ def markdown(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -
         lines += [f"### {report.exercise.name}: {report.points:g} of {report.possible:g}", ""]
         lines += ["| | check | points | found |", "|---|---|---|---|"]
         for outcome in report.outcomes:
-            cells = (outcome.check.promise, f"{outcome.points:g}/{outcome.check.points:g}", outcome.verdict.message)
+            found = "" if report.said_once else outcome.verdict.message
+            cells = (outcome.check.promise, f"{outcome.points:g}/{outcome.check.points:g}", found)
             lines.append("| " + " | ".join([MARKS[outcome.verdict.word], *(_cell(cell) for cell in cells)]) + " |")
+        lines += ["", _cell(report.said_once)] if report.said_once else []
         if report.mistake is not None:
             lines += ["", f"> {_cell(report.mistake.sentence)}"]
         lines += ["", counted(report), ""]

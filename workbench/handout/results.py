@@ -11,7 +11,10 @@ MOST_BYTES = 1_000_000
 
 
 def prairielearn(
-    reports: Sequence[Report], failed: Sequence[dict[str, Any]], images: Sequence[dict[str, str]] = ()
+    reports: Sequence[Report],
+    failed: Sequence[dict[str, Any]],
+    images: Sequence[dict[str, str]] = (),
+    notes: Sequence[str] = (),
 ) -> dict[str, Any]:
     """Return the `results.json` of a question: its score is a share; what cannot be graded costs no attempt.
 
@@ -21,11 +24,12 @@ def prairielearn(
         reports: What was graded, of one exercise.
         failed: What could not be, as `ungraded` says it.
         images: Pictures, each a label and a data URL.
+        notes: What else is to be said.
 
     Source: PrairieLearn documentation, "External grading", "Grading results".
     """
     if failed or not reports:
-        errors = [item["error"] for item in failed]
+        errors = [*(item["error"] for item in failed), *notes]
         return {"gradable": False, "message": "This could not be graded.", "format_errors": errors}
     possible = sum(report.possible for report in reports)
     results: dict[str, Any] = {
@@ -33,7 +37,9 @@ def prairielearn(
         "score": sum(report.points for report in reports) / possible,
         "tests": [test for report in reports for test in _tests(report)],
     }
-    said = [report.mistake.sentence for report in reports if report.mistake and _is_seen(report)]
+    said = [report.said_once for report in reports if report.said_once]
+    said += [report.mistake.sentence for report in reports if report.mistake and _is_seen(report)]
+    said += notes
     said += [UNSAFE] if any(report.wall is not None and not report.wall.holds for report in reports) else []
     if said:
         results["message"] = "\n".join(said)
@@ -51,7 +57,7 @@ def _tests(report: Report) -> list[dict[str, Any]]:
             "name": outcome.check.promise,
             "points": outcome.points,
             "max_points": outcome.check.points,
-            "message": outcome.verdict.message,
+            "message": "" if report.said_once else outcome.verdict.message,
         }
         for outcome in report.outcomes
         if outcome.check.public

@@ -15,8 +15,7 @@ from workbench.atomic import write_atomic
 from workbench.errors import InputError, one_line
 from workbench.exercise.grading import Report
 from workbench.exercise.handed import handed_by
-from workbench.exercise.marking import Asked, marked
-from workbench.exercise.model import Exercise
+from workbench.exercise.marking import Asked, chosen, marked, not_handed_in
 from workbench.exercise.reports import gradescope, ungraded
 from workbench.exercise.sandbox import Wall, best, named
 from workbench.handout.assignment import Assignment, read
@@ -44,11 +43,12 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
     reports: list[Report] = []
     failed: list[dict[str, Any]] = []
     images: list[dict[str, str]] = []
+    notes: list[str] = []
     waiting = list(assignment.exercises)
 
     def write(why: str = NOT_YET) -> dict[str, Any]:
         left = [ungraded("", exercise, f"{exercise.name} {why}") for exercise in waiting]
-        results = _results(assignment, reports, [*failed, *left], images)
+        results = _results(assignment, reports, [*failed, *left], images, notes)
         path = root / places.results
         path.parent.mkdir(parents=True, exist_ok=True)
         write_atomic(path, json.dumps(results, ensure_ascii=False, indent=1).encode("utf-8", "backslashreplace"))
@@ -58,15 +58,21 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
     try:
         wall = _wall(assignment)
         handed = handed_by("submission", root / places.submission)
+        found = chosen(handed, Asked(only=tuple(exercise.name for exercise in assignment.exercises)))
+        failed += found.troubles
+        notes += found.notes if handed.files else ["no .py file and no notebook was handed in"]
+        notes += [handed.note] if handed.note else []
+        parts = {part.exercise.name: part for part in found.graded}
         while waiting:
             exercise = waiting[0]
-            for found in marked(handed, Asked(only=exercise.name), wall, assignment.megabytes):
-                reports.append(found) if isinstance(found, Report) else failed.append(_of(exercise, found))
+            if exercise in found.missing:
+                failed.append(not_handed_in(exercise))
+            elif exercise.name in parts:
+                graded = marked(parts[exercise.name], wall, assignment.megabytes)
+                reports.append(graded) if isinstance(graded, Report) else failed.append(graded)
             if assignment.service == "prairielearn" and reports and not reports[-1].is_full:
                 write()
                 images += pictured(exercise, handed, reports[-1].file, wall)
-            if not any(item["exercise"] == exercise.name for item in [*failed, *map(_named, reports)]):
-                failed.append(ungraded("", exercise, f"{exercise.name}: no .py file and no notebook was handed in"))
             waiting.pop(0)
             write()
     except Exception as error:  # a fault of ours must not leave a student without a word
@@ -82,26 +88,18 @@ def _wall(assignment: Assignment) -> Wall:
     return wall
 
 
-def _of(exercise: Exercise, found: dict[str, Any]) -> dict[str, Any]:
-    """Return what could not be graded as being of an exercise."""
-    return found if found["exercise"] else found | {"exercise": exercise.name, "possible": exercise.points}
-
-
-def _named(report: Report) -> dict[str, Any]:
-    return {"exercise": report.exercise.name}
-
-
 def _results(
     assignment: Assignment,
     reports: Sequence[Report],
     failed: Sequence[dict[str, Any]],
     images: Sequence[dict[str, str]],
+    notes: Sequence[str],
 ) -> dict[str, Any]:
     if assignment.service == "prairielearn":
-        return prairielearn(reports, failed, images)
+        return prairielearn(reports, failed, images, notes)
     factors = {exercise.name: assignment.factor(exercise) for exercise in assignment.exercises}
     hidden = "after_published" if assignment.due is None else "after_due_date"
-    return gradescope(reports, failed, factors=factors, hidden=hidden)
+    return gradescope(reports, failed, factors=factors, hidden=hidden, notes=notes)
 
 
 def main(words: Sequence[str]) -> int:

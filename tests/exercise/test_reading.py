@@ -1,0 +1,81 @@
+"""No hand-in stalls the grader: each is read, parsed and matched by a process that may take so much time and memory."""
+
+import json
+import resource
+
+import pytest
+
+from workbench.errors import InputError
+from workbench.exercise.finding import exercises, exercises_in, said_for
+from workbench.exercise.handed import Handed
+from workbench.exercise.marking import Asked, chosen
+from workbench.exercise.reading import MOST_LOST, Reader
+from workbench.exercise.submission import read_submission
+
+MEGABYTE = 1 << 20
+RIGHT = "def match(p, q):\n    return 0\n"
+PARTS = "import " + ".".join(["a"] * 400_000) + "\n"
+NESTED = "(" * 90 + "1" + ")" * 90 + "\n"
+STALLING = {
+    "blank.py": "\n" * MEGABYTE,
+    "blank and more.py": "\n" * (MEGABYTE - 100) + "x = 1\n",
+    "a name of many parts.py": PARTS,
+    "quotes.py": '"' * MEGABYTE,
+    "signs.py": "- " * (MEGABYTE // 2),
+    "brackets.py": NESTED * 5000,
+    "a long sum.py": "x = " + "a+" * 500_000 + "a",
+    "one line of names.py": "a=" * 500_000 + "1",
+    "punycode.py": "# coding: punycode\n" + "x" * 500_000 + "-" + "a9" * 200_000,
+    "cells.ipynb": json.dumps({"cells": [{"cell_type": "code", "source": "x"}] * 20_000}),
+    "deep.ipynb": "[" * MEGABYTE,
+    "parts.ipynb": json.dumps({"cells": [{"cell_type": "code", "source": PARTS}]}),
+}
+
+
+def spent() -> float:
+    """Return the processor time of this process and of those that it started and that ended, seconds."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(one.ru_utime + one.ru_stime for one in used)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def all_exercises_are_known():
+    exercises()
+
+
+@pytest.mark.parametrize("name", STALLING)
+def test_no_file_keeps_the_grader_busy(tmp_path, name):
+    path = tmp_path / name
+    path.write_text(STALLING[name])
+    began = spent()
+    with pytest.raises(InputError) as told:
+        exercises_in(path)
+    assert spent() - began < 5.0
+    assert 20 < len(str(told.value)) < 1500
+
+
+def test_one_that_hangs_costs_the_others_nothing_and_many_cost_no_more_than_three():
+    files = {"a.py": PARTS, "my_match.py": RIGHT, **{f"z{k}.py": PARTS for k in range(20)}}
+    handed = Handed("ada", {name: text.encode() for name, text in files.items()})
+    began = spent()
+    found = chosen(handed, Asked())
+    assert spent() - began < 5.0 * MOST_LOST
+    assert [part.file for part in found.graded] == ["my_match.py"]
+    said = [item["error"] for item in found.troubles]
+    assert said[0] == "a.py: takes too long or too much memory to read as Python"
+    assert sum("not read, since 3 other files" in line for line in said) == len(files) - 1 - MOST_LOST
+
+
+@pytest.mark.parametrize("head", ['"""', "# ", "\ufeff'''", "\n\n\n'''\n", "  # % "])
+def test_a_mark_is_found_behind_what_an_editor_puts_before_it(tmp_path, head):
+    path = tmp_path / "a.py"
+    path.write_text(f"{head}Exercise match, lesson icp.\n{head.strip()[-3:] if '#' not in head else ''}\n{RIGHT}")
+    assert [exercise.name for exercise in said_for(read_submission(path))] == ["match"]
+
+
+def test_no_process_stays_behind():
+    with Reader() as reader:
+        reader.read("a.py", b"x = 1")
+        process = reader._process
+        assert process is not None
+    assert process.poll() is not None

@@ -1,0 +1,158 @@
+"""Reads what was handed in, in a process of its own with limits: started as `python -I -S -B reading.py`, never imported.
+
+Nothing of a hand-in is run here. But to read one costs what its author wants it to cost: a name of 400,000 parts keeps
+Python's parser busy for minutes. Requests and replies are lines of JSON. It imports nothing of ours.
+"""
+
+import ast
+import base64
+import io
+import json
+import re
+import resource
+import sys
+import tokenize
+from collections.abc import Iterator
+from typing import Any
+
+SECONDS = 3
+"""Processor time that one file may take, in whole seconds, as the kernel counts it."""
+MEGABYTES = 512
+MOST_IMPORTS = 200
+MARK = re.compile(r"^[^\w\n]{0,20}Exercise (\w{1,100}), lesson \w", re.MULTILINE)
+"""The first line of a starter: it says which exercise a file is handed in for."""
+NOT_PARSED = (SyntaxError, ValueError, RecursionError)
+"""What Python's parser says of what is no Python: also of NUL bytes, and of what is nested too deep. What takes too much
+memory ends this process."""
+
+
+class UnreadableError(Exception):
+    """What was handed in is no text or no notebook; one line."""
+
+
+def main() -> None:
+    """Answer requests until there are no more."""
+    resource.setrlimit(resource.RLIMIT_AS, (MEGABYTES << 20, MEGABYTES << 20))
+    for line in sys.stdin.buffer:
+        used = resource.getrusage(resource.RUSAGE_SELF)
+        most = int(used.ru_utime + used.ru_stime) + SECONDS
+        resource.setrlimit(resource.RLIMIT_CPU, (most, resource.RLIM_INFINITY))
+        request = json.loads(line)
+        try:
+            reply = read(request["file"], base64.b64decode(request["content"]))
+        except UnreadableError as error:
+            reply = {"unreadable": str(error)}
+        sys.stdout.buffer.write(json.dumps(reply).encode() + b"\n")
+        sys.stdout.buffer.flush()
+
+
+def read(file: str, content: bytes) -> dict[str, Any]:
+    """Return what is in a file: its text, what it says that it is for, what it defines and imports, or why it is no Python.
+
+    Raises:
+        UnreadableError: If it is no text, or a notebook that is none.
+    """
+    source = of_notebook(file, content) if file.lower().endswith(".ipynb") else decoded(file, content)
+    found: dict[str, Any] = {"source": source, "said": list(dict.fromkeys(MARK.findall(source)))}
+    try:
+        tree = ast.parse(source)
+    except SyntaxError as error:
+        return found | {"broken": f"{file}, line {error.lineno}: {error.msg}"[:500]}
+    except NOT_PARSED:
+        return found | {"broken": f"{file}: not a Python file"}
+    imports = dict.fromkeys(name for name in imported(tree) if name.isidentifier())
+    return found | {"defines": sorted(set(names(tree.body))), "imports": list(imports)[:MOST_IMPORTS]}
+
+
+def decoded(file: str, content: bytes) -> str:
+    """Return a text in the encoding that it declares, UTF-8 where it declares none.
+
+    Raises:
+        UnreadableError: If it is not in that encoding, or there is no such.
+    """
+    try:
+        encoding, _ = tokenize.detect_encoding(io.BytesIO(content).readline)
+        return io.TextIOWrapper(io.BytesIO(content), encoding).read()
+    except (SyntaxError, LookupError, ValueError) as error:
+        said = "not UTF-8" if isinstance(error, UnicodeDecodeError) or "utf-8" in str(error) else str(error)
+        raise UnreadableError(f"{file}: cannot be read as text ({said}): save it as UTF-8") from None
+
+
+def imported(tree: ast.Module) -> Iterator[str]:
+    """Yield the names of the modules that a text imports."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield node.module
+
+
+def names(body: list[ast.stmt]) -> Iterator[str]:
+    """Yield the names that statements give a value, without running them."""
+    for node in body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            yield node.name
+            continue
+        if isinstance(node, (ast.Assign, ast.AnnAssign)):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            yield from (name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name))
+        elif isinstance(node, (ast.Import, ast.ImportFrom)):
+            yield from (alias.asname or alias.name for alias in node.names)
+        for inner in ("body", "orelse", "finalbody"):
+            yield from names(getattr(node, inner, []))
+        for handler in getattr(node, "handlers", []):
+            yield from names(handler.body)
+
+
+# notebooks ------------------------------------------------------------------------------------------------------------
+
+DEFINING = (ast.Import, ast.ImportFrom, ast.FunctionDef, ast.ClassDef)
+TAGS = {"exercise", "solution", "workbench"}
+"""Where a cell has one of these tags, what it defines counts, wherever else it is defined too."""
+
+
+def of_notebook(file: str, content: bytes) -> str:
+    """Return the imports, definitions and constants of the code cells, each in its line of all cells joined.
+
+    What else is in the cells was written to be looked at. Of several definitions the last counts, a tagged one first.
+
+    Raises:
+        UnreadableError: If it is no notebook.
+    """
+    try:
+        cells = [cell for cell in json.loads(content.decode("utf-8-sig"))["cells"] if cell["cell_type"] == "code"]
+        texts = ["".join(cell["source"]) for cell in cells]
+        tagged = [bool(TAGS & set(cell.get("metadata", {}).get("tags", []))) for cell in cells]
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        raise UnreadableError(f"{file}: not a notebook") from None
+    ordered = [text for is_tagged in (False, True) for text, tag in zip(texts, tagged, strict=True) if tag is is_tagged]
+    kept: list[str] = []
+    for text in ordered:
+        lines = ["" if line.lstrip().startswith(("%", "!", "?")) else line for line in text.splitlines()]
+        try:
+            body = ast.parse("\n".join(lines)).body
+        except NOT_PARSED:
+            kept += lines if text is ordered[-1] else [""] * len(lines)
+            continue
+        wanted = set[int]()
+        for node in body:
+            if isinstance(node, DEFINING) or is_constant(node):
+                first = min([node.lineno, *(d.lineno for d in getattr(node, "decorator_list", []))])
+                wanted |= set(range(first, (node.end_lineno or first) + 1))
+        kept += [line if number in wanted else "" for number, line in enumerate(lines, 1)]
+    return "\n".join(kept) + "\n"
+
+
+def is_constant(node: ast.stmt) -> bool:
+    """Whether a statement gives a name a value that is made without running anything of the student's."""
+    if not isinstance(node, (ast.Assign, ast.AnnAssign)) or node.value is None:
+        return False
+    calls = [call.func for call in ast.walk(node.value) if isinstance(call, ast.Call)]
+    made = {"array", "eye", "zeros", "ones", "diag", "radians", "deg2rad", "sqrt", "finfo", "float64"}
+    return all(isinstance(call, ast.Attribute) and call.attr in made for call in calls) or isinstance(
+        node.value, ast.Lambda
+    )
+
+
+if __name__ == "__main__":
+    main()
