@@ -122,8 +122,13 @@ def special_angles(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def zero_axis(candidate: Function) -> Verdict:
-    """An axis of length zero is refused."""
-    return refused(candidate, np.zeros(3), 0.5, what="A zero axis")
+    """An axis of length zero is refused; one of a micrometre or a kilometre is as good as any."""
+    verdicts = [refused(candidate, np.zeros(3), 0.5, what="A zero axis")]
+    for length in (1e-6, 1e3):
+        axis = length * np.array([0.48, -0.6, 0.64])
+        right = rotations.rotation_from_axis_angle(axis, 0.5)
+        verdicts.append(rotation_verdict(candidate(axis, 0.5), right, f"An axis {length:g} long. {TURN_HINT}"))
+    return worst(verdicts)
 
 
 @mistake(
