@@ -19,6 +19,7 @@ from workbench.numerals import (
     length,
     percent,
     pixels,
+    plus_minus,
     power_of_ten,
 )
 
@@ -58,6 +59,8 @@ def test_brief_is_the_number_to_its_digits(value, digits):
         (brief(99.96), "100"),
         (brief(1e7), "10,000,000"),
         (brief(12.345, 4), "12.35"),
+        (brief(0.3125), "0.313"),
+        (brief(-2.125), "−2.13"),
         (fixed_or_power(-999999.4, 1), "−999,999.4"),
         (fixed_or_power(-3284908864.4, 1), "−3.28 × 10⁹"),
         (fixed_or_power(1e21, 1), "1.00 × 10²¹"),
@@ -77,12 +80,14 @@ def test_brief_is_the_number_to_its_digits(value, digits):
         (length(0.1), "0.1 m"),
         (length(-2.5), "−2.5 m"),
         (length(2.345, 2), "2.3 m"),
-        (length(5_403_210.0), "5,403 km"),
-        (length(12_345.6), "12,346 m"),
+        (length(5_403_210.0), "5,400 km"),
+        (length(12_345.6), "12,300 m"),
+        (length(245_345.4), "245,000 m"),
         (length(3.28e12), "3.28 × 10⁹ km"),
         (pixels(1e-12), "0 px"),
         (pixels(3.4567), "3.46 px"),
-        (pixels(12_345.6), "12,346 px"),
+        (pixels(82_389.27), "82,400 px"),
+        (pixels(3.28e9), "3.28 × 10⁹ px"),
         (angle(0.0), "0°"),
         (angle(1e-5), "less than 0.001°"),
         (angle(35.04), "35°"),
@@ -101,6 +106,27 @@ def test_brief_is_the_number_to_its_digits(value, digits):
 )
 def test_numerals(text, said):
     assert text == said
+
+
+@pytest.mark.parametrize(
+    ("value", "deviation", "said"),
+    [
+        (535.5604, 1.558, ("535.6", "1.6")),
+        (612.8579, 161.007, ("610", "160")),
+        (503.4528, 192.11, ("500", "190")),
+        (-533.2, 9.96, ("−533", "10")),
+        (533.22, 0.0234, ("533.2", "0.023")),
+        (3.0, 4321.0, ("0", "4,300")),
+    ],
+)
+def test_a_value_has_no_digit_that_its_deviation_drowns(value, deviation, said):
+    assert plus_minus(value, deviation) == said
+
+
+@pytest.mark.parametrize("deviation", [0.0, -1.0, math.nan, math.inf])
+def test_a_deviation_is_positive(deviation):
+    with pytest.raises(ValueError, match="positive and finite"):
+        plus_minus(1.0, deviation)
 
 
 UNITS = {"km": 1e3, "m": 1.0, "mm": 1e-3, "µm": 1e-6}

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.numerals import ROUND_OFF
+from workbench.numerals import ROUND_OFF, brief
 
 LONGEST_LABEL = 20
 """So many characters fit along the height of a chart."""
@@ -109,8 +109,7 @@ def number(value: float) -> str:
     power = int(np.floor(np.log10(abs(float(f"{value:.2e}")))))
     if not -4 < power < 6:
         return f"{value / 10.0**power:.3g}e{power}".replace("-", "−")
-    text = f"{round(value, 2 - power):,.{max(0, 2 - power)}f}"
-    return (text.rstrip("0").rstrip(".") if "." in text else text).replace("-", "−")
+    return brief(value)
 
 
 def labelled(chart: str, unit: str, log: bool) -> tuple[str, str]:

@@ -6,7 +6,7 @@ What is not finite has no numeral: say in words what is missing.
 
 import math
 from collections.abc import Iterable
-from decimal import Decimal
+from decimal import ROUND_HALF_UP, Context
 
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 ROUND_OFF = 1e-9
@@ -20,10 +20,13 @@ def fixed(value: float, places: int) -> str:
 
 
 def brief(value: float, digits: int = 3) -> str:
-    """Write a number with so many significant digits and no zeros behind them; 0 where only rounding is left."""
+    """Write a number with so many significant digits and no zeros behind them; 0 where only rounding is left.
+
+    It is rounded once, halves away from zero, as the page rounds the numbers beside its charts.
+    """
     if abs(value) < ROUND_OFF:
         return "0"
-    text = f"{Decimal(f'{value:.{digits - 1}e}'):,f}"
+    text = f"{Context(prec=digits, rounding=ROUND_HALF_UP).create_decimal_from_float(float(value)):,f}"
     return (text.rstrip("0").rstrip(".") if "." in text else text).replace("-", "−")
 
 
@@ -33,6 +36,10 @@ def fixed_or_power(value: float, places: int) -> str:
         return fixed(value, places)
     mantissa, exponent = f"{value:.2e}".split("e")
     return f"{mantissa} × {power_of_ten(int(exponent))}".replace("-", "−")
+
+
+def _brief_or_power(value: float, digits: int) -> str:
+    return brief(value, digits) if abs(value) < 1e6 else fixed_or_power(value, 0)
 
 
 def power_of_ten(exponent: int) -> str:
@@ -54,17 +61,15 @@ def coordinates(values: Iterable[float], places: int) -> str:
 
 
 def length(metres: float, digits: int = 3) -> str:
-    """Write a length in the unit that suits it, from µm to km, with so many significant digits; whole metres from 1 km on.
+    """Write a length in the unit that suits it, from µm to km, with so many significant digits; km from 1,000 km on.
 
     What only rounding left of a length is "0 mm".
     """
     size = abs(metres)
     if size < ROUND_OFF:
         return "0 mm"
-    if size >= 1e6:
-        return f"{fixed_or_power(metres / 1e3, 0)} km"
-    if size >= 1e3:
-        return f"{fixed(metres, 0)} m"
+    if size >= 999.5e3:
+        return f"{_brief_or_power(metres / 1e3, digits)} km"
     if size >= 0.1:
         return f"{brief(metres, digits)} m"
     return f"{brief(1e3 * metres, digits)} mm" if size >= 1e-6 else f"{brief(1e6 * metres, min(digits, 2))} µm"
@@ -77,10 +82,8 @@ def area(square_metres: float, digits: int = 3) -> str:
 
 
 def pixels(count: float, digits: int = 3) -> str:
-    """Write a distance in an image with so many significant digits, whole pixels from 1,000 on; 0 px below 0.0005 px."""
-    if abs(count) < 5e-4:
-        return "0 px"
-    return f"{fixed_or_power(count, 0) if abs(count) >= 1e3 else brief(count, digits)} px"
+    """Write a distance in an image with so many significant digits; 0 px below 0.0005 px."""
+    return "0 px" if abs(count) < 5e-4 else f"{_brief_or_power(count, digits)} px"
 
 
 def angle(degrees: float, digits: int = 3) -> str:
@@ -102,6 +105,25 @@ def percent(share: float, places: int | None = None) -> str:
     if abs(value) < 0.01:
         return "0 %" if abs(value) < 1e-6 else "less than 0.01 %"
     return f"{brief(value, 2) if abs(value) < 99.5 else fixed_or_power(value, 0)} %"
+
+
+def plus_minus(value: float, deviation: float, places: int = 1) -> tuple[str, str]:
+    """Write a value and its standard deviation: of the deviation two digits, of the value none that the deviation drowns.
+
+    Args:
+        value: The value: "535.6" beside "1.6", "490" beside "200".
+        deviation: Its standard deviation.
+        places: The most decimals that the value has.
+
+    Raises:
+        ValueError: If the deviation is not positive and finite.
+    """
+    if not 0.0 < deviation < math.inf:
+        raise ValueError("a deviation is positive and finite")
+    place = math.floor(math.log10(float(f"{deviation:.1e}"))) - 1
+    if place <= 0:
+        return fixed(value, min(-place, places)), brief(deviation, 2)
+    return fixed(round(value / 10**place) * 10**place, 0), brief(deviation, 2)
 
 
 def counted(count: int, one: str, more: str = "") -> str:

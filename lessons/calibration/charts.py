@@ -5,7 +5,7 @@ import numpy as np
 from lessons.calibration.state import Ending, State
 from lessons.calibration.views import GRID, places
 from workbench.algorithms.board_adjustment import SHARED, shared_numbers
-from workbench.numerals import brief, fixed, pixels
+from workbench.numerals import brief, fixed, pixels, plus_minus
 from workbench.scene import Chart, Field, Picture, Primitive, Table
 
 FOCAL = Chart("Focal length", unit="px")
@@ -43,9 +43,11 @@ def _camera(state: State) -> Table:
     true = None if truth is None else shared_numbers(truth, state.subject.lens)
     rows = []
     for i, name in enumerate(SHARED):
-        places_ = 1 if i < 4 else 4
-        row = [name, fixed(found[i], places_), "" if not sd[i] > 0 else fixed(sd[i], places_)]
-        rows.append((*row, *(() if true is None else (fixed(true[i], places_),))))
+        decimals = 1 if i < 4 else 4
+        value, deviation = fixed(found[i], decimals), ""
+        if 0 < sd[i] < np.inf:
+            value, deviation = plus_minus(found[i], sd[i], decimals)
+        rows.append((name, value, deviation, *(() if true is None else (fixed(true[i], decimals),))))
     return Table("The camera", ("", "found", "±", *(() if true is None else ("true",))), tuple(rows))
 
 

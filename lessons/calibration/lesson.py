@@ -15,6 +15,7 @@ from lessons.calibration.draw import VIEW, draw
 from lessons.calibration.experiments import PRESETS, QUESTIONS
 from lessons.calibration.state import COEFFICIENTS, Ending, Params, State
 from lessons.calibration.views import deviations, map_error, over_tilt, subject_of
+from workbench.algorithms import calibration as calibration_steps
 from workbench.algorithms.board_adjustment import adjust
 from workbench.algorithms.calibration import Pose, Rows, calibrate
 from workbench.certain import sure
@@ -23,7 +24,9 @@ from workbench.geometry import calibration
 from workbench.lesson import Lesson, Sweep
 
 Rms = Callable[[np.ndarray], float]
-MOST_ITERATIONS, TOLERANCE = 30, 1e-6
+MOST_ITERATIONS = 400
+TOLERANCE = 1e-8  # of the cost: where boards are hardly tilted, the valley is so flat that a millionth is no rest
+EACH, EVERY = 30, 10  # iterations that are shown one by one, and of those after them, which
 
 
 def run(
@@ -49,6 +52,8 @@ def run(
         max_iterations=MOST_ITERATIONS,
         tolerance=TOLERANCE,
     ):
+        if passed_over(now):
+            continue
         before, rms = rms, float(reprojection_rms(now.residuals.reshape(-1, 2)))
         if not np.isfinite(now.residuals).all():
             raise InputError("the poses put corners at depth 0: nothing can be projected")
@@ -64,6 +69,12 @@ def run(
         yield state
     if state is not None:
         yield from endings(state, corner)
+
+
+def passed_over(now: calibration_steps.State) -> bool:
+    """Tell whether an iteration is not shown: of a long refinement every tenth is, and the last."""
+    refined = now.adjustment
+    return bool(refined and refined.iteration > EACH and refined.iteration % EVERY and not refined.stop)
 
 
 def endings(state: State, corner: float | None) -> Iterator[State]:

@@ -5,10 +5,10 @@ from pathlib import PurePosixPath
 import numpy as np
 
 from lessons.calibration.state import Ending, State, Subject
-from workbench.algorithms.board_adjustment import Stop
+from workbench.algorithms.board_adjustment import Adjustment, Stop
 from workbench.certain import sure
 from workbench.errors import one_line
-from workbench.numerals import brief, counted, fixed, percent, pixels
+from workbench.numerals import brief, counted, fixed, percent, pixels, plus_minus
 from workbench.scene import Caption
 
 SHARE, NEAR = 0.01, 10.0  # a camera is right with f off by 1 % at most, and rays by 10 px at most
@@ -17,7 +17,7 @@ UNEQUAL = 0.005  # share by which fx and fy differ from which on it is told
 STOPS = {
     Stop.CONVERGED: "The cost has come to rest.",
     Stop.STUCK: "No step lowers the cost any more.",
-    Stop.MAX_ITERATIONS: "Stopped here, after the most iterations allowed.",
+    Stop.MAX_ITERATIONS: "Stopped here, after the most iterations allowed: not at rest.",
 }
 
 
@@ -141,7 +141,7 @@ def _views(state: State, ending: Ending) -> Caption:
     rms = state.per_view
     others = np.delete(rms, ending.worst)
     return Caption(
-        f"View {state.subject.views[ending.worst]} fits least: {pixels(float(rms[ending.worst]))} (rms), the others"
+        f"View {state.subject.views[ending.worst]} fits worst: {pixels(float(rms[ending.worst]))} (rms), the others"
         f" {pixels(float(np.median(others)))} in the median. Its residuals carry"
         f" {fixed(100 * float(rms[ending.worst] ** 2 / (rms**2).sum()), 0)} % of the sum of squares."
     )
@@ -154,29 +154,38 @@ def _without(state: State, ending: Ending) -> Caption:
     by = f"{brief(abs(moved) / sd, 2)} times its ±" if np.isfinite(sd) and sd > 0 else "with no ± to compare"
     return Caption(
         f"Without view {state.subject.views[ending.worst]}: f = {fixed(found.K[0, 0], 1)} px becomes"
-        f" {fixed(now.K[0, 0], 1)} px, a move of {pixels(abs(moved))}, {by}."
+        f" {fixed(now.K[0, 0], 1)} px, a move of {pixels(abs(moved))}, {by}.{_cut_off(found, now)}"
     )
+
+
+def _cut_off(*found: Adjustment) -> str:
+    """Say that a refinement was ended by its limit, where one was."""
+    if all(one.stop is not Stop.MAX_ITERATIONS for one in found):
+        return ""
+    most = max(one.iteration for one in found)
+    return f" That is where {most} iterations came to: not at rest, f still moves."
 
 
 def _known(state: State, ending: Ending) -> Caption:
     now = sure(state.now.adjustment)
     sd = now.deviations[0]
-    known = np.isfinite(sd)
-    pm = f" ± {fixed(sd, 1)}" if known else ""
-    text = f"f = {fixed(now.K[0, 0], 1)}{pm} px" + ("" if known else ", and the views do not determine it")
+    f = " ± ".join(plus_minus(now.K[0, 0], sd)) if 0 < sd < np.inf else fixed(now.K[0, 0], 1)
+    text = f"f = {f} px" + ("" if np.isfinite(sd) else ", and the views do not determine it")
     if state.subject.K is None:
         return Caption(
             f"{text}; rms {pixels(state.rms)}. Nobody knows the truth here: the ± takes the board for flat, and errors"
-            " of corners for independent."
+            f" of corners for independent.{_cut_off(now)}"
         )
     text += f", in truth {fixed(state.subject.K[0, 0], 0)} px"
     worst = state.worst_in_picture
     apart = abs(now.K[0, 0] / now.K[1, 1] - 1)
     if apart > UNEQUAL:
         text += f"; fx and fy are {percent(apart, 1)} apart"
-    said = f"somewhere in the picture by {pixels(worst)}" if np.isfinite(worst) else "where, nobody can tell"
+    said = "How far the lens map is off cannot be told."
+    if np.isfinite(worst):
+        said = f"The largest error of the lens map anywhere in the picture is {pixels(worst)}."
     return Caption.verdict(
-        f"{text}. Rays are off {said}.",
+        f"{text}. {said}{_cut_off(now)}",
         right=is_right(state),
         settled=now.stop is Stop.CONVERGED,
     )

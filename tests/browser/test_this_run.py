@@ -6,7 +6,7 @@ from tests import fake
 from workbench import links, open_recording
 from workbench.cli import main
 from workbench.lesson import catalog
-from workbench.numerals import length
+from workbench.numerals import brief, length
 from workbench.timeline import Timeline
 from workbench.viewer.server import Server
 
@@ -100,6 +100,8 @@ def test_a_number_is_read_as_people_type_it_and_an_empty_answer_is_none(visit):
         sign * digits * 10.0**power for power in range(-11, 8) for digits in (1.0, 2.4549, 9.996) for sign in (1, -1)
     ]
     assert me.page.evaluate("all => all.map(length)", lengths) == [length(metres) for metres in lengths]
+    values = [0.3125, -2.125, 0.371500004, 0.3714996, 9.995, 82_389.27, 0.0625]
+    assert me.page.evaluate("all => all.map(number)", values) == [brief(value) for value in values]
     number = me.page.locator("form.question", has=me.page.locator("input[inputmode=decimal]")).first
     number.get_by_role("button", name="Answer").click()
     number.get_by_text("Type a number first, or skip.").wait_for()

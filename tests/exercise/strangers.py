@@ -275,6 +275,20 @@ def essential_to_poses__rodrigues_half_turn(E):
     return poses
 
 
+def essential_to_poses__cofactors(E):
+    """Horn 1990: R from the cofactors of E, after E is scaled so that its translation has length one."""
+    E = E * math.sqrt(2) / linalg.norm(E)
+    t = linalg.svd(E)[0][:, 2]
+    cofactors = np.stack([np.cross(E[1], E[2]), np.cross(E[2], E[0]), np.cross(E[0], E[1])])
+    out = []
+    for s in (t, -t):
+        cross = np.array([[0, -s[2], s[1]], [s[2], 0, -s[0]], [-s[1], s[0], 0]])
+        for sign in (1, -1):
+            U, _, Vt = linalg.svd(cofactors - sign * cross @ E)
+            out.append(np.block([[U @ Vt, s[:, None]], [np.zeros((1, 3)), 1]]))
+    return np.array(out)
+
+
 def euler_to_matrix__scipy(angles, order):
     letters = order.lower() if isinstance(order, str) else ""
     if len(letters) != 3 or set(letters) - set("xyz") or order not in (letters, letters.upper()):

@@ -10,6 +10,7 @@ from lessons.calibration.lesson import lesson, run
 from lessons.calibration.state import Ending, Params, State
 from tests.runs import finished
 from tests.truths.calibration import deviation_of_f, rms_of, worst_ray
+from workbench.algorithms.board_adjustment import Stop
 from workbench.errors import InputError
 from workbench.geometry import calibration
 from workbench.scene import Caption, Mesh, Picture, Points, Segments, Table, caption_of
@@ -83,7 +84,47 @@ def test_the_closed_form_knows_no_lens():
     assert home[0].rms > 1.8 * SQRT2 * 0.2
 
 
-@pytest.mark.parametrize(("tilt", "median", "sd"), [(2, 68, 150), (10, 6, 9), (30, 1.2, 1.7)])
+def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
+    """What Levenberg-Marquardt was cut off at, f = 613 px after 30 iterations, is no answer of the method."""
+    cv2 = pytest.importorskip("cv2", reason="opencv-python-headless is not installed")
+    last = end(experiments.FLAT)
+    found = last.now.adjustment
+    assert found is not None
+    assert found.stop is Stop.CONVERGED
+    assert f_of(last) == pytest.approx(493.26, abs=0.05)
+    assert last.rms == pytest.approx(0.27804, abs=1e-5)
+    p = np.column_stack([last.subject.p_board[:, :2], np.zeros(len(last.subject.p_board))]).astype(np.float32)
+    rms, K, *_ = cv2.calibrateCamera(
+        [p] * len(last.subject.uv),
+        [uv.astype(np.float32)[:, None] for uv in last.subject.uv],
+        last.subject.size,
+        np.empty((3, 3)),
+        np.empty(5),
+        flags=cv2.CALIB_FIX_K3,
+        criteria=(cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 300, 1e-12),
+    )
+    assert f_of(last) == pytest.approx(K[0, 0], abs=0.5)
+    assert last.rms == pytest.approx(rms, abs=1e-4)
+
+
+def test_of_a_long_refinement_every_tenth_iteration_is_shown_and_the_last():
+    shown = [one.now.adjustment for one in states(experiments.FLAT) if one.now.phase == "refine" and one.ending is None]
+    numbers = [one.iteration for one in shown if one is not None]
+    assert numbers[:31] == [*range(1, 31), 40]
+    assert all(number % 10 == 0 for number in numbers[30:-1])
+    assert shown[-1] is not None
+    assert shown[-1].stop is Stop.CONVERGED
+
+
+def test_a_refinement_that_its_limit_ended_says_so_to_the_end():
+    cut = list(run(Params(tilt=2.0, seed=2)))
+    assert cut[-1].now.adjustment is not None
+    assert cut[-1].now.adjustment.stop is Stop.MAX_ITERATIONS
+    for state in (cut[-4], cut[-2], cut[-1]):  # the last iteration, without the worst view, how well all is known
+        assert "not at rest" in caption_of(lesson.draw(state)).text
+
+
+@pytest.mark.parametrize(("tilt", "median", "sd"), [(2, 195, 270), (10, 6, 9), (30, 1.2, 1.7)])
 def test_f_over_the_tilt(tilt, median, sd):
     """The rms says nothing of it: medians over seeds."""
     ends = [list(run(Params(tilt=float(tilt), seed=seed)))[-1] for seed in range(5)]

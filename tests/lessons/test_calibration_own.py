@@ -109,7 +109,7 @@ def test_pictures_alone(corners, tmp_path):
 def test_pictures_are_recorded(corners, tmp_path):
     path = tmp_path / "own.rrd"
     record(lesson, path, params=Params(corners=corners, images=corners.parent, leave_out=1))
-    assert len(open_recording(path).captions) == 22
+    assert len(open_recording(path).captions) == 23
     assert path.stat().st_size > 12 * 50_000  # 12 pictures; empty ones take nothing
 
 

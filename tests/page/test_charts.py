@@ -34,6 +34,16 @@ def test_bars_stand_on_zero_at_their_own_x_with_their_own_heights():
     assert x.min() < 5 < x.max()
 
 
+def test_a_scalar_is_sent_as_it_is_for_a_number_that_was_rounded_is_not_rounded_again():
+    """0.371500004 is 0.372; of six digits, 0.371500, a browser makes 0.371."""
+
+    def draw(state):
+        return {"off": Scalar(0.371500004, "error", "Error", "deg"), "caption": Caption("The error is 0.372°.")}
+
+    timeline = Timeline(replace(fake.lesson, draw=draw), fake.Params(steps=1, points=3)).complete()
+    assert Steps(timeline).whole()["series"][0]["values"][0] == 0.371500004
+
+
 def test_round_off_is_zero_in_what_is_plotted_recorded_and_published():
     def draw(state):
         return {

@@ -26,17 +26,21 @@ function number(value) {
 function length(metres) {
   const size = Math.abs(metres);
   if (size < 1e-9) return "0 mm";
-  const whole = (count) => Math.round(count).toLocaleString("en").replace("-", "−");
-  if (size >= 1e3) return size >= 1e6 ? `${whole(metres / 1e3)} km` : `${whole(metres)} m`;
+  if (size >= 999.5e3) return `${powered(metres / 1e3)} km`;
   if (size >= 0.1) return `${number(metres)} m`;
   return size >= 1e-6 ? `${number(1e3 * metres)} mm` : `${number(Number((1e6 * metres).toPrecision(2)))} µm`;
 }
 
-// a value with its unit, as a sentence writes it: 1.14 × 10¹², no exponent
+// three digits with a power of ten in place of an exponent: 1.14 × 10¹²
+function powered(value) {
+  const raised = (power) => [...power].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["−0123456789".indexOf(c)]).join("");
+  return number(value).replace(/e(−?\d+)$/, (_, power) => ` × 10${raised(power)}`);
+}
+
+// a value with its unit, as a sentence writes it
 function measured(value, unit) {
   if (unit === "m") return length(value);
-  const raised = (power) => [...power].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["−0123456789".indexOf(c)]).join("");
-  const said = number(value).replace(/e(−?\d+)$/, (_, power) => ` × 10${raised(power)}`);
+  const said = powered(value);
   return unit === "deg" || unit === "°" ? `${said}°` : `${said} ${unit ?? ""}`.trim();
 }
 
