@@ -69,7 +69,7 @@ def series_of(series: Mapping[str, Series], start: int = 0) -> list[dict[str, An
             "unit": one.scalar.unit,
             "color": css_color(PALETTE[one.scalar.color]),
             "log": one.scalar.log,
-            "values": [number(value) for value in one.values[start:]],
+            "values": [float(value) if np.isfinite(value) else None for value in one.values[start:]],
         }
         for path, one in series.items()
     ]
