@@ -169,6 +169,7 @@ class Lesson(Generic[P, S]):
         sweeps: Params whose runs are published at several values.
         telling: The chart or title of what tells most beside the scene: it is shown first.
         needs: Names of the lessons it builds on; they stand before it in the course.
+        tries: Whether a state only tries what another start would lead to. Such states follow the run's own end.
     """
 
     name: str
@@ -187,6 +188,7 @@ class Lesson(Generic[P, S]):
     sweeps: tuple[Sweep, ...] = ()
     telling: str = ""
     needs: tuple[str, ...] = ()
+    tries: Callable[[S], bool] | None = None
 
     def __post_init__(self) -> None:
         try:

@@ -6,7 +6,7 @@ import numpy as np
 
 from lessons.chamfer_emd.state import Params, Side, State
 from lessons.chamfer_emd.words import metres, squared
-from workbench.lesson import Preset, Question
+from workbench.lesson import Choice, Preset, Question
 from workbench.numerals import percent
 
 CLUMP = Params()
@@ -47,7 +47,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "shuffled", "Rows in another order", "The same points: all distances are 0 except the mean square of index pairs,"
-        " over 1.5 m². It measures the order of a file.",
+        " 2.3 m². It measures the order of a file.",
         Params(start="shuffled rows", amount=1.0), 0,
     ),
     Preset(
@@ -61,8 +61,8 @@ PRESETS: tuple[Preset[Params], ...] = (
         Params(lowers="target to source"), -1,
     ),
     Preset(
-        "blurred", "Fast EMD is not exact", "Sinkhorn with a blur of 0.5 m says nearly 1 m where EMD is 0.8 m, and at the"
-        " end of the right flow 0.54 m where EMD is under 1 cm: its zero is not zero.",
+        "blurred", "Fast EMD is not exact", "Sinkhorn with a blur of 0.5 m says 0.99 m where EMD is 0.8 m, and at the end of"
+        " the right flow 0.54 m where EMD is under 5 mm: its zero is not zero.",
         Params(blur=0.5), 0,
     ),
     Preset(
@@ -145,7 +145,18 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=lambda states: float(np.digitize(nearer_side(states[-1].left), [0.6, 0.99])),
         why=_spread_why,
         params=CLUMP,
-        choices=("Spread evenly", "Most of them on the nearer half", "All of them on the nearer half"),
+        choices=(
+            Choice(
+                "Spread evenly",
+                why="A small distance seems to mean alike. But Chamfer asks only for a neighbour near by,"
+                " and one point can serve many target points.",
+            ),
+            "Most of them on the nearer half",
+            Choice(
+                "All of them on the nearer half",
+                why="The far target points pull at whoever is nearest to them, and these few cross over.",
+            ),
+        ),
     ),
     Question(
         "predict-flip",
@@ -155,10 +166,21 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         why=_flip_why,
         params=FLIP,
         choices=(
-            "B by both distances",
+            Choice(
+                "B by both distances",
+                why="The bunch must be carried all around the ring, and earth mover's counts that way.",
+            ),
             "B by Chamfer, L by earth mover's",
-            "L by Chamfer, B by earth mover's",
-            "L by both distances",
+            Choice(
+                "L by Chamfer, B by earth mover's",
+                why="It is the other way round: earth mover's counts how many points"
+                " there are where, Chamfer does not.",
+            ),
+            Choice(
+                "L by both distances",
+                why="The bunch is seen at once. Chamfer does not see it: to each point it gives the"
+                " nearest neighbour, however many share it.",
+            ),
         ),
         step=0,
     ),
@@ -172,6 +194,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="%",
         tolerance=2.0,
         step=0,
+        wrong=(
+            (0.0, 5.0, "That is the other side, from source to target: it asks whether all that is there is right."),
+            (40.0, 60.0, "The two sides need not be equal: what is missing is seen from one of them only."),
+        ),
     ),
     Question(
         "predict-outlier",
@@ -179,7 +205,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=_outlier_answer,
         why=_outlier_why,
         params=OUTLIER,
-        choices=("Chamfer (mean of squares)", "Earth mover's", "Hausdorff"),
+        choices=(
+            Choice(
+                "Chamfer (mean of squares)", why="A square of 1 m is large, but it is divided by 80. A maximum is not."
+            ),
+            Choice(
+                "Earth mover's",
+                why="It counts the way of this one point, divided by 80: less than 5 cm for every point.",
+            ),
+            "Hausdorff",
+        ),
         step=0,
     ),
 )

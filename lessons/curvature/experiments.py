@@ -7,7 +7,7 @@ import numpy as np
 from lessons.curvature.state import Params, State, at_stage
 from workbench.certain import sure
 from workbench.geometry.curvature import gaussian_curvature
-from workbench.lesson import Preset, Question, View
+from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import percent
 
 UNFOLDING = (0.15, 0.35, 0.55, 0.75, 0.9)  # how far a ring is laid flat in the steps before it is
@@ -54,8 +54,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "no-area", "A defect is no curvature",
-        "Taken for K, the defect is over 50 times too small here, and about four times smaller still on a mesh four times"
-        " as fine.",
+        "Taken for K, the defect is about a hundred times too small here, and about four times smaller still on a mesh four"
+        " times as fine.",
         Params(vertices=1600, mistake="defect taken for K"), GAUSSIAN, breaks=True,
     ),
     Preset(
@@ -81,7 +81,7 @@ PRESETS: tuple[Preset[Params], ...] = (
         Params(vertices=60), GAUSSIAN,
     ),
     Preset(
-        "fine", "Fine", "With 6,000 well-spread vertices the relative error of K is under 0.2 % (RMS): on a regular mesh it"
+        "fine", "Fine", "With 6,000 well-spread vertices the relative error of K is 0.13 % (RMS): on a regular mesh it"
         " falls with the square of the edges.",
         Params(vertices=6000), GAUSSIAN,
     ),
@@ -99,7 +99,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "sphere-sum", "A bumpy sphere",
-        "Noise and jitter put K off by more than its own size (RMS). What do the defects still add up to?",
+        "Noise and jitter put K off by over five times its own size (RMS). What do the defects still add up to?",
         SPHERE_SUM, GAUSSIAN, breaks=True,
     ),
     Preset(
@@ -154,10 +154,24 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "which-rolled",
         "A sheet of paper is rolled into a tube of radius 0.5 m. What is its Gaussian curvature?",
-        lambda states: float(abs(typical(at_stage(states, "gaussian").now.K)) > 0.01),
+        lambda states: float(
+            np.argmin(np.abs(np.array([0.0, 2.0, 4.0]) - typical(at_stage(states, "gaussian").now.K)))
+        ),
         _why_cylinder,
         CYLINDER,
-        choices=("0: it can be laid flat", "1 to 4 m⁻²: it is bent"),
+        choices=(
+            "0",
+            Choice(
+                "2 m⁻²",
+                why="1 / r = 2 m⁻¹ is how the tube bends around its axis, the larger of two curvatures. The other"
+                " one, along the axis, counts too.",
+            ),
+            Choice(
+                "4 m⁻²",
+                why="1 / r² is that of a ball of this radius, which bends in both directions. A tube is straight"
+                " along its axis.",
+            ),
+        ),
         step=GAUSSIAN,
     ),
     Question(
@@ -169,7 +183,14 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " area. H would be halved."
         ),
         DOUBLE,
-        choices=("it stays", "it is halved", "a quarter is left", "an eighth is left"),
+        choices=(
+            Choice(
+                "it stays", why="The angles stay, and with them the defects. But K is the defect for each square metre."
+            ),
+            Choice("it is halved", why="That is H, or one circle's 1 / r. K is the product of two such."),
+            "a quarter is left",
+            Choice("an eighth is left", why="Volumes grow eightfold. What the defect is divided by is an area."),
+        ),
         step=GAUSSIAN,
     ),
     Question(
@@ -180,7 +201,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             "H turns with the normal. K is the product of k₁ and k₂, which both turn: minus times minus leaves it."
         ),
         INSIDE_OUT,
-        choices=("K", "H", "both", "neither"),
+        choices=(
+            Choice("K", why="K is the product of two curvatures. Both change their sign, so their product does not."),
+            "H",
+            Choice("both", why="Both circles bend to the other side now, but K is their product: minus times minus."),
+            Choice(
+                "neither",
+                why="The shape is the same, but H counts as positive where the surface bends away from its"
+                " normal, and the normal has turned.",
+            ),
+        ),
         step=MEAN,
     ),
     Question(
@@ -190,7 +220,19 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         lambda states: float(np.argmin(np.abs(np.log(np.array([16.0, 4.0, 1.0]) / _finer_ratio(states))))),
         _why_finer,
         IRREGULAR,
-        choices=("falls sixteenfold", "falls fourfold", "hardly changes"),
+        choices=(
+            Choice(
+                "falls sixteenfold",
+                why="That is how it falls on regular meshes, where the errors of neighbouring triangles"
+                " cancel. Here they do not.",
+            ),
+            Choice(
+                "falls fourfold",
+                why="That would be first order in the edges. But the defect and its error shrink just as the"
+                " area does, so their quotient has no order at all.",
+            ),
+            "hardly changes",
+        ),
     ),
     Question(
         "which-sum",
@@ -203,6 +245,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         SPHERE_SUM,
         unit="π",
         tolerance=0.01,
+        wrong=(
+            (
+                0.0,
+                0.1,
+                "Noise makes as many gaps as overlaps, and these cancel. What is left is the sum of the smooth sphere.",
+            ),
+            (1.9, 2.1, "2 is V − E + F. The sum is 2π times that."),
+            (12.4, 12.7, "That is the sum in radians. Asked is how many π it is."),
+            (4.1, 10000.0, "Each bump adds gaps at its top and overlaps at its foot, and the two cancel."),
+        ),
         step=TOTAL,
     ),
 )

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from lessons.features.state import Params, Scanned, State
 from workbench.certain import as_a
-from workbench.lesson import Preset, Question, View
+from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import angle, counted, percent
 
 HOME = Params()
@@ -38,7 +38,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "wide", "A larger neighbourhood",
-        "25 cm around each point: places differ more from each other, and over 40 % of the kept matches are green.",
+        "25 cm around each point: places differ more from each other, and well over half of the kept matches are green.",
         Params(radius=0.25), 6,
     ),
     Preset(
@@ -58,7 +58,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "random", "Both scans' normals by chance",
-        "Less than a quarter of the kept matches are green and RANSAC draws over 1,000 samples, but it comes home: both"
+        "Only about one in seven of the kept matches is green, and RANSAC draws over 1,000 samples. But it comes home: both"
         " scans' histograms are blurred alike.",
         RANDOM, 6,
     ),
@@ -69,12 +69,12 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "patches", "Corners of two photographs",
-        "Corners are where grey levels are steep in two directions; the pixels around describe them. Over 80 % are green.",
+        "Corners are where grey levels are steep in two directions; the pixels around describe them. 90 % are green.",
         PATCHES, -1, FLAT,
     ),
     Preset(
         "tilted", "The right photograph turned by 10°",
-        "A patch is a square of pixels that stands upright. A small turn is still forgiven: over 75 % are green.",
+        "A patch is a square of pixels that stands upright. A small turn is still forgiven: 87 % are green.",
         Params(part="pictures", turn=10.0), -1, FLAT,
     ),
     Preset(
@@ -84,7 +84,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "sift", "The same turn, with SIFT",
-        "Every keypoint has a size and a direction of its own, and is described along it: over 75 % are green.",
+        "Every keypoint has a size and a direction of its own, and is described along it: 82 % are green.",
         SIFT, 1, FLAT,
     ),
     Preset(
@@ -94,7 +94,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "outline-x", "The horse, angles from the x axis",
-        "The same two outlines, but the bins do not turn with them: less than a quarter of the lines are green.",
+        "The same two outlines, but the bins do not turn with them: fewer than a tenth of the lines are green.",
         OUTLINE_X, -1, FLAT, breaks=True,
     ),
 )  # fmt: skip
@@ -133,8 +133,22 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=SMALL,
         unit="%",
-        tolerance=7.0,
+        tolerance=4.0,
         step=6,
+        wrong=(
+            (
+                10.0,
+                14.0,
+                "That is the share shrunk as the radius is. A descriptor loses more than that: near by, hardly any"
+                " bend is left to tell places apart.",
+            ),
+            (20.0, 30.0, "It would stay the same if the bends near by told as much. But near by all surface is flat."),
+            (
+                31.0,
+                100.0,
+                "Smaller is more exact in place, but about less: a flat spot looks like any other flat spot.",
+            ),
+        ),
     ),
     Question(
         "inwards",
@@ -146,7 +160,18 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=FLIPPED,
         step=6,
-        choices=("About as many: a pair's angles are the same", "About half", "Fewer than a third"),
+        choices=(
+            Choice(
+                "About as many: a pair's angles are the same",
+                why="Angles of a motion stay, but flipping normals is no"
+                " motion: θ and φ change their signs, and only α stays.",
+            ),
+            Choice(
+                "About half",
+                why="One of the three angles stays, and two change their signs. A descriptor is compared as a whole.",
+            ),
+            "Fewer than a third",
+        ),
     ),
     Question(
         "ring",
@@ -157,11 +182,18 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " same, so no descriptor can tell them apart: the data do not hold the answer."
         ),
         params=VASE,
-        choices=("Yes, from any start", "No"),
+        choices=(
+            Choice(
+                "Yes, from any start",
+                why="That is so for the rabbit. A vase turned about its axis looks as before, so"
+                " matches can agree on a wrong turn.",
+            ),
+            "No",
+        ),
     ),
     Question(
         "thirty",
-        "Upright patches match photographs with over 80 % right. The right one is turned by 30°. How many per cent now?",
+        "Upright patches match photographs with 90 % right. The right one is turned by 30°. How many per cent now?",
         answer=kept_share,
         why=lambda states: (
             f"{percent(kept_share(states) / 100, 0)}. The pixels of a patch moved to other rows and columns. SIFT measures"
@@ -169,6 +201,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=TURNED,
         unit="%",
-        tolerance=15.0,
+        tolerance=10.0,
+        wrong=(
+            (85.0, 100.0, "So many are right upright, and at 10° still. A patch forgives small turns only."),
+            (70.0, 84.0, "So many are right at 15°. From there on it falls fast."),
+            (25.0, 45.0, "So many are right at 20°. At 30° still fewer are."),
+        ),
     ),
 )

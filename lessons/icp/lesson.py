@@ -76,4 +76,5 @@ lesson = Lesson(
     questions=QUESTIONS,
     sweeps=(Sweep("start_angle", tuple(float(angle) for angle in range(0, 181, 30))),),
     telling="Rotation error",
+    tries=lambda state: bool(state.tries),
 )

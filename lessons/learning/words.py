@@ -50,8 +50,9 @@ def _told(state: State) -> tuple[str, float, float, float]:
         case MeshFitted(), Target():
             text = (
                 f"{done}: {length(float(np.sqrt(now.to_given)))} from the given points of {about.name},"
-                f" {length(float(np.sqrt(now.to_truth)))} from its true surface (roots of Chamfer), of which some is"
-                f" {length(now.farthest)} from the mesh. Folded by over 90°: {percent(now.folded)} of the edges."
+                f" {length(float(np.sqrt(now.to_truth)))} from its true surface (roots of Chamfer)."
+                f" The farthest part of that surface is {length(now.farthest)} from the mesh. Folded by over 90°:"
+                f" {percent(now.folded)} of the edges."
             )
             if about.euler != 2 and now.updates == 0:
                 kind = f"{about.name} is not like a sphere (V − E + F = {about.euler}, not 2)"

@@ -160,8 +160,7 @@ def test_answers(name, answer):
 
 def test_answers_are_read_off_the_run():
     asked = {question.name: question for question in lesson.questions}
-    spheres = timeline(Params(surface="sphere")).states()
-    assert asked["which-rolled"].answer(spheres) == 1
+    assert asked["which-rolled"].answer(timeline(Params(surface="sphere", size=0.5)).states()) == 2
     assert asked["which-sum"].answer(timeline(Params()).states()) == 0
     assert asked["which-finer"].answer(timeline(Params()).states()) == 0
 

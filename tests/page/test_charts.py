@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from tests import fake
-from workbench.page.charts import chart_of, outline
+from workbench.page.charts import chart_of, outline, series_of
 from workbench.page.steps import Steps
 from workbench.scene import Caption, Curve, Scalar
-from workbench.timeline import Timeline
+from workbench.timeline import Series, Timeline
 
 
 def curve(x, y, kind: Any = "line") -> Curve:
@@ -59,3 +59,9 @@ def test_round_off_is_zero_in_what_is_plotted_recorded_and_published():
     assert chart["y"]["words"] == ("0", "0.5", "1.0")
     assert chart["head"] == "Error to the true picture"
     assert chart["yLabel"] == "px"
+
+
+def test_a_value_over_the_steps_is_rounded_once_where_it_is_read():
+    mean = 5.694998344433385  # 5.69 in a caption; by way of 5.69500 a tile would say 5.7
+    told = series_of({"mean": Series(Scalar(mean, "mean", "Error", unit="°"), np.array([mean, np.nan]))})
+    assert told[0]["values"] == [mean, None]

@@ -66,7 +66,8 @@ def too_small(run: Run, *_) -> bool:
     v = state.now.vertex
     finer = angle_free_defect(Params(vertices=4 * 1600, mistake="none"))
     coarse = float(np.median(np.abs(defects(state))))
-    return state.subject.truth.gaussian[v] / state.now.K[v] > 50 and 3.4 < coarse / finer < 4.6
+    times = np.median(np.abs(state.subject.truth.gaussian / state.now.K))
+    return state.subject.truth.gaussian[v] / state.now.K[v] > 70 and 95 < times < 105 and 3.4 < coarse / finer < 4.6
 
 
 @functools.cache
@@ -76,8 +77,16 @@ def angle_free_defect(params: Params) -> float:
 
 
 def off_by_more_than_itself(run: Run, *_) -> bool:
+    return error_of_K(run) > 1
+
+
+def off_by_five_times_itself(run: Run, *_) -> bool:
+    return error_of_K(run) > 5
+
+
+def error_of_K(run: Run) -> float:
     state = at(run, "gaussian")
-    return rms(angle_K(state), state.subject.truth.gaussian, ~facts(state)[2]) > 1
+    return rms(angle_K(state), state.subject.truth.gaussian, ~facts(state)[2])
 
 
 def on_the_torus(run: Run, *_) -> bool:
@@ -86,9 +95,10 @@ def on_the_torus(run: Run, *_) -> bool:
 
 
 def regular(run: Run, *_) -> bool:
-    state, s = at(run, "gaussian"), study(run)
-    error = rms(angle_K(state), state.subject.truth.gaussian, ~facts(state)[2])
-    return error < 0.002 and -1.15 < slope(s.K, s.counts) < -0.85  # edges go with the root of the vertices
+    s = study(run)
+    return (
+        abs(error_of_K(run) - 0.0013) < 5e-5 and -1.15 < slope(s.K, s.counts) < -0.85
+    )  # edges go with the root of the vertices
 
 
 def params(run: Run, **changes) -> Params:

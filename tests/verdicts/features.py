@@ -100,19 +100,19 @@ CAPTIONS = (
 
 LINES = {
     "random": (
-        Claim(r"Less than a quarter of the kept matches are green", _green(below=0.25)),
+        Claim(r"about one in seven of the kept matches is green", _green(0.1, 0.18)),
         Claim(
             r"RANSAC draws over 1,000 samples",
             lambda run, k, m: max(s.now.iteration for s in run.states if s.now.phase == "refit") > 1000,
         ),
         Claim(r"it comes home", lambda run, k, m: home(run.states[-1].now)),
     ),
-    "wide": (Claim(r"over 40 % of the kept matches are green", _green(0.4)),),
-    "patches": (Claim(r"Over 80 % are green", _green(0.8)),),
-    "tilted": (Claim(r"The right photograph", None), Claim(r"over 75 % are green", _green(0.75))),
+    "wide": (Claim(r"well over half of the kept matches are green", _green(0.51)),),
+    "patches": (Claim(r"90 % are green", _green(0.895, 0.905)),),
+    "tilted": (Claim(r"The right photograph", None), Claim(r"87 % are green", _green(0.865, 0.875))),
     "turned": (Claim(r"The right photograph", None),),
-    "sift": (Claim(r"over 75 % are green", _green(0.75)),),
-    "outline-x": (Claim(r"less than a quarter of the lines are green", _green(below=0.25)),),
+    "sift": (Claim(r"82 % are green", _green(0.815, 0.825)),),
+    "outline-x": (Claim(r"fewer than a tenth of the lines are green", _green(below=0.1)),),
 }
 
 WHYS: dict[str, tuple[Claim, ...]] = {}

@@ -42,7 +42,7 @@ def client() -> Iterator[viser.ViserServer]:
 @pytest.fixture
 def live(client, monkeypatch) -> tuple[LiveScene, list[Scene]]:
     """A scene, and what it showed."""
-    monkeypatch.setattr("workbench.viewer.stage.set_stage", lambda client, view: None)
+    monkeypatch.setattr("workbench.viewer.stage.set_stage", lambda client, view, eye: None)
     camera = SimpleNamespace(on_update=lambda act: act, image_width=4, image_height=3)
     monkeypatch.setattr(client, "camera", camera, raising=False)
     scene, shown = LiveScene(lambda **values: None, lambda p_origin, v_ray: None), []

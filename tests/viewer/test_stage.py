@@ -9,7 +9,7 @@ import pytest
 import viser
 
 from workbench.lesson import View, catalog
-from workbench.viewer.stage import NARROWEST, Aim, add_floor, eye_of
+from workbench.viewer.stage import NARROWEST, WIDEST, Aim, add_floor, eye_of
 
 
 @pytest.mark.parametrize("name", list(catalog()))
@@ -35,7 +35,7 @@ def test_the_camera_is_fitted_to_another_width_unless_somebody_has_moved_it(monk
     for width in (430, 860, 300):
         camera.image_width = width
         aim.fit(client)
-        np.testing.assert_allclose(camera.position, eye_of(lesson.view, width / 530))
+        np.testing.assert_allclose(camera.position, eye_of(lesson.view, width / 530, WIDEST))  # what was in view stays
         np.testing.assert_allclose(camera.look_at, lesson.view.target)
     camera.position = moved = np.array([5.0, 5.0, 5.0])
     camera.image_width = 860

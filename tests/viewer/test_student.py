@@ -163,7 +163,7 @@ def test_the_camera_is_set_when_a_run_with_another_view_is_opened_and_else_left_
     )
     views: list[View] = []
     runs: set[int] = set()
-    monkeypatch.setattr("workbench.viewer.stage.set_stage", lambda client, view: views.append(view))
+    monkeypatch.setattr("workbench.viewer.stage.set_stage", lambda client, view, eye: views.append(view))
 
     async def script(me: Talk) -> None:
         async def done(**params) -> list[View]:
@@ -186,7 +186,7 @@ def test_the_camera_is_set_when_a_run_with_another_view_is_opened_and_else_left_
             return seen
 
         server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-        server.camera = SimpleNamespace(on_update=lambda told: told)  # type: ignore[attr-defined]
+        server.camera = SimpleNamespace(on_update=lambda told: told, image_width=4, image_height=3)  # type: ignore[attr-defined]
         try:
             me.student.join(server)  # type: ignore[arg-type]
             me.say(verb="open", query="?lesson=fake", lesson="fake")

@@ -101,7 +101,7 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             )
         return scene | {DIFFERENCE: _difference(pair.difference)}
 
-    return replace(lesson, run=run, draw=draw, questions=())
+    return replace(lesson, run=run, draw=draw, questions=(), tries=None)
 
 
 def _trouble(error: Exception, exercise: Exercise) -> tuple[str, int]:

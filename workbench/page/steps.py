@@ -85,7 +85,15 @@ class Steps:
     def whole(self) -> dict[str, Any]:
         """Return all of a finished run."""
         steps = [self.step(k) for k in range(len(self.timeline))]
-        return {"steps": steps, **self.series(), "things": self.things}
+        return {"steps": steps, **self.series(), "things": self.things, "end": self.end()}
+
+    def end(self) -> int | None:
+        """Return the last step of the run itself where tries of other starts follow it; None where none are known."""
+        tries = self.timeline.lesson.tries
+        if tries is None:
+            return None
+        first = next((k for k, step in enumerate(self.timeline.known()) if tries(step.state)), 0)
+        return first - 1 if first else None
 
     def _made(self, step: Step) -> dict[str, Any]:
         view = self.timeline.lesson.view_of(self.timeline.params)

@@ -12,6 +12,7 @@ _PLANES = ("yz", "xz", "xy")
 
 
 NARROWEST = 1.2  # width of a picture by its height; in a narrower one a lesson is seen from farther away
+WIDEST = 1.6  # up to this width by height, what was in view stays in view in a picture that becomes narrower
 
 
 class Aim:
@@ -22,10 +23,12 @@ class Aim:
         self._usual: View | None = None
         self._set: tuple[str, View] | None = None
         self._put: tuple[View, float, np.ndarray] | None = None  # for a picture of this aspect, the eye was put there
+        self._kept = NARROWEST  # width by height of what stays in view
 
     def lost(self) -> None:
         """Note that the client is another one."""
         self._set = self._put = None
+        self._kept = NARROWEST
 
     def open(self, lesson: Lesson, params: Any) -> None:
         """Want the view of a run that was opened."""
@@ -39,9 +42,10 @@ class Aim:
             wanted = self._wanted = own
             self._usual = usual
         if self._set != (lesson.name, wanted):
-            set_stage(client, wanted)
+            eye = self._eye(wanted, aspect_of(client))
+            set_stage(client, wanted, eye)
             self._set = (lesson.name, wanted)
-            self._put = wanted, aspect_of(client), eye_of(wanted, aspect_of(client))
+            self._put = wanted, aspect_of(client), eye
 
     def fit(self, client: viser.ClientHandle) -> None:
         """Fit the camera to a picture that has become wider or narrower, unless a person has moved it since."""
@@ -51,10 +55,15 @@ class Aim:
         away = np.linalg.norm(eye - np.array(view.target))
         if abs(aspect - before) < 0.02 or np.linalg.norm(client.camera.position - eye) > 1e-3 * away:
             return
-        self._put = view, aspect, eye_of(view, aspect)
+        self._put = view, aspect, self._eye(view, aspect)
         with client.atomic():
             client.camera.position = self._put[2]
             client.camera.look_at = np.array(view.target)
+
+    def _eye(self, view: View, aspect: float) -> np.ndarray:
+        """Return where the eye is put, from which a narrower picture shows what a wider one showed."""
+        self._kept = max(self._kept, min(aspect, WIDEST))
+        return eye_of(view, aspect, self._kept)
 
 
 def aspect_of(client: viser.ClientHandle) -> float:
@@ -62,20 +71,20 @@ def aspect_of(client: viser.ClientHandle) -> float:
     return client.camera.image_width / max(client.camera.image_height, 1)
 
 
-def set_stage(client: viser.ClientHandle, view: View) -> None:
-    """Put a client's camera, grid and axes where a lesson wants them, fitted to the width of its picture."""
+def set_stage(client: viser.ClientHandle, view: View, eye: np.ndarray) -> None:
+    """Put a client's grid and axes where a lesson wants them, and its camera at an eye that suits its picture."""
     add_floor(client.scene, view)
     with client.atomic():
         client.camera.up_direction = np.array(view.up)
-        client.camera.position = eye_of(view, aspect_of(client))
+        client.camera.position = eye
         client.camera.look_at = np.array(view.target)
         client.camera.fov = float(np.radians(view.fov_degrees))
 
 
-def eye_of(view: View, aspect: float) -> np.ndarray:
-    """Return the eye from which as much is seen in the width of a picture as in one of NARROWEST."""
+def eye_of(view: View, aspect: float, kept: float = NARROWEST) -> np.ndarray:
+    """Return the eye from which as much is seen in the width of a picture as in one of width `kept` by its height."""
     target = np.array(view.target)
-    return target + max(1.0, NARROWEST / max(aspect, 0.1)) * (view.seen_from() - target)
+    return target + max(1.0, kept / max(aspect, 0.1)) * (view.seen_from() - target)
 
 
 def add_floor(scene: viser.SceneApi, view: View) -> None:

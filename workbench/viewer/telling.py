@@ -85,6 +85,7 @@ class Telling:
             "params": values_of(params),
             "known": look.known,
             "finished": look.finished,
+            "end": steps.end(),
             "files": files_of(look.own),
             "aside": look.own is not params,
             "mark": first_difference(look.timeline.known())

@@ -4,6 +4,7 @@
 
 const GLIDE = 250; // milliseconds in which a thing that only moves gets to its new place
 const NARROWEST = 1.2; // width of a picture by its height; in a narrower one a scene is seen from farther away
+const WIDEST = 1.6; // up to this width by height, what was in view stays in view in a picture that becomes narrower
 const MESHES = new Set(["MeshMessage", "GlbMessage"]);
 const IDENTITY = { wxyz: [1, 0, 0, 0], position: [0, 0, 0], visible: true };
 
@@ -37,6 +38,7 @@ const feed = window.feed = { // viser's page in the frame looks for it
   made: 0,             // how many nodes got a name of their own
   gliding: 0,          // the frame request of what glides
   camera: "",          // how the scene that is open is first seen
+  keeps: NARROWEST,    // width by height of what stays in view
   dark: false,
 
   // what stands in front of viser's page: its worker, which would open a websocket, is this page
@@ -82,7 +84,9 @@ const feed = window.feed = { // viser's page in the frame looks for it
   // puts the camera where the recording had it, as far away as a narrow picture needs; not where a person has turned it since
   aim(initial = false) {
     if (this.turned || !this.seen) return;
-    const { clientWidth: width, clientHeight: height } = stage.frame, far = Math.max(1, NARROWEST / (width / height || NARROWEST));
+    const { clientWidth: width, clientHeight: height } = stage.frame, aspect = width / height || NARROWEST;
+    this.keeps = Math.max(this.keeps, Math.min(aspect, WIDEST));
+    const far = Math.max(1, this.keeps / aspect);
     const target = this.seen.find((message) => message.type === "SetCameraLookAtMessage")?.look_at;
     const eye = (p) => p.map((value, i) => target[i] + far * (value - target[i]));
     this.send(this.seen.map((message) => ({ ...message, ...(initial ? {} : { initial: false }),

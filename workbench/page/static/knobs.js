@@ -5,9 +5,12 @@ const knobs = {
   inputs: {},  // name -> [[slider, number] or [input], ...], one for each entry of a vector
 
   start() {
-    const rows = source.change ? [...LESSON.knobs.map((knob) => this.row(knob)), ...(typeof files === "undefined" ? [] : files.rows())] : source.sweep ? sweeps.made() : [];
+    const rows = source.change ? LESSON.knobs.map((knob) => this.row(knob)) : source.sweep ? sweeps.made() : [];
+    const own = source.change && typeof files !== "undefined" ? files.rows() : [];
     const reset = element("button", { type: "button", textContent: "Reset", title: "Back to the default run (R)", onclick: () => source.reset() });
-    $("#drawer").replaceChildren(...rows, reset);
+    this.first = element("div", {}, ...rows);
+    this.idle = element("details", { hidden: true }, element("summary"));
+    $("#drawer").replaceChildren(element("div", { className: "knobs" }, this.first, this.idle, ...own, reset));
     $("#set").onclick = () => this.toggle();
   },
 
@@ -85,11 +88,27 @@ const knobs = {
       }));
       this.ground(knob, params);
     }
+    this.sort();
   },
+
+  // what has an effect stands first, in the lesson's order; what has none is folded below
+  sort() {
+    const boxes = LESSON.knobs.map((knob) => this.box(knob)).filter(Boolean);
+    const later = (box) => (other) => boxes.indexOf(other) > boxes.indexOf(box);
+    for (const box of boxes) {
+      const home = box.disabled ? this.idle : this.first;
+      if (box.parentElement !== home) home.insertBefore(box, [...home.children].find(later(box)) ?? null);
+    }
+    const count = this.idle.children.length - 1;
+    this.idle.hidden = !count;
+    $("summary", this.idle).textContent = `${count} more ${count === 1 ? "has" : "have"} no effect here`;
+  },
+
+  box: (knob) => $(`[data-knob="${CSS.escape(knob.name)}"]`),
 
   // greys a knob out that has no effect under what the others say, and says why
   ground(knob, params) {
-    const box = $(`[data-knob="${CSS.escape(knob.name)}"]`);
+    const box = this.box(knob);
     if (!box) return;
     const missing = Object.entries(knob.needs ?? {}).filter(([name, wanted]) => !wanted.includes(params[name] ?? null));
     const said = ([name, wanted]) => {

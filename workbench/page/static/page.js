@@ -4,6 +4,7 @@
 const page = {
   run: null,  // {id, name, steps, things, series, charts, known, finished, played, seen, pinned}
   k: 0,
+  ending: false,  // whether the end of the run is wanted, and not yet known
 
   // whether this lesson has what a tool is for
   can: (tool) => tool !== "move" || LESSON.knobs.some((knob) => knob.by === "gizmo"),
@@ -18,9 +19,17 @@ const page = {
 
   // goes to a step; negative counts from the end
   seek(k) {
+    this.ending = false;
     const run = this.run, at = k < 0 ? this.known() + k : Math.min(k, Math.max(0, this.known() - 1));
     source.seek(k < 0 || k >= this.known() ? k : at);
     if (run && run.steps[at] && (k >= 0 || run.finished)) this.see(at);
+  },
+
+  // goes to the end of the run itself, as soon as it is known; from there to that of what other starts lead to
+  end() {
+    const end = this.run.end ?? -1;
+    this.seek(this.k < end ? end : -1);
+    this.ending = end < 0;
   },
 
   // what the source says of a run: new, or more of it
@@ -29,7 +38,9 @@ const page = {
     if (!this.run || this.run.id !== id) {
       this.run = { steps: [], things: {}, series: [], charts: {}, played: -1, seen: false, pinned: null, ...data };
       this.k = 0;
+      this.ending = false;
     } else Object.assign(this.run, data);
+    if (this.ending && Number.isInteger(this.run.end)) this.seek(this.run.end);
     if (series) this.run.series = grown(this.run.series, series, from ?? 0);
     if (data.params) knobs.show(data);
     $("#pin").setAttribute("aria-pressed", String(Boolean(this.run.pinned)));

@@ -58,9 +58,9 @@ const source = {
   },
 
   told(run, data, step) {
-    const { steps, things, series, charts, command, recording } = data;
+    const { steps, things, series, charts, command, recording, end } = data;
     const known = steps.length, at = Math.max(0, Math.min(known - 1, step < 0 ? known + step : step));
-    const told = { name: run, title: RECORDED.titles[run], steps, things, series, charts, known, finished: true, command, recording };
+    const told = { name: run, title: RECORDED.titles[run], steps, things, series, charts, known, finished: true, command, recording, end };
     page.told({ ...told, id: run, query: location.protocol === "about:" ? "" : `#run=${run}`, pinned: this.pinned?.series ?? null });
     sweeps.show(run);
     page.see(at);

@@ -17,8 +17,11 @@ const thisRun = {
     section.replaceChildren($("h2", section), element("div", { className: "acts" }, ...buttons), said);
     section.hidden = false;
     keys.others.c = () => buttons[0].click();
-    LESSON.presets.slice(0, 9).forEach((preset, i) => { keys.others[i + 1] = () => page.open(preset.name, null); });
-    keys.more = [["C", "copy a link to this step"], ...(LESSON.presets.length ? [[`1–${Math.min(9, LESSON.presets.length)}`, "experiments"]] : [])];
+    const count = LESSON.presets.length;
+    keys.numbered = LESSON.presets.map((preset) => () => page.open(preset.name, null));
+    keys.more = [["C", "copy a link to this step"]];
+    if (count) keys.more.push([count > 9 ? "1–9, 0" : `1–${count}`, count > 9 ? "experiments 1 to 10" : "experiments"]);
+    if (count > 10) keys.more.push([`Shift + 1${count > 11 ? `–${count > 19 ? "9, 0" : count - 10}` : ""}`, `experiments 11 to ${Math.min(20, count)}`]);
   },
 
   link() {

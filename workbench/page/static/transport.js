@@ -16,7 +16,8 @@ const transport = {
     if (!page.run) return;
     if (verb === "play") return this.playing ? this.pause() : this.play();
     this.pause();
-    page.seek({ first: 0, back: Math.max(0, page.k - 1), next: page.k + 1, last: -1 }[verb]);
+    if (verb === "last") return page.end();
+    page.seek({ first: 0, back: Math.max(0, page.k - 1), next: page.k + 1 }[verb]);
   },
 
   play() {
@@ -62,11 +63,12 @@ const transport = {
 const keys = {
   verbs: { n: "next", ArrowRight: "next", p: "back", ArrowLeft: "back", " ": "play", k: "play", Home: "first", End: "last" },
   more: [],  // [key, what it does]: those that other parts of the page add
+  numbered: [],  // what 1 to 9, 0, and these with Shift, do
   others: {},  // key -> function: what the other parts of the page add
 
   // what every key does, as rows of a table; those of what this home cannot do are not in it
   told() {
-    const rows = [["N, →", "next step"], ["P, ←", "step back"], ["K, space", "play or pause"], ["Home, End", "first, last step"],
+    const rows = [["N, →", "next step"], ["P, ←", "step back"], ["K, space", "play or pause"], ["Home, End", "first step, end of the run"],
       ["T", "light or dark"], ["Esc", "close what is enlarged"], ["?", "these keys"]];
     if (source.reset) rows.push(["R", "back to the default run"], ["I", "keep this run behind the next, or let it go"]);
     if (this.others.h) rows.push(["H", "handles in the scene"]);
@@ -78,7 +80,9 @@ const keys = {
     const typing = event.target.closest("input:not(#step), select, textarea, pre");
     const chosen = event.key === " " && event.target.closest("button, a, summary");
     if (typing || chosen || event.ctrlKey || event.metaKey || event.altKey) return;
-    const verb = this.verbs[event.key], other = this.others[event.key.toLowerCase()];
+    const letter = event.key.length === 1, digit = letter && /^(?:Digit|Numpad)(\d)$/.exec(event.code);
+    const verb = this.verbs[letter ? event.key.toLowerCase() : event.key]; // with Caps Lock too
+    const other = digit ? this.numbered[(Number(digit[1]) || 10) - 1 + (event.shiftKey ? 10 : 0)] : this.others[event.key.toLowerCase()];
     if (!verb && !other) return;
     event.preventDefault();
     verb ? transport.act(verb) : other();
