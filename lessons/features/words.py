@@ -120,7 +120,7 @@ def _end(now: Scanned) -> Caption:
         text += f" Points are {length(now.error.displacement)} (RMS) from the truth."
     if now.scans.T_truth is None:
         found = scipy.spatial.KDTree(now.scans.p_target).query(apply(now.T_target_source, now.scans.p_source))[0]
-        near = percent(float((found < INLIER).mean()), 0)
+        near = percent(float(np.mean(found < INLIER)), 0)
         text += f" Now {near} of the source's points have a target point within {length(INLIER)}."
         return Caption(f"{text} Only their known pose could say whether it is right; none is given.")
     return Caption.verdict(text + (" It has come home." if now.home else ""), right=now.home)

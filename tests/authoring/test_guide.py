@@ -5,6 +5,7 @@ import re
 from dataclasses import fields
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -68,7 +69,7 @@ def test_every_helper_stands_where_the_guide_says_with_the_arguments_it_names():
     calls = [(module, *call) for module, cell in rows for call in re.findall(r"`([A-Za-z][\w.]*)\(([^`]*)\)`", cell)]
     assert len(calls) > 50
     for module, name, arguments in calls:
-        function = import_module(module)
+        function: Any = import_module(module)
         for part in name.split("."):
             function = getattr(function, part)
         known = inspect.signature(function).parameters

@@ -58,6 +58,7 @@ def zipped() -> bytes:
 
 def mesh(kind: str) -> bytes:
     made = BOX.export(file_type=kind)
+    assert isinstance(made, (bytes, str))
     return made.encode() if isinstance(made, str) else made
 
 
