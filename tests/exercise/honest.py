@@ -62,7 +62,7 @@ def sparse_matrices():
     sparse_linalg.eigsh(S @ S.T, k=3)
     csgraph.dijkstra(S.tocsr(), indices=[0])
     solved = np.asarray(sparse_linalg.spsolve(S.tocsc(), np.ones(400)))
-    np.testing.assert_allclose(S @ solved, np.ones(400))
+    np.testing.assert_allclose(np.asarray(S @ solved), np.ones(400))
 
 
 def trees_and_hulls():
