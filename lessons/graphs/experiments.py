@@ -166,7 +166,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         choices=(
             Choice(
                 "They still do",
-                why="Most namings are returned, but a point comes loose as soon as its own three are not. So do small groups.",
+                why="Most namings are returned, but a point comes loose as soon as its own three are not.",
             ),
             Choice(
                 "They fall into a few dozen components",
