@@ -7,7 +7,7 @@ import numpy as np
 
 from lessons.coordinates.state import Params, State
 from lessons.coordinates.words import CAPS_AREA, in_caps, kilometres, per_second
-from workbench.lesson import Preset, Question, View
+from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import fixed, percent
 
 HOME = Params()
@@ -67,12 +67,13 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "anchorage", "Farther north",
-        "Meridians draw together towards the pole: the straight line of the map costs a third more here.",
+        "Meridians draw together towards the pole: the straight line of the map is 33.6 % longer here.",
         Params(stage="globe", route="Frankfurt – Anchorage"), -2, BALL, breaks=True,
     ),
     Preset(
         "equator", "Along the equator",
-        "Near the equator degrees are alike, and the map's straight line is nearly the great circle.",
+        "Near the equator degrees are alike, and the map's straight line is less than 0.1 % longer than the great"
+        " circle.",
         Params(stage="globe", route="Quito – Kampala"), -2, BALL,
     ),
     Preset(
@@ -87,7 +88,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "saturn", "A flatter planet",
-        "Saturn is flattened by a tenth: its two latitudes are degrees apart, thousands of kilometres along its clouds.",
+        "Saturn is flattened by a tenth: its two latitudes are up to 5.9° apart, 5,980 km along its clouds.",
         Params(stage="latitude", planet="Saturn"), -1, MERIDIAN,
     ),
     Preset(
@@ -157,6 +158,15 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=POLES,
         unit="%",
         tolerance=3.0,
+        wrong=(
+            (
+                12.5,
+                14.5,
+                "That is their share of the area. Drawn evenly in θ, a band near the pole gets as many as a wide one.",
+            ),
+            (45.0, 55.0, "All meridians meet at the poles, but the points are spread along each of them."),
+            (16.0, 17.5, "That is one pole of two."),
+        ),
     ),
     Question(
         "predict-way",
@@ -170,6 +180,18 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=Params(stage="globe", route="Tokyo – London"),
         unit="%",
         tolerance=5.0,
+        wrong=(
+            (
+                0.0,
+                3.0,
+                "Straight is shortest on the paper. A degree of longitude on it has another length at every latitude.",
+            ),
+            (
+                45.0,
+                300.0,
+                "The map does stretch the north that much, but the straight line on it stays near the great circle.",
+            ),
+        ),
         step=-2,
     ),
     Question(
@@ -183,7 +205,18 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=ZENITH,
         step=12,
-        choices=("57°/s at most, too", "some hundred °/s", "some thousand °/s", "without bound"),
+        choices=(
+            Choice(
+                "57°/s at most, too",
+                why="The line of sight turns no faster. The pan axis has to turn nearly half round meanwhile.",
+            ),
+            Choice("some hundred °/s", why="That is so 10° beside the zenith. Ten times as near is ten times as fast."),
+            "some thousand °/s",
+            Choice(
+                "without bound",
+                why="Only for a target that passes exactly through the zenith. This one keeps a distance from the pan axis.",
+            ),
+        ),
     ),
     Question(
         "predict-ball",
@@ -196,6 +229,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=HOME,
         step=CELL,
         tolerance=0.8,
+        wrong=(
+            (4.0, 4.4, "That is the true volume. It needs the factor r² sin θ, which was left out."),
+            (9.0, 10.5, "φ goes round by 2π, not π: only θ ends at π."),
+            (6.0, 6.6, "That is the range of φ alone. θ has a range of π."),
+        ),
     ),
     Question(
         "predict-mean",
@@ -207,6 +245,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " vectors, and go back to angles."
         ),
         params=DATELINE,
-        choices=("between them", "a quarter of the way round the Earth", "about on the other side of the Earth"),
+        choices=(
+            Choice(
+                "between them",
+                why="A mean lies between its numbers. 178.5 and −171.8 are far apart as numbers, and near as places.",
+            ),
+            Choice(
+                "a quarter of the way round the Earth",
+                why="The two numbers are 350° apart, and their mean is 175° from either: that is nearly half round.",
+            ),
+            "about on the other side of the Earth",
+        ),
     ),
 )

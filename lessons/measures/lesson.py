@@ -17,11 +17,12 @@ from lessons.measures.exercises.volume_by_chance import volume_by_chance
 from lessons.measures.experiments import PRESETS, QUESTIONS, VIEW
 from lessons.measures.samples import samples
 from lessons.measures.state import Params, State, Subject
-from lessons.measures.study import study_of
+from lessons.measures.study import peeked, study_of
 from lessons.measures.subjects import subject_of
 from workbench.algorithms.measures import SignedVolume, count_cells, sum_faces
-from workbench.algorithms.monte_carlo import ByChance, OnFaces, raise_dimension, shoot_lines, throw_points
+from workbench.algorithms.monte_carlo import ByChance, OnFaces, Throws, raise_dimension, shoot_lines, throw_points
 from workbench.data.thinning import growing
+from workbench.geometry.sampling import Draw
 from workbench.lesson import Lesson, Sweep
 
 BANDS = 20  # steps in which faces are added
@@ -37,6 +38,7 @@ def run(
 ) -> Iterator[State]:
     """Yield the steps of measuring one shape in one way."""
     subject, rng = subject_of(params), np.random.default_rng(params.seed)
+    counts = counts_to(params.throws, params.draw)
     if params.method == "samples":
         yield from samples(params, subject, rng, points_on_faces)
         return
@@ -60,7 +62,7 @@ def run(
             subject.inside,
             subject.low,
             subject.high,
-            counts_to(params.throws, params.draw == "Sobol"),
+            counts,
             draw=params.draw,
             rng=rng,
             volume_by_chance=volume_by_chance,
@@ -72,16 +74,23 @@ def run(
     state = None
     for now in found:
         state = State(params=params, subject=subject, now=now)
+        if isinstance(now, Throws) and params.draw == "random" and now.estimates.counts[-1] == counts[-1]:
+            state = replace(state, peeked=peeked(subject.volume / float(np.prod(subject.high - subject.low)), counts))
         yield state
     study = study_of(params)
     if state is not None and study is not None:
         yield replace(state, study=study)
 
 
-def counts_to(most: int, powers_of_two: bool = False) -> tuple[int, ...]:
-    """Return how many are drawn until each step: from 10 on, eight steps for each power of ten."""
-    if powers_of_two:
+def counts_to(most: int, draw: Draw = "random") -> tuple[int, ...]:
+    """Return how many are drawn until each step: from 10 on, eight steps for each power of ten.
+
+    Of Sobol's sequence it is powers of two, and of stratified throws cubes, each once.
+    """
+    if draw == "Sobol":
         return tuple(2**k for k in range(4, int(np.log2(most)) + 1))
+    if draw == "stratified":
+        return tuple(np.unique([round(count ** (1 / 3)) ** 3 for count in growing(most)]).tolist())
     return growing(most)
 
 

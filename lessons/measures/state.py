@@ -142,6 +142,8 @@ class State:
         half_hits: The share of the points there.
         middle: The middle of the surface.
         study: Errors on ever finer meshes, in the last step.
+        peeked: Of many more runs like this one, in the last step: the share whose interval misses the truth there, and the
+            share where it did so at one step or more.
     """
 
     params: Params
@@ -153,6 +155,7 @@ class State:
     half_hits: float = float("nan")
     middle: np.ndarray = field(default_factory=lambda: np.zeros(3))
     study: Study | None = None
+    peeked: tuple[float, float] | None = None
 
     @property
     def volume_error(self) -> float:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.measures.state import State, Subject
+from lessons.measures.study import RUNS, SURE
 from workbench.algorithms.measures import Cells, Sums
 from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
 from workbench.certain import sure
@@ -10,7 +11,6 @@ from workbench.geometry.measures import encloses
 from workbench.numerals import brief, counted, fixed, fixed_or_power, percent
 from workbench.scene import Caption
 
-SURE = 1.96  # standard errors to either side that hold the truth in 95 of 100 runs
 EXACT = 1e-9  # relative: what rounding may do to a sum
 
 
@@ -72,7 +72,7 @@ def _faces(state: State, now: Sums) -> Caption:
     if now.count == 1:
         k = now.order[0]
         part = float(now.parts[k])
-        side = "minus, for the origin lies before it" if part < 0 else "plus, for the origin lies behind it"
+        side = "minus, for the origin is in front of it" if part < 0 else "plus, for the origin is behind it"
         return Caption(
             "The triangle nearest to the origin: half the length of (b − a) × (c − a) is its area,"
             f" {area(subject, float(now.areas[k]))}; a · (b × c) / 6 is its tetrahedron, {volume(subject, part)}: {side}."
@@ -142,8 +142,21 @@ def _throws(state: State, now: Throws) -> Caption:
             f"{text} Without a {'hit' if now.hits == 0 else 'miss'} the interval is empty: it knows nothing."
         )
     held = abs(value - subject.volume) <= SURE * error
-    law = "" if state.params.draw == "random" else " It is that of random throws: too wide here."
-    return Caption(f"{text} The interval (95 %) {'holds' if held else 'misses'} the truth.{law}")
+    text += f" The interval (95 %) {'holds' if held else 'misses'} the truth."
+    if state.params.draw != "random":
+        anew = " All are thrown anew, one in each small cube." if state.params.draw == "stratified" else ""
+        return Caption(f"{text} It is that of random throws: too wide here.{anew}")
+    return Caption(text + _peeked(state, len(now.estimates.counts)))
+
+
+def _peeked(state: State, looks: int) -> str:
+    if state.peeked is None:
+        return ""
+    now, ever = state.peeked
+    return (
+        f" Of {RUNS:,} such runs {percent(now, 0)} miss it at this step, and {percent(ever, 0)} missed it at one or more of"
+        f" the {looks} looks."
+    )
 
 
 def _lines(state: State, now: Lines) -> Caption:

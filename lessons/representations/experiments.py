@@ -8,7 +8,7 @@ from lessons.representations.state import Params, State
 from lessons.representations.words import field_error
 from workbench.algorithms.octree import Level
 from workbench.certain import sure
-from workbench.lesson import Preset, Question, View
+from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import brief, length, percent
 
 VIEW = View(eye=(1.25, -3.85, 2.2), target=(0.05, 0.0, 0.56), grid=None, axes=False)
@@ -147,7 +147,17 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " meets four times as many cells of half the edge."
         ),
         params=OCTREE,
-        choices=("about 2 times", "about 4 times", "8 times as well"),
+        choices=(
+            Choice(
+                "about 2 times",
+                why="That is a curve: a line meets twice as many cells of half the edge. A surface is more.",
+            ),
+            "about 4 times",
+            Choice(
+                "8 times as well",
+                why="All of space has eight times as many cells. The octree leaves those whole that the surface misses.",
+            ),
+        ),
     ),
     Question(
         "predict-area",
@@ -158,7 +168,17 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " know 26 directions at most: the surface goes up and down in facets that do not turn with the cells' size."
         ),
         params=BINARY,
-        choices=("It tends to the true area", "It stays some 9 % too large", "It grows without end"),
+        choices=(
+            Choice(
+                "It tends to the true area",
+                why="The position does. The teeth of the zigzag shrink, but their slope stays, and slope makes area.",
+            ),
+            "It stays some 9 % too large",
+            Choice(
+                "It grows without end",
+                why="There are ever more facets, but each is smaller by as much. Even the walls of the cubes do not grow.",
+            ),
+        ),
     ),
     Question(
         "predict-looked",
@@ -171,7 +191,13 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " around the query are as many as before, only smaller."
         ),
         params=SEARCH,
-        choices=("16 times", "4 times", "about as many"),
+        choices=(
+            Choice("16 times", why="That is a search without a tree, which looks at every point."),
+            Choice(
+                "4 times", why="A root would be a share of all points. The tree leaves out whole branches at each cut."
+            ),
+            "about as many",
+        ),
     ),
     Question(
         "predict-middle",
@@ -183,7 +209,14 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " inside the other box are no walls of both. Outside the smaller one is true."
         ),
         params=UNION,
-        choices=("−30 cm", "−5 cm", "+5 cm"),
+        choices=(
+            Choice(
+                "−30 cm",
+                why="That is the distance of the whole box. Neither box knows that the other goes on behind its wall.",
+            ),
+            "−5 cm",
+            Choice("+5 cm", why="The size is right. But the middle is inside both boxes, and inside is below 0."),
+        ),
     ),
     Question(
         "predict-weights",
@@ -197,6 +230,12 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " a circle."
         ),
         params=RATIONAL,
-        choices=("nothing", "0.1 mm", "1 mm"),
+        choices=(
+            "nothing",
+            Choice(
+                "0.1 mm", why="Weights gain more than that: a cubic can only come near a circle, a quotient is one."
+            ),
+            Choice("1 mm", why="Fewer numbers usually mean a larger error. Here the form fits the shape."),
+        ),
     ),
 )

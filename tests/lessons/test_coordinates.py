@@ -10,6 +10,7 @@ from lessons.coordinates.lesson import TURNS, lesson, moments, run
 from lessons.coordinates.state import Params
 from tests.runs import finished
 from tests.truths.coordinates import CAPS, EARTH, fastest, in_caps, straight_over_shortest
+from workbench.algorithms.placing import Walked
 from workbench.errors import InputError
 from workbench.geometry.curvilinear import spherical_from_cartesian
 from workbench.geometry.globe import great_circle_distance
@@ -49,6 +50,36 @@ def test_past_the_axis_one_coordinate_turns_half_round_within_two_steps():
     steps = np.abs(np.diff(last("cartesian").c, axis=0))
     assert steps.max() == pytest.approx(0.075)
     assert caption_of(lesson.draw(of("home")[20])).text.endswith("changed φ by 79.5°.")  # where the page sends a reader
+
+
+def test_a_mount_locks_at_the_zenith_as_the_page_says():
+    """Of direction by pan and tilt: sizes 1 and cos(tilt), so that panning is lost at the zenith and nothing else."""
+
+    def direction(pan: float, tilt: float) -> np.ndarray:
+        return np.array([np.cos(tilt) * np.cos(pan), np.cos(tilt) * np.sin(pan), np.sin(tilt)])
+
+    assert lesson.page is not None
+    page = lesson.page.read_text(encoding="utf-8")
+    for tilt, said in ((45, "0.71 at 45°"), (89, "0.017 at 89°"), (90, "0 at 90°")):
+        at, d = np.radians(tilt), 1e-5
+        J = np.column_stack([
+            (direction(0.3 + d, at) - direction(0.3 - d, at)) / (2 * d),
+            (direction(0.3, at + d) - direction(0.3, at - d)) / (2 * d),
+        ])  # fmt: skip
+        sizes = np.linalg.svd(J, compute_uv=False)
+        np.testing.assert_allclose(sizes, [1.0, np.cos(at)], atol=1e-6)
+        assert float(said.split()[0]) == pytest.approx(sizes[1], abs=0.005)
+        assert said in page
+    assert "gimbal lock" in page
+    assert "without a lock" not in page
+
+
+def test_the_walk_turns_by_as_much_in_two_steps_as_the_page_says():
+    walked = [state.now.c for state in states(Params()) if isinstance(state.now, Walked)][-1]
+    turned = np.degrees(np.unwrap(walked[:, 2]))
+    assert np.abs(turned[2:] - turned[:-2]).max() == pytest.approx(159, abs=0.5)
+    assert lesson.page is not None
+    assert "by 159° within two steps" in lesson.page.read_text(encoding="utf-8")
 
 
 def test_one_triple_is_three_points():

@@ -163,6 +163,41 @@ def test_intervals_hold_the_truth_about_as_often_as_they_say():
     assert 0.87 <= np.mean(held) <= 1.0
 
 
+def test_who_looks_at_every_step_sees_the_truth_outside_in_most_runs():
+    """Whole runs by the lesson itself, beside the shares that its last caption tells."""
+    params, ever, at_last = lesson.preset("throws").params, 0, 0
+    for seed in range(120):
+        last = list(run(replace(params, seed=seed)))[-1].now
+        assert isinstance(last, Throws)
+        values, errors = np.array(last.estimates.values), np.array(last.estimates.errors)
+        outside = np.abs(values - 4 * np.pi / 3) > 1.96 * errors
+        ever, at_last = ever + outside.any(), at_last + outside[-1]
+    assert (ever, at_last) == (69, 4)  # 57 % and 3 %
+    now, at_any_step = of("throws")[-1].peeked
+    assert now == pytest.approx(0.05, abs=0.01)
+    assert at_any_step == pytest.approx(ever / 120, abs=0.05)
+    assert "56 % missed it at one or more of the 33 looks" in finished("measures", params)[-1].caption.text
+    assert of("sobol")[-1].peeked is None
+
+
+def test_stratified_throws_are_made_once_for_each_number_of_cubes():
+    counts = of("stratified")[-1].now.estimates.counts
+    assert counts[:5] == (8, 27, 64, 125, 216)
+    assert (np.diff(counts) > 0).all()
+
+
+def test_what_a_hole_takes_is_the_cone_from_the_origin():
+    found, total = whole(of("hole"))
+    subject = found.subject
+    kept = {tuple(face) for face in subject.faces.tolist()}
+    gone = subject.p[[face for face in subject.whole.tolist() if tuple(face) not in kept]]
+    a, b, c = (gone - np.array(found.params.origin)).transpose(1, 0, 2)
+    cone = float(np.einsum("fx,fx->f", a, np.cross(b, c)).sum()) / 6
+    assert cone == pytest.approx(0.074, abs=0.0005)
+    assert total.volume + cone == pytest.approx(subject.volume)
+    assert subject.volume == pytest.approx(1.108, abs=0.0005)
+
+
 def test_in_many_dimensions_nothing_hits():
     now = of("dimensions")[-1].now
     assert isinstance(now, Balls)

@@ -101,8 +101,8 @@ LINES = {
             ),
         ),
     ),
-    "anchorage": (Claim(r"costs a third more here", lambda run, k, m: 32 < longer(run) < 35),),
-    "equator": (Claim(r"is nearly the great circle", lambda run, k, m: longer(run) < 0.1),),
+    "anchorage": (Claim(r"is 33\.6 % longer here", lambda run, k, m: abs(longer(run) - 33.6) < 0.05),),
+    "equator": (Claim(r"is less than 0\.1 % longer", lambda run, k, m: longer(run) < 0.1),),
     "banana": (
         Claim(
             r"their mean lies inside the bend", lambda run, k, m: float(np.linalg.norm(run.states[-1].now.mean)) < 9.5
@@ -114,10 +114,10 @@ LINES = {
     ),
     "saturn": (
         Claim(
-            r"degrees apart, thousands of kilometres",
+            r"are up to 5\.9° apart, 5,980 km along its clouds",
             lambda run, k, m: (
-                run.states[-1].now.apart.max() > 2e6
-                and np.degrees(np.max(run.states[-1].now.latitude - run.states[-1].now.geocentric)) > 2
+                abs(run.states[-1].now.apart.max() - 5.98e6) < 5e3
+                and abs(np.degrees(np.max(run.states[-1].now.latitude - run.states[-1].now.geocentric)) - 5.9) < 0.05
             ),
         ),
     ),

@@ -227,7 +227,7 @@ def _bridge(run: Run, k: int, m: re.Match[str]) -> bool:
     return sign.cut > 2 * last_cut(run).cut and middle(run) < 0.9 and correct(run.states[-1]) >= 412
 
 
-def _spectra_of_pair(run: Run, of_A: tuple, of_L: tuple) -> bool:
+def _spectra_of_pair(run: Run, of_A: list, of_L: list) -> bool:
     """The eigenvalues of both graphs, from their dense matrices."""
     whole, classes = A(run.states[0]), run.states[0].subject.classes
     good = True
@@ -291,9 +291,7 @@ LINES = {
     "twins": [
         Claim(
             r"both A have eigenvalues −2, 0, 0, 0, 2\. Those of L differ: 0, 1, 1, 1, 5 and 0, 0, 2, 2, 4",
-            lambda run, k, m: _spectra_of_pair(
-                run, ((-2, 0, 0, 0, 2), (-2, 0, 0, 0, 2)), ((0, 1, 1, 1, 5), (0, 0, 2, 2, 4))
-            ),
+            lambda run, k, m: _spectra_of_pair(run, [(-2, 0, 0, 0, 2)] * 2, [(0, 1, 1, 1, 5), (0, 0, 2, 2, 4)]),
         ),
     ],
     "warm": [
