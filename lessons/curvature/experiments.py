@@ -160,7 +160,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         _why_cylinder,
         CYLINDER,
         choices=(
-            "0",
+            "zero",
             Choice(
                 "2 m⁻²",
                 why="1 / r = 2 m⁻¹ is how the tube bends around its axis, the larger of two curvatures. The other"
