@@ -24,8 +24,8 @@ from workbench.data.files import read_cloud, read_image, read_mesh, read_voxels
 from workbench.data.matches import read_matches
 from workbench.errors import InputError
 
-QUICK = 10.0
-"""Seconds; on an idle machine it is 3, see tests/benchmarks/bench_uploads.py."""
+QUICK = 6.0
+"""Seconds of processor, a reader's start included; how long a person waits: tests/benchmarks/bench_uploads.py."""
 MOST_MEMORY = 500 * 10**6
 
 
@@ -151,16 +151,22 @@ LARGE = {
 """By name a file that a page may be handed, and its reader."""
 
 
+def spent() -> float:
+    """Return seconds of processor of this process and of those that it started, ended or not."""
+    times = [child.cpu_times() for child in psutil.Process().children()]
+    return sum(os.times()[:4]) + sum(one.user + one.system for one in times)
+
+
 @pytest.mark.parametrize("name", LARGE)
 def test_a_file_that_is_made_to_cost_much_costs_little(uploads, name):
     make, read = LARGE[name]
     (uploads / name).write_bytes(make())
     assert (uploads / name).stat().st_size < 34 * 10**6
     held = psutil.Process().memory_info().rss
-    began = time.monotonic()
+    began = spent()
     with contextlib.suppress(InputError):
         read(uploads / name)
-    assert time.monotonic() - began < QUICK
+    assert spent() - began < QUICK
     assert psutil.Process().memory_info().rss - held < MOST_MEMORY / 2
     children = [child.memory_info().rss for child in psutil.Process().children()]
     assert max(children, default=0) < MOST_MEMORY
