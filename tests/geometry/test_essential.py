@@ -1,3 +1,5 @@
+import unittest.mock
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -122,3 +124,21 @@ def test_the_fountains_motion(shared_data):
     assert np.degrees(angle_between(T[:3, 3], found["t_rel"])) < 0.2
     everything = triangulate(P, camera_matrix(K_, T), found["x1"].astype(float), found["x2"].astype(float))
     assert before_both(everything, T).sum() == pytest.approx(1428, abs=3)
+
+
+@given(st.integers(0, 10_000))
+def test_the_four_motions_come_in_one_order_whatever_basis_a_library_takes(seed):
+    rng = np.random.default_rng(seed)
+    R, t = exp_so3(rng.normal(size=3)), rng.normal(size=3)
+    E = skew(t) @ R
+    expected = essential_to_poses(E)
+    U, s, Vt = np.linalg.svd(E)
+    turn = np.eye(3)
+    turn[:2, :2] = [[np.cos(seed), -np.sin(seed)], [np.sin(seed), np.cos(seed)]]
+    signs = np.diag(rng.choice([-1.0, 1.0], 3))
+    other = (U @ turn @ signs, s, signs @ turn.T @ Vt)  # as good a decomposition, since two singular values are equal
+    np.testing.assert_allclose(other[0] @ np.diag(s) @ other[2], E, atol=1e-12)
+    with unittest.mock.patch("numpy.linalg.svd", return_value=other):
+        found = essential_to_poses(E)
+    np.testing.assert_allclose(found, expected, atol=1e-9)
+    assert np.trace(expected[0, :3, :3]) >= np.trace(expected[2, :3, :3])

@@ -111,12 +111,12 @@ LINES = {
     "left": (Claim(r"Left and right are swapped", lambda run, k, m: run.states[0].views.T_second_first[0, 3] > 0.9),),
     "upside-down": (Claim(r"rows correspond, upside down", lambda run, k, m: turned_over(run) > 150),),
     "short": (
-        Claim(r"lines as near", lambda run, k, m: last_distance(run) < 1.3 * run.params.noise),
-        Claim(r"rotation as good", lambda run, k, m: last_errors(run)[0] < 1.0),
+        Claim(r"the lines are as near", lambda run, k, m: last_distance(run) < 1.3 * run.params.noise),
+        Claim(r"the rotation stays within 1° with every seed", lambda run, k, m: last_errors(run)[0] < 1.0),
     ),
     "far": (
         Claim(r"nothing nearer than 180 baselines", lambda run, k, m: run.states[0].views.p_first[:, 2].min() > 180),
-        Claim(r"The rotation is as good as ever", lambda run, k, m: last_errors(run)[0] < 1.0),
+        Claim(r"The rotation stays within 1° with every seed", lambda run, k, m: last_errors(run)[0] < 1.0),
     ),
     "wrong-f": (Claim(r"The matches of the run straight to the side", lambda run, k, m: run.params.heading == 0),),
     "turned": (Claim(r"the rotation can be had all the same", lambda run, k, m: last_errors(run)[0] < 1.0),),

@@ -16,6 +16,8 @@ from workbench.geometry.refinement import levenberg_marquardt
 
 _QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 _GENERATORS = np.array([skew(axis) for axis in np.eye(3)])
+_FORTH = np.array([1.0, 0.61, 0.37])
+"""A direction that no camera is likely to move across: of t and -t the one that has a part along it comes first."""
 _Motion = tuple[np.ndarray, np.ndarray]
 
 
@@ -50,7 +52,8 @@ def essential_to_poses(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4 4 4"
     """Return the four motions T_second_first that an essential matrix allows, with translations of length one.
 
     Two rotations, half a turn about the baseline apart, and for each the translation forth and back: (R, t), (R, -t),
-    (R', t), (R', -t). The sign of E and its scale play no part.
+    (R', t), (R', -t). The sign of E and its scale play no part. R is the smaller turn, and t has a part along (1, 0.61, 0.37):
+    equal singular values leave U and V open, and another library's would bring another order.
 
     Note:
         Of a matrix that is none, as estimates are, they are those of the nearest one.
@@ -58,7 +61,9 @@ def essential_to_poses(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4 4 4"
     """
     U, _, Vt = np.linalg.svd(E)
     U, Vt = U * np.copysign(1.0, np.linalg.det(U)), Vt * np.copysign(1.0, np.linalg.det(Vt))
-    return np.stack([motion(U @ W @ Vt, side * U[:, 2]) for W in (_QUARTER, _QUARTER.T) for side in (1.0, -1.0)])
+    rotations = sorted((U @ W @ Vt for W in (_QUARTER, _QUARTER.T)), key=np.trace, reverse=True)
+    t = U[:, 2] * np.copysign(1.0, U[:, 2] @ _FORTH)
+    return np.stack([motion(R, side * t) for R in rotations for side in (1.0, -1.0)])
 
 
 def refine_motion(
