@@ -7,7 +7,7 @@ import numpy as np
 from lessons.epipolar.state import Params, State
 from workbench.algorithms.two_views import Related
 from workbench.certain import as_a
-from workbench.lesson import Preset, Question
+from workbench.lesson import Choice, Preset, Question
 from workbench.numerals import angle, fixed, pixels
 
 HOME = Params()
@@ -125,7 +125,14 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=HOME,
         step=12,
-        choices=("none", "a single one", "two", "all four"),
+        choices=(
+            Choice("none", why="One of the four is the motion itself, and its cameras saw all the points."),
+            "a single one",
+            Choice(
+                "two", why="Turn t round and each ray meets its partner behind both cameras; the other turn fails too."
+            ),
+            Choice("all four", why="All four fit the matches. But a camera sees only what is in front of it."),
+        ),
     ),
     Question(
         "predict-baseline",
@@ -139,6 +146,12 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=Params(baseline=0.5, heading=0.0),
         unit="cm",
         tolerance=3.0,
+        wrong=(
+            (4.0, 7.0, "Half of 11 cm would be better than before. Nearer cameras tell less about depth."),
+            (9.0, 13.0, "The pixels are as good as before, but the rays now meet at half the angle."),
+            (14.5, 17.0, "That is √2 times 11 cm. The baseline itself divides, not its root."),
+            (38.0, 50.0, "Four times belongs to the depth, which counts squared. The baseline counts once."),
+        ),
     ),
     Question(
         "predict-plane",
@@ -149,7 +162,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " eighth singular value is hardly larger than the ninth."
         ),
         params=PLANE,
-        choices=("below 2°", "2° to 20°", "beyond 20°"),
+        choices=(
+            Choice("below 2°", why="Near lines say that this F agrees with the matches. Of a plane many F do."),
+            Choice("2° to 20°", why="It is not a matter of some more noise: a whole family of F fits these matches."),
+            "beyond 20°",
+        ),
     ),
     Question(
         "predict-f",
@@ -161,6 +178,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             f" is {angle(states[-1].turn_error)} off in rotation, and nothing in the pictures tells."
         ),
         params=WRONG_F,
-        choices=("as well as ever", "visibly worse"),
+        choices=(
+            "as well as ever",
+            Choice(
+                "visibly worse", why="The motion is free to change: a slightly different one makes up for the wrong f."
+            ),
+        ),
     ),
 )

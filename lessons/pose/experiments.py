@@ -10,7 +10,7 @@ from lessons.pose.state import Params, Repeated, State
 from lessons.pose.trials import TRIPLES
 from workbench.algorithms.ransac import iterations_needed
 from workbench.certain import as_a, sure
-from workbench.lesson import Preset, Question
+from workbench.lesson import Choice, Preset, Question
 from workbench.numerals import angle, fixed, percent
 
 FOUR = Params(target="triangle", camera=(0.1, 0.05, 2.0), noise=0.0, refine=False)
@@ -101,7 +101,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "seventy", "70 % outliers",
         "Of 100 points of the street's map 70 are seen somewhere else. Only one sample of three in 37 is clean, and yet"
-        " RANSAC needs few hundred of them: that is what P3P is for.",
+        " RANSAC needs only a few hundred of them: that is what P3P is for.",
         Params(target="street", method="RANSAC", points=100, outliers=0.7), -1,
     ),
 )  # fmt: skip
@@ -144,7 +144,8 @@ def _most_why(states: Sequence[State]) -> str:
 def _few_why(states: Sequence[State]) -> str:
     far = [percent(share, 0) for share in others(states).far]
     return (
-        f"In {far[0]}, and SQPnP in {far[1]} of the same pictures. Four points leave four null vectors, and Gauss-Newton"
+        f"In {far[0]} by this implementation, by OpenCV's in about twice as many, and SQPnP's in {far[1]} of the same"
+        " pictures. Four points leave four null vectors, and Gauss-Newton"
         " on their weights begins at a linear guess, so it may end in another mix. From six points on there is one"
         " vector, and nothing to mix."
     )
@@ -167,7 +168,12 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=lambda states: most_frequent(states) - 1,
         why=_most_why,
         params=FOUR,
-        choices=("one", "two", "three", "four"),
+        choices=(
+            Choice("one", why="Three laws of cosines are quadratic: of two lengths that fit, one is seldom ruled out."),
+            "two",
+            Choice("three", why="Roots of the quartic come and go in pairs, so an odd number is rare."),
+            Choice("four", why="A quartic has up to four roots. For most triples two of them are complex."),
+        ),
     ),
     Question(
         name="predict-wrong",
@@ -180,7 +186,15 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=TILTED,
         unit="%",
-        tolerance=15.0,
+        tolerance=14.0,
+        wrong=(
+            (
+                0.0,
+                10.0,
+                "A large marker so turned is unambiguous. At 20 pixels noise hides the perspective that decides.",
+            ),
+            (50.0, 60.0, "Half would be chance alone. Some perspective is left, and it decides more often than not."),
+        ),
     ),
     Question(
         name="predict-samples",
@@ -193,16 +207,30 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=HALF,
         tolerance=60.0,
+        wrong=(
+            (
+                65.0,
+                75.0,
+                "Twice the points, but not twice the samples: each further point halves the share of clean ones.",
+            ),
+            (140.0, 225.0, "Each of the three further points halves the share of clean samples: 2 × 2 × 2."),
+            (1000.0, 1400.0, "That squares 35. But one clean sample in 8 becomes one in 64."),
+        ),
     ),
     Question(
         name="predict-few",
-        text="EPnP takes any number of points from four on. Cameras turned anyhow see four random points each, with a noise"
-        " of one pixel. In how many per cent of the pictures is EPnP's rotation over 5° off?",
-        answer=lambda states: 100.0 * others(states).far[0],
+        text="EPnP takes any number of points from four on. Cameras turned at random see four random points each, with a"
+        " noise of one pixel. In how many of the pictures is EPnP's rotation over 5° off?",
+        answer=lambda states: float(np.digitize(others(states).far[0], [0.03, 0.5])),
         why=_few_why,
         params=FEW,
-        unit="%",
-        tolerance=8.0,
+        choices=(
+            Choice(
+                "fewer than 3 %", why="So it is from six points on. Four leave it a choice among mixes of four vectors."
+            ),
+            "between 3 % and half of them",
+            Choice("more than half", why="Four points do determine a pose, and EPnP mostly finds the right mix."),
+        ),
     ),
     Question(
         name="predict-plane",
@@ -211,6 +239,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         answer=lambda states: float(np.digitize(np.median(others(states).degrees), [2.0, 20.0])),
         why=_plane_why,
         params=PLANE,
-        choices=("by less than 2°", "by 2° to 20°", "by more: it means nothing"),
+        choices=(
+            Choice("by less than 2°", why="Refining goes down from where it starts, and here it starts anywhere."),
+            Choice("by 2° to 20°", why="This is not noise made larger: the matrix itself is not determined."),
+            "by more: it means nothing",
+        ),
     ),
 )

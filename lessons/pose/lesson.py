@@ -116,7 +116,7 @@ lesson = Lesson(
     view_for=lambda params: LOOKS["box" if params.sightings else params.target].view,
     presets=PRESETS,
     questions=QUESTIONS,
-    first_step=4,
+    first_step=1,
     sweeps=(Sweep("noise", (0.0, 0.5, 1.0, 2.0, 3.0)),),
     telling="Rotation error",
 )

@@ -174,13 +174,11 @@ def _repeated(state: State, now: Repeated) -> Caption:
     if now.counts is not None:
         shares = ", ".join(f"{percent(k / TRIPLES, 1)} {word}" for k, word in zip(now.counts, COUNTS, strict=True) if k)
         text += f" Of {TRIPLES:,} random triples have so many solutions: {shares}."
+    text += f" {right} of {n} are right." if right < n else f" All {n} are right."
     if now.anew is not None:
         far = [percent(share, 0) for share in now.far]
-        text += (
-            f" Of {ANEW} random cameras with as many random points EPnP is over {angle(FAR_DEGREES)} off in {far[0]},"
-        )
-        text += f" SQPnP in {far[1]}."
-    text += f" {right} of {n} are right." if right < n else f" All {n} are right."
+        text += f" Apart from these, of {ANEW} random cameras with as many random points our EPnP is over"
+        text += f" {angle(FAR_DEGREES)} off in {far[0]}, SQPnP in {far[1]}."
     return Caption(text, "good" if right == n else "wrong" if right < 0.9 * n else "info")
 
 
