@@ -2,7 +2,7 @@
 
 import builtins
 import functools
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -140,6 +140,7 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
     if expected is None:
         return value
     if isinstance(expected, (tuple, list)):
+        value = _as_values(value, expected)
         if not isinstance(value, (tuple, list)) or len(value) != len(expected):
             raise StudentError(
                 f"{name} returned {_kind(value)}; the contract asks for {len(expected)} values", "result"
@@ -168,6 +169,16 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
     if wanted.dtype.kind == "f":
         _must_be_judgeable(plain, wanted, name)
     return plain if isinstance(expected, np.ndarray) else plain.item()
+
+
+def _as_values(value: Any, expected: Sequence[Any]) -> Any:
+    """Return an array that has a part for each value asked for as these parts, numbers that count as whole ones."""
+    if not isinstance(value, np.ndarray) or value.shape[:1] != (len(expected),):
+        return value
+    whole = [np.asarray(one).dtype.kind in "iu" for one in expected]
+    counted = [value.dtype.kind == "f" and bool((np.mod(part, 1) == 0).all()) for part in value]
+    pairs = zip(value, whole, counted, strict=True)
+    return [part.astype(np.int64) if asked and is_whole else part for part, asked, is_whole in pairs]
 
 
 def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
+from workbench.exercise.sandbox.budget import CALLS
 from workbench.exercise.sandbox.python import ALLOWED
 from workbench.exercise.sandbox.student import MEGABYTES
 from workbench.exercise.sandbox.walls import OUTPUT_BYTES
@@ -62,11 +63,12 @@ def {exercise.name}({arguments}) -> {returned}:
 def allowed(exercise: Exercise, megabytes: int = MEGABYTES) -> str:
     """Return what a student's function may use, in sentences."""
     room = f"{megabytes} MB" if megabytes % 1024 else f"{megabytes >> 10} GB"
+    seconds = exercise.contract.seconds
     return (
         f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside this file. One call may "
-        f"take {exercise.contract.seconds:g} s and {room}. It may print: the first {OUTPUT_BYTES >> 10} KB "
-        "are kept. It reaches no network, no other program and no file that is not its own. The first line above says what "
-        "this file is handed in for: leave it there."
+        f"take {seconds:g} s and {room}, all calls together {CALLS * seconds:g} s. It may print: the first "
+        f"{OUTPUT_BYTES >> 10} KB are kept. It reaches no network, no other program and no file that is not its own. The "
+        "first line above says what this file is handed in for: leave it there."
     )
 
 

@@ -79,6 +79,8 @@ def _describe(value: Any, blobs: list[bytes], depth: int) -> Any:
         if value.nbytes > MOST_BYTES:
             raise WireError(f"{value.nbytes >> 20} MB is more than the {MOST_BYTES >> 20} MB a result may have")
         array = np.array(value, copy=True, subok=False)  # a subclass leaves its own ideas behind
+        if array.dtype == np.longdouble:
+            array = array.astype(np.float64)
         if array.dtype.kind not in _KINDS or array.dtype.itemsize > 8:
             raise WireError(f"an array of {array.dtype} cannot be a result; use numbers")
         array = array.astype(array.dtype.newbyteorder("<"))

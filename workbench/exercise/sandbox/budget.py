@@ -1,15 +1,15 @@
-"""How long a student's function is waited for: an endless loop costs its limit once, not once for every check."""
+"""How long a student's function is waited for: an endless loop costs its limit three times, not once for every check."""
 
 REFUSED_AFTER = 3
-LEAST_SECONDS = 1.0
 CALLS = 20
+"""How many times the limit of one call all calls of a function may take together."""
 
 
 class CallBudget:
     """The time that calls of one function may take together.
 
-    The first call that is late costs its whole limit, the next ones a fifth of it. After three that were late or ended
-    their process, no call is made any more.
+    Each may take the limit that its student was promised. After three that were late or ended their process, or when all of
+    them took twenty times the limit, no call is made any more.
 
     Args:
         seconds: The longest one call may take.
@@ -21,7 +21,7 @@ class CallBudget:
     @property
     def seconds(self) -> float:
         """How long the next call may take."""
-        return self._seconds if not self._late else min(self._seconds, max(LEAST_SECONDS, self._seconds / 5))
+        return self._seconds
 
     @property
     def over(self) -> str:

@@ -229,7 +229,7 @@ class Student:
             return StudentError(f"Python did not start within {seconds:g} s: is this machine too busy?", "died")
         what = self.name if doing == "call" else f"{self.submission.file}: loading the file"
         return StudentError(
-            f"{what} took more than {seconds:g} s and was stopped: is there an endless loop?", "timeout"
+            f"{what} took more than {seconds:g} s, the limit, and was stopped: an endless loop, or too slow?", "timeout"
         )
 
     def _gone(self, doing: str) -> StudentError:
