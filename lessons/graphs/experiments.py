@@ -257,7 +257,7 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             ),
             Choice(
                 "Some 30",
-                why="That holds up to about 32 layers. Then the two labels' shares become the same for all nodes.",
+                why="That is so after 16 layers. After 32 it is 27: the labels' shares become the same for all nodes.",
             ),
             "17, as many as by chance",
         ),

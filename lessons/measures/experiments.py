@@ -50,7 +50,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     Preset(
         "union", "The same in voxels",
         "A cell is full when its middle lies in either sphere, so nothing is counted twice: 0.1 % off with 32"
-        " cells, where the meshes were 17 %.",
+        " cells, where the meshes were 17.5 %.",
         Params(method="voxels", shape="two spheres"), -3, WIDE,
     ),
     Preset(
