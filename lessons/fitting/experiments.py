@@ -1,6 +1,7 @@
 """Presets and questions: what to look for, and why it happens."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,11 +10,12 @@ from lessons.fitting.state import Params, State
 from lessons.fitting.words import square
 from workbench.algorithms.fit_studies import AWAY
 from workbench.algorithms.least_squares import Walked
-from workbench.lesson import Preset, Question, View
+from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import angle, fixed, length
 
 HOME = Params()
 ESCAPE = Params(start=(2.5, 0.0, 0.0), start_radius=1.0)
+LEAP = Params(start=(-1.5, 0.8, 0.0), start_radius=1.0, method="Gauss-Newton")
 ALIKE = Params(errors="alike in neighbours")
 STEEP = Params(stage="line", noise=0.1)
 EDGE = Params(stage="robust", loss="squares", points=300, noise=0.01, outliers=0.3, reach=2.0, side="both")
@@ -37,7 +39,7 @@ PRESETS: tuple[Preset[Params], ...] = (
            " measured anew.",
            Params(start_radius=0.8), -1, CENTER),
     Preset("twenty", "Twenty degrees",
-           "On so short an arc the radius is nearly free. Compare the histogram with the bell of the covariance.",
+           "On so short an arc the radius is nearly free. The bell of the covariance reaches below 0, where no circle is.",
            Params(arc=20.0), -1, WIDE, breaks=True),
     Preset("alike", "Neighbours err alike",
            "Errors of the same size, but ten neighbours share theirs. The covariance takes them as independent.",
@@ -46,8 +48,11 @@ PRESETS: tuple[Preset[Params], ...] = (
            "The start lies beyond the points. No step raises the sum of squares: watch it beside the grey curve, and R.",
            ESCAPE, 5, WIDE, breaks=True),
     Preset("jumps", "Every step taken",
-           "The same start without damping: Gauss-Newton takes each step, whatever becomes of the sum of squares.",
-           Params(start=(2.5, 0.0, 0.0), start_radius=1.0, method="Gauss-Newton"), 1, WIDE, breaks=True),
+           "Gauss-Newton takes each step. The first raises the sum from 148 m² to 1,200 m², and after four R is 427 km.",
+           LEAP, 2, WIDE, breaks=True),
+    Preset("damped", "The same start, damped",
+           "Levenberg-Marquardt from there tries each step out and keeps what lowers the sum. It comes home.",
+           replace(LEAP, method="Levenberg-Marquardt"), 2, WIDE),
     Preset("basin", "Where one may start",
            "A grid of centres to start from, and points on a quarter of the circle. Green ones come home.",
            Params(stage="basin", start_radius=1.0), -1, BROAD),
@@ -138,8 +143,21 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " is about 2 R times the distance, so a small circle makes it cheap to be off."
         ),
         params=Params(stage="algebraic", arc=45.0),
-        tolerance=0.12,
+        tolerance=0.08,
         step=-1,
+        wrong=(
+            (
+                0.9,
+                1.0,
+                "Errors average out, but the wrong distance does not: each draw makes the same error. So near to 1 it"
+                " comes on arcs of 90° and more.",
+            ),
+            (
+                1.0,
+                3.0,
+                "It is the other way round. (d − R)(d + R) is small where R is small, so small circles are preferred.",
+            ),
+        ),
     ),
     Question(
         "predict-end",
@@ -153,7 +171,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " behind a hill."
         ),
         params=ESCAPE,
-        choices=("it comes home, only later", "it rests on another circle", "it grows without end"),
+        choices=(
+            Choice(
+                "it comes home, only later",
+                why="That takes falling for arriving. Each step lowers the sum, and yet a way down may lead elsewhere.",
+            ),
+            Choice(
+                "it rests on another circle", why="A circle to rest on would be a hollow, and there is no second one."
+            ),
+            "it grows without end",
+        ),
     ),
     Question(
         "predict-iterations",
@@ -165,8 +192,17 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " curvature: with large residuals every iteration keeps the same share of the error, however near it is."
         ),
         params=LARGE,
-        tolerance=2.0,
+        tolerance=1.0,
         step=-4,
+        wrong=(
+            (
+                3,
+                3,
+                "That would be so if speed did not depend on the errors. It does: the residuals are what Gauss-Newton"
+                " leaves out.",
+            ),
+            (30, 60, "15 times the error is not 15 times the work: each iteration keeps a share of what is left."),
+        ),
     ),
     Question(
         "predict-slope",
@@ -181,6 +217,15 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=STEEP,
         unit="deg",
         tolerance=1.5,
+        wrong=(
+            (
+                59.5,
+                60.5,
+                "Errors in y average out. Errors in x do not: they make x wider, and the same rise over more of x is"
+                " flatter.",
+            ),
+            (60.5, 70.0, "That is the sense of the other regression, of x on y. Errors in x make y on x flatter."),
+        ),
     ),
     Question(
         "predict-alike",
@@ -193,6 +238,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=ALIKE,
         tolerance=1.2,
+        wrong=(
+            (0.9, 1.1, "Each error is as large as before, but they no longer average out within a group of ten."),
+            (9.0, 11.0, "Ten count as one, that is true of the number of points. The ± goes with its root."),
+        ),
     ),
     Question(
         "predict-tukey",
@@ -204,6 +253,15 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             " least squares lies among the wrong points: those of the true plane are the far ones from there."
         ),
         params=TUKEY,
-        choices=("on the plane", "nearer to it than least squares", "no nearer than least squares"),
+        choices=(
+            Choice(
+                "on the plane", why="It would from a start near the plane. From here the true points are the far ones."
+            ),
+            Choice(
+                "nearer to it than least squares",
+                why="So Huber's loss ends, which bounds the pull. Tukey's ends it, for the true points as well.",
+            ),
+            "no nearer than least squares",
+        ),
     ),
 )

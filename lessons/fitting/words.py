@@ -81,8 +81,9 @@ def _stopped(state: State, now: Descent) -> Caption:
     scale, least, straight = state.subject.scale, state.subject.least_cost, state.subject.straight_cost
     after = counted(now.iteration, "iteration")
     if now.stop in (Stop.SINGULAR, Stop.DIVERGED):
-        return Caption(f"Stop after {after}: {now.stop.message}. It is wrong.", "wrong")
-    rests = "rests at" if now.stop is Stop.CONVERGED else "is, with no more iterations allowed,"
+        found = radius_of(state, now.unknown)
+        return Caption(f"Stop after {after}, with R = {found}: {now.stop.message}. It is wrong.", "wrong")
+    rests = "rests at" if now.stop is Stop.CONVERGED else "is not at rest, and no more are allowed; it is"
     text = f"After {after} the sum of squares {rests} {square(now.cost, scale)}, R = {radius_of(state, now.unknown)}"
     is_least = now.cost <= (1.0 + LEAST) * least + 1e-12
     if abs(now.unknown[-1]) > AWAY and now.cost < 1.5 * straight:
@@ -109,8 +110,8 @@ def _spread(state: State, now: Spread) -> Caption:
             f" independent and the problem as straight. The errors seem to have s = {length(now.sigma * scale)},"
             f" the condition number of JᵀJ is {brief(now.condition)}."
         )
-    low, high = (length(x * scale, 4) for x in now.predicted)
-    found = tuple(length(x * scale, 4) for x in now.repeated)
+    low, high = (length(x * scale) for x in now.predicted)
+    found = tuple(length(x * scale) for x in now.repeated)
     how = "measured anew" if state.subject.p_true is not None else "drawn anew from the points"
     text = (
         f"{counted(len(now.radii), 'time')} {how} and fitted again: the middle 90 % of radii reach from {found[0]} to"
@@ -122,7 +123,8 @@ def _spread(state: State, now: Spread) -> Caption:
     if 1 / AGREE <= times <= AGREE:
         return Caption(f"{text}: about right.", "good")
     off = f"narrow by a factor of {brief(times, 2)}" if times > 1.0 else f"wide by a factor of {brief(1 / times, 2)}"
-    return Caption(f"{text}, too {off}. It is wrong.", "wrong")
+    nonsense = ", and no circle has a radius below 0" if now.predicted[0] < 0.0 else ""
+    return Caption(f"{text}, too {off}{nonsense}. It is wrong.", "wrong")
 
 
 def _basin(state: State, now: Basin) -> Caption:

@@ -5,7 +5,8 @@ import re
 import numpy as np
 import scipy
 
-from tests.readings import LENGTH, NUMBER, near, near_length, number, says
+from lessons.fitting.experiments import LEAP
+from tests.readings import LENGTH, NUMBER, POWER, near, near_length, number, says
 from tests.truths.fitting import cost, distances, is_right, least, plane_error, radius_deviation, straight, wider
 from tests.verdicts import Claim, Run
 
@@ -69,11 +70,13 @@ def repeated(run: Run, k: int, m: re.Match[str]) -> bool:
     low, high = np.quantile(now.radii, [0.05, 0.95])
     middle = abs(now.unknown[-1])
     told = zip(
-        m.groups()[:4], (low, high, middle - 1.6449 * sd, middle + 1.6449 * sd), (1e-3, 1e-3, 2e-3, 2e-3), strict=True
+        m.groups()[:4], (low, high, middle - 1.6449 * sd, middle + 1.6449 * sd), (6e-3, 6e-3, 7e-3, 7e-3), strict=True
     )
     if not all(abs(_metres(text) - value) <= share * max(abs(value), sd) for text, value, share in told):
         return False
     times = wider(state)
+    if (m[7] is not None) != (middle < 1.6449 * sd):
+        return False
     if m[5] is None:
         return 1 / 1.5 <= times <= 1.5
     return near(m[6], times if m[5] == "narrow" else 1 / times, 2) and (
@@ -130,12 +133,14 @@ CAPTIONS = (
         rf"({SQUARE}), R = {LENGTH}; the least is ({SQUARE})\. It (?:looks settled, and it )?is wrong\.", another_end
     ),
     Claim(
-        r"the linear problem has no one solution\. It is wrong\.|the numbers are not finite any more\. It is wrong\.",
+        rf"with R = (?:{POWER} k?m|{LENGTH}|no number): (?:the linear problem has no one solution|the numbers are not finite"
+        r" any more)\. It is wrong\.",
         no_end,
     ),
     Claim(
         rf"the middle 90 % of radii reach from ({LENGTH}) to ({LENGTH})\. The covariance said ({LENGTH}) to ({LENGTH})"
-        rf"(?:: about right|, too (narrow|wide) by a factor of ({NUMBER})\. It is wrong)\.",
+        rf"(?:: about right|, too (narrow|wide) by a factor of ({NUMBER})"
+        r"(, and no circle has a radius below 0)?\. It is wrong)\.",
         repeated,
     ),
     Claim(rf"({NUMBER} %) of the starts are within 1 cm of the best circle", came_home),
@@ -146,7 +151,21 @@ CAPTIONS = (
     ),
 )
 
+
+def leaps(run: Run, k: int, m: re.Match[str]) -> bool:
+    """Of the preset's own seed: the sums of squares of the start and of the first circle, and R after four."""
+    if run.params.seed != LEAP.seed:
+        return True
+    kept = [
+        s.now.now for s in run.states if type(s.now).__name__ == "Walked" and s.now.now.phase in ("start", "accepted")
+    ]
+    first, second = (cost(run.states[0], now.unknown) for now in kept[:2])
+    return says_square(m[1], first) and says_square(m[2], second) and near_length(m[3], abs(kept[4].unknown[-1]))
+
+
 LINES = {
+    "jumps": (Claim(rf"from ({SQUARE}) to ({SQUARE}), and after four R is ({LENGTH})\.", leaps),),
+    "damped": (Claim(r"It comes home\.", lambda run, k, m: bool(run.states[-1].now.radii.size) and right_end(run)),),
     "basin": (Claim(r"Green ones come home", lambda run, k, m: 0.4 < homes(run, k) < 0.8),),
     "basin-jumps": (Claim(r"how many come home now", lambda run, k, m: homes(run, k) < 0.5),),
     "basin-full": (Claim(r"may start anywhere in the picture", lambda run, k, m: homes(run, k) == 1.0),),
@@ -155,6 +174,12 @@ LINES = {
     "bias": (Claim(r"too large by σ² / 2, Taubin's by twice that", biased),),
     "short-arc": (Claim(r"which of them keeps the radius", None),),
 }
+
+
+def right_end(run: Run) -> bool:
+    """Whether the descent ended on the least sum of squares."""
+    state = [s for s in run.states if type(s.now).__name__ == "Walked"][-1]
+    return cost(state, state.now.now.unknown) <= 1.0011 * least(state)
 
 
 def median(run: Run, name: str) -> float:
