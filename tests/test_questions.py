@@ -2,6 +2,7 @@ import pytest
 
 from tests.fake import lesson
 from workbench.errors import InputError
+from workbench.lesson import course
 from workbench.questions import answer
 from workbench.timeline import Timelines
 
@@ -57,3 +58,13 @@ def test_a_known_wrong_answer_is_answered_by_name(question, given, reply):
 def test_what_is_no_answer_to_a_question_is_refused(question, given, words):
     with pytest.raises(InputError, match=words):
         answer(lesson, question, given, KEPT)
+
+
+@pytest.mark.parametrize("of_course", course().values(), ids=lambda one: one.name)
+def test_every_question_of_the_course_knows_its_wrong_answers(of_course):
+    for question in of_course.questions:
+        if question.choices:
+            silent = [text for i, text in enumerate(question.choices) if not question.reply(i)]
+            assert len(silent) == 1, (question.name, silent)  # the right one; `validate` holds which it is
+        else:
+            assert question.wrong, question.name
