@@ -52,8 +52,8 @@ def essential_to_poses(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4 4 4"
     """Return the four motions T_second_first that an essential matrix allows, with translations of length one.
 
     Two rotations, half a turn about the baseline apart, and for each the translation forth and back: (R, t), (R, -t),
+    (R', t), (R', -t). The sign of E and its scale play no part. R is the smaller turn, and t points along (1, 0.61, 0.37):
     equal singular values leave U and V open, and each library takes its own.
-    equal singular values leave U and V open, and another library's would bring another order.
 
     Note:
         Of a matrix that is none, as estimates are, they are those of the nearest one.
