@@ -62,6 +62,9 @@ READING = {
     "a handle": SYSCALL + "return call(304, -100, bytes(64), 0) >= 0",
 }
 
+OPEN_TO_USERS = {"the command lines", "users", "the mounts", "a disk"}
+"""What another user reads of a container too, where that is the wall: nothing of the teacher's or of other students."""
+
 SOLUTIONS = {
     "import lessons": "import lessons.icp.exercises.align_rigid as a; return 1",
     "import workbench": "import workbench; return 1",

@@ -5,11 +5,13 @@ import os
 import resource
 import shutil
 import socket
+import stat
 import struct
 import subprocess
+import sys
 import textwrap
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +26,7 @@ from workbench.errors import InputError
 from workbench.exercise.finding import exercises
 from workbench.exercise.grading import grade_file
 from workbench.exercise.inside.wire import lengths, pack
-from workbench.exercise.sandbox import Student, StudentError, Wall, named
+from workbench.exercise.sandbox import Student, StudentError, Wall, named, python
 from workbench.exercise.submission import Submission
 
 POINTS = np.arange(12.0).reshape(4, 3)
@@ -38,9 +40,22 @@ def able(name: str) -> Wall:
         pytest.skip(f"not on this machine: {error}")
 
 
-@pytest.fixture(params=["bubblewrap", "landlock"], scope="module")
-def wall(request) -> Wall:
-    return able(request.param)
+@pytest.fixture(params=["bubblewrap", "landlock", "user"], scope="module")
+def wall(request, tmp_path_factory) -> Iterator[Wall]:
+    if request.param != "user":
+        yield able(request.param)
+        return
+    if sys.platform != "linux" or os.geteuid() != 0:
+        pytest.skip("another user is started by root")
+    if not all(folder.stat().st_mode & stat.S_IXOTH for folder in Path(python.here().executable).parents):
+        pytest.skip("other users do not get at this Python")
+    closed = tmp_path_factory.mktemp("closed")  # as `handout` closes its own; a checkout need not be
+    shutil.copytree(LESSONS / "icp" / "exercises", closed / "lessons" / "icp" / "exercises")
+    closed.chmod(0o700)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(python, "ours", lambda: [str(closed)])
+        patched.setattr(sys.modules[__name__], "LESSONS", closed / "lessons")
+        yield Wall("user")
 
 
 def submitted(body: str, head: str = "") -> Submission:
@@ -95,7 +110,7 @@ class Teacher:
 
 
 @pytest.fixture(scope="module")
-def teacher(tmp_path_factory):
+def teacher(tmp_path_factory, wall):
     made = Teacher(tmp_path_factory.mktemp("teacher"))
     yield made
     made.close()
@@ -142,10 +157,11 @@ def tried(student: Student, argument: np.ndarray) -> Any:
 
 
 @pytest.mark.parametrize("name", TOGETHER, ids=ids(TOGETHER))
-def test_it_gets_nothing_and_harms_nobody(teacher, attempting, name):
+def test_it_gets_nothing_and_harms_nobody(teacher, wall, attempting, name):
     before, other = teacher.seen(), teacher.other()
     got = tried(attempting, np.array(list(TOGETHER).index(name)))
-    assert not got, f"it got {got}"
+    if wall.name != "user" or name not in attacks.OPEN_TO_USERS:
+        assert not got, f"it got {got}"
     assert teacher.seen() == before
     assert teacher.other() == other
     assert not teacher.was_called()
