@@ -73,7 +73,8 @@ def _at(function: ast.FunctionDef, parent: ast.AST, field: str, k: int | None, n
         source = ast.unparse(ast.fix_missing_locations(function))
         change = f"{_short(old)} → {_short(ast.unparse(new))}"
         _put(parent, field, k, node)
-        yield Mutant(function.name, operator, change, source)
+        if ast.unparse(new) != old:
+            yield Mutant(function.name, operator, change, source)
 
 
 def _put(parent: ast.AST, field: str, k: int | None, node: ast.AST) -> None:

@@ -108,15 +108,15 @@ def smaller_pictures(candidate: Function) -> Verdict:
 
 @check(3, public=False)
 def infinite_and_unknown(candidate: Function) -> Verdict:
-    """0 is infinitely far, nan stays nan, and a negative disparity is nan."""
-    wanted = ((0.0, np.inf), (np.nan, np.nan), (-3.5, np.nan))
+    """0 is infinitely far, nan stays nan, a negative disparity is nan, and a hundredth of a pixel is far away."""
+    wanted = ((0.0, np.inf), (np.nan, np.nan), (-3.5, np.nan), (0.01, 5000.0), (-0.01, np.nan))
     wrong = []
     for d, right in wanted:
         got = float(candidate(np.array([d, 10.0]), 500.0, 0.1)[0])
-        if not (got == right or (np.isnan(got) and np.isnan(right))):
+        if not np.isclose(got, right, rtol=1e-6, equal_nan=True):
             wrong.append(f"for d = {number(d)} yours is {number(got)} m, right is {number(right)}")
     if not wrong:
-        return full("0 gives inf, nan gives nan, -3.5 gives nan.")
+        return full("0 gives inf, nan gives nan, -3.5 and -0.01 give nan, 0.01 gives 5,000 m.")
     said = "; ".join(wrong).capitalize() + "."
     return partial((3 - len(wrong)) / 3, said) if len(wrong) < 3 else fail(said)
 

@@ -179,6 +179,9 @@ def upright_and_through_the_origin(candidate: Function) -> Verdict:
     verdicts = [plane_verdict(candidate(wall), np.array([0.8, -0.6, 0.0, -1.0]), wall, "Wall")]
     for p, what in ((through, "A plane through the origin"), (corner, "The origin is one of the points")):
         verdicts.append(found(candidate, p, what))
+    for k in range(12):  # the planes of the axes, run round either way: two entries of the normal are 0
+        level = np.column_stack([rng.normal(size=(3, 2)), np.zeros(3)])[:, np.roll([0, 1, 2], k)]
+        verdicts.append(found(candidate, level, f"The plane of two axes, number {k}"))
     return worst(verdicts)
 
 
@@ -198,12 +201,19 @@ def small_large_and_far(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def nearly_on_a_line(candidate: Function) -> Verdict:
-    """Points on one line but for rounding give four nan, near and a kilometre apart."""
+    """Points on one line but for rounding give four nan, near and a kilometre apart; thirty times the bound is a plane."""
     rng, verdicts = np.random.default_rng(GRADERS + 30), []
     for size in (1.0, 1e3, 1e-3):
         direction, start = rng.normal(size=(2, 3))
         p = size * (start + np.outer([0.1, 0.7, -0.9], direction))
         verdicts.append(no_plane(candidate(p), f"On one line but for rounding, {size:g} m in size"))
+    for k, size in enumerate((1e3, 1e-3, 1e3, 1e-3, 1e3, 1e-3)):  # long along each axis, and high along the next one
+        p = np.zeros((3, 3))
+        p[0, k % 3], p[1, k % 3] = size, 0.5 * size
+        for share in (3e-8, 3e-11):  # of the squared longest side
+            p[1, (k + 1) % 3] = share * size
+            what = f"{size:g} m long, the cross product {share / 1e-9:g} billionths of the squared longest side"
+            verdicts.append(found(candidate, p, what) if share > 1e-9 else no_plane(candidate(p), what))
     return worst(verdicts)
 
 

@@ -91,10 +91,11 @@ def other_boxes(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def on_the_surface(candidate: Function) -> Verdict:
-    """On faces, edges and corners it is 0, and in the middle minus the smallest half edge."""
+    """On faces, edges and corners it is 0, a millimetre off it is one, and in the middle minus the smallest half edge."""
     box = np.array([0.7, 0.2, 0.4])
     signs = np.stack(np.meshgrid(*[[-1, 0, 1]] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
-    return verdict(candidate, signs * box, box, "On the surface or in the middle")
+    p = np.concatenate([signs * box, signs * (box + 1e-3), signs * (box - 1e-3)])
+    return verdict(candidate, p, box, "On the surface, a millimetre off it, or in the middle")
 
 
 @check(1, public=False)
