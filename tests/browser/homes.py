@@ -15,6 +15,7 @@ from tests.browser.visits import SELDOM
 from workbench.lesson import Lesson, Question, Sweep
 from workbench.notebook import Replay
 from workbench.publish.site import publish
+from workbench.timeline import Timeline
 from workbench.viewer.server import Server
 
 WIDTH, HEIGHT = 1280, 720
@@ -181,3 +182,9 @@ def linked(lesson: Lesson) -> str | None:
     """Return the preset that a lesson's article runs first."""
     names = {preset.name for preset in lesson.presets}
     return next((found[2] for found in LINKED.finditer(lesson.text()) if found[2] in names), None)
+
+
+def own_end(run: Timeline) -> int:
+    """Return the last step of a run itself; tries of other starts may follow it."""
+    tries = run.lesson.tries
+    return next((k - 1 for k, step in enumerate(run.known()) if tries is not None and tries(step.state)), len(run) - 1)

@@ -148,7 +148,7 @@ class TestPresets:
         fewer = boards(states(replace(ONE_PIXEL, disparity_error=-1.0))[LAST])
         assert fewer[20] - 20 == pytest.approx(80 / 3 - 20, rel=0.02)
         shown = timeline(lesson.preset("one-pixel").params)[LAST].caption.text
-        assert "1 m by 12.5 mm, 5 m by 0.312 m, 20 m by 5 m. Measured: 12.3 mm, 0.29" in shown
+        assert "1 m by 12.5 mm, 5 m by 0.313 m, 20 m by 5 m. Measured: 12.3 mm, 0.29" in shown
 
     def test_the_boards_are_found_where_they_stand_whatever_the_seed(self):
         for seed in (1, 5, 9):

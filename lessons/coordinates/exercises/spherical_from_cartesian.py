@@ -202,8 +202,8 @@ def distance_from_the_axis(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "All is right but where a coordinate is −0.0: atan2 listens to the sign of a zero and says −π, or π on the axis. Add 0.0"
-    " to the coordinates first."
+    "All is right but where a coordinate is minus zero: atan2 listens to the sign of a zero and says −π, or π on the axis."
+    " Add 0.0 to the coordinates first."
 )
 def sign_of_a_zero(p: np.ndarray) -> np.ndarray:
     """Takes the arctangents of what comes in."""
