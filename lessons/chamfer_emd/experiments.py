@@ -7,7 +7,7 @@ import numpy as np
 from lessons.chamfer_emd.state import Params, Side, State
 from lessons.chamfer_emd.words import metres, squared
 from workbench.lesson import Choice, Preset, Question
-from workbench.numerals import percent
+from workbench.numerals import counted, percent
 
 CLUMP = Params()
 FLIP = Params(start="bunched", amount=0.8, points=140)
@@ -56,13 +56,13 @@ PRESETS: tuple[Preset[Params], ...] = (
         Params(start="doubled points", amount=0.5), 0,
     ),
     Preset(
-        "idle", "Nobody's nearest never moves", "The left flow lowers only target to source: 70 points or more of"
-        " 80 (vermillion) end as nearest to no target point, and nothing pulls them; the others serve all 80.",
+        "idle", "Nobody's nearest never moves", "The left flow lowers only target to source. Where it comes to rest,"
+        " 71 of 80 points (vermillion) are nearest to no target point, and nothing pulls them; the others serve all 80.",
         Params(lowers="target to source"), -1,
     ),
     Preset(
-        "blurred", "Fast EMD is not exact", "Sinkhorn with a blur of 0.5 m says 0.99 m where EMD is 0.8 m, and at the end of"
-        " the right flow 0.54 m where EMD is under 5 mm: its zero is not zero.",
+        "blurred", "Fast EMD is not exact", "Sinkhorn with a blur of 0.5 m says 0.99 m where EMD is 0.81 m, and after 40"
+        " steps of the right flow 0.54 m where EMD is 4 mm: its zero is not zero.",
         Params(blur=0.5), 0,
     ),
     Preset(
@@ -86,8 +86,9 @@ def nearer_side(side: Side) -> float:
 def _spread_why(states: Sequence[State]) -> str:
     left, right = states[-1].left, states[-1].right
     return (
-        f"{percent(nearer_side(left), 0)} of its points stay on the nearer half ({percent(nearer_side(right), 0)} for"
-        " earth mover's). A few points near the far side serve all target points there, and the others feel no pull across."
+        f"After {counted(left.flow.step, 'step')} {percent(nearer_side(left), 0)} of its points stay on the nearer half"
+        f" ({percent(nearer_side(right), 0)} for earth mover's). A few points near the far side serve all target points"
+        " there, and the others feel no pull across."
     )
 
 
@@ -99,9 +100,9 @@ def _flip_answer(states: Sequence[State]) -> float:
 def _flip_why(states: Sequence[State]) -> str:
     now, larger = states[0].left.numbers, states[0].yardsticks["5 % larger"]
     return (
-        f"Bunched: Chamfer {squared(now.chamfer)}, EMD {metres(now.earth_movers)}; 5 % larger: {squared(larger.chamfer)} and"
-        f" {metres(larger.earth_movers)}. One point in five is enough to have a neighbour nearby everywhere, and Chamfer"
-        " asks for no more."
+        f"At the start, bunched: Chamfer {squared(now.chamfer)}, EMD {metres(now.earth_movers)}; 5 % larger:"
+        f" {squared(larger.chamfer)} and {metres(larger.earth_movers)}. One point in five is enough to have a"
+        " neighbour nearby everywhere, and Chamfer asks for no more."
     )
 
 
@@ -114,9 +115,9 @@ def back_share(side: Side) -> float:
 def _missing_why(states: Sequence[State]) -> str:
     side = states[0].left
     return (
-        f"{percent(back_share(side), 0)} of {squared(side.numbers.chamfer)}. Every source point lies on a target point, so"
-        f" that the other side is {squared(side.numbers.to_target)} and its flow, on the left, stays where it is: it cannot"
-        " see what the source lacks."
+        f"At the start {percent(back_share(side), 0)} of {squared(side.numbers.chamfer)}. Every source point lies"
+        f" on a target point, so that the other side is {squared(side.numbers.to_target)} and its flow, on the left, stays"
+        " where it is: it cannot see what the source lacks."
     )
 
 

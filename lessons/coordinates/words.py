@@ -200,7 +200,8 @@ def _travelled(now: Travelled, places: Places) -> Caption:
     )
     if now.share < 1:
         return Caption(f"So far {text}.")
-    more = percent(now.straight_length / now.circle_length - 1, 1)
+    share = now.straight_length / now.circle_length - 1
+    more = percent(share, 1) if 1e-3 < share < 1 else percent(share)
     return Caption(f"{start} to {end}: {text}, {more} more.")
 
 

@@ -11,7 +11,7 @@ from workbench.algorithms.rotation_regression import Regressed
 from workbench.algorithms.set_regression import SetLearned
 from workbench.certain import as_a
 from workbench.lesson import Choice, Preset, Question, View
-from workbench.numerals import angle, fixed, percent
+from workbench.numerals import angle, counted, fixed, percent
 
 VIEW = View(eye=(0.0, -0.6, 3.6), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 BALL = View(eye=(1.9, -2.4, 1.3), target=(0.0, 0.0, 0.0), grid=None, axes=False)
@@ -50,13 +50,14 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "rotation", "Rotations by two columns",
-        "Six numbers, made orthonormal: every rotation is reached, and nowhere is a jump. Worst error below 5°.",
+        "Six numbers, made orthonormal: every rotation is reached, and nowhere is a jump. After 1,500 updates the"
+        " worst error is 3.6°.",
         Params(task="rotation", loss="matrix"), -1, BALL,
     ),
     Preset(
         "quaternion", "Rotations by quaternions",
         "The ball holds all rotation vectors. Opposite points of its border are one rotation, and w ≥ 0 asks for opposite"
-        " numbers there: all errors over 20° are beyond 175°.",
+        " numbers there: after 1,500 updates all errors over 20° are beyond 178°.",
         Params(task="rotation", rotation="quaternion"), -1, BALL, breaks=True,
     ),
     Preset(
@@ -67,12 +68,14 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "euler", "Rotations by Euler angles",
-        "Three numbers: the mean error is over seven times that of six numbers, and the worst is over 150°.",
+        "Three numbers: after 1,500 updates the mean error is over seven times that of six numbers, and the worst is over"
+        " 150°.",
         Params(task="rotation", rotation="Euler", loss="matrix"), -1, BALL, breaks=True,
     ),
     Preset(
         "nine", "Rotations by all nine entries",
-        "The nearest rotation to any 3×3, by its SVD: a little better than six numbers.",
+        "The nearest rotation to any 3×3, by its SVD: 1.05° off on average after 1,500 updates, where six numbers"
+        " are 1.25° off.",
         Params(task="rotation", rotation="9D", loss="matrix"), -1, BALL,
     ),
     Preset(
@@ -87,7 +90,7 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "spikes", "A mesh without a regulariser",
-        "Nothing but the distance to noisy points: it falls, while nearly half of all edges fold over.",
+        "Nothing but the distance to noisy points: it falls, while edges fold over, after 80 updates 48 % of them.",
         Params(task="mesh", laplacian=0.0), -1, RABBIT, breaks=True,
     ),
     Preset(
@@ -147,9 +150,15 @@ def _worst_at(states: Sequence[State]) -> float:
 def _cut_why(states: Sequence[State]) -> str:
     _, now = regressed(states)
     return (
-        f"At {fixed(_worst_at(states), 0)}°, by {angle(float(now.errors.max()))}: a step to either side of half a turn the"
-        f" numbers asked for are +180 and −180. A smooth function runs through all that lies between."
+        f"At {fixed(_worst_at(states), 0)}°, by {angle(float(now.errors.max()))} after {_updates(states)}: a step"
+        " to either side of half a turn the numbers asked for are +180 and −180. A smooth function runs through"
+        " all that lies between."
     )
+
+
+def _updates(states: Sequence[State]) -> str:
+    """Write how many updates were made by the end."""
+    return counted(states[-1].now.updates, "update")
 
 
 def _radius(states: Sequence[State]) -> tuple[float, float]:
@@ -197,8 +206,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         " become?",
         answer=lambda states: 0.0 if _radius(states)[1] < 0.02 else 1.0 if _radius(states)[1] < 0.2 else 2.0,
         why=lambda states: (
-            f"A circle of radius {fixed(_radius(states)[0], 2)} m, spread {fixed(_radius(states)[1], 3)} m. The mean of the"
-            " partners makes a sum of squares least, and all points see the same radii."
+            f"After {_updates(states)} a circle of radius {fixed(_radius(states)[0], 2)} m, spread"
+            f" {fixed(_radius(states)[1], 3)} m. The mean of the partners makes a sum of"
+            " squares least, and all points see the same radii."
         ),
         params=CIRCLE,
         choices=(
@@ -217,8 +227,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "predict-stray",
-        "PointNet with max pooling names over 90 % of new clouds of five shapes. One of 32 points is moved to (3, 3, 3)."
-        " What share is named rightly now?",
+        "After 300 updates PointNet with max pooling names 93 % of new clouds of five shapes. One of 32 points is moved"
+        " to (3, 3, 3). What share is named rightly now?",
         answer=lambda states: 100 * _named(states)[1],
         why=lambda states: (
             f"{percent(_named(states)[1], 0)} of them, where chance gives 20 %; untouched {percent(_named(states)[0], 0)}. A"
@@ -243,8 +253,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         "predict-views",
-        "A field learns from 2 photographs, another from 24. The first matches the 2 it was shown with 37 dB or so. How does"
-        " the second match its 24?",
+        "A field learns from 2 photographs, another from 24, by 225 updates each. The first matches the 2 it was"
+        " shown with 37 dB. How does the second match its 24?",
         answer=lambda states: 0.0 if _signals(states).trained < 32 else 1.0 if _signals(states).trained < 40 else 2.0,
         why=lambda states: (
             f"With {fixed(_signals(states).trained, 1)} dB: more to explain, so each is explained less well. But views it"

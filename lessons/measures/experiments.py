@@ -32,14 +32,14 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "hole", "A hole",
-        "1 % of the triangles is cut out, on the side you see. From an origin one diagonal behind, 7 % of the volume go with"
-        " them. Every origin has its own number.",
+        "1 % of the triangles is cut out, on the side you see. From an origin one diagonal behind, 6.6 % of the volume go"
+        " with them. Every origin has its own number.",
         HOLE, 15, BEHIND, breaks=True,
     ),
     Preset(
         "flipped", "Faces turned round",
-        "5 % of the triangles are turned round, and each counts with the other sign: 6 to 13 % of the volume are gone, by"
-        " the luck of the draw, and of the area nothing.",
+        "5 % of the triangles are turned round, and each counts with the other sign: 10 % of the volume are gone, 6 to"
+        " 13 % with other seeds, and of the area nothing.",
         Params(flipped=0.05), -1, breaks=True,
     ),
     Preset(

@@ -92,7 +92,8 @@ PRESETS: tuple[Preset[Params], ...] = (
     ),
     Preset(
         "plain", "Without sines and cosines",
-        "The same network is given the coordinates alone: it learns smooth things first, and stays far behind.",
+        "The same network is given the coordinates alone: it learns smooth things first. After 300 iterations it is 78 mm"
+        " off on average, where sines and cosines leave 19 mm.",
         Params(form="neural", features=0), -2, breaks=True,
     ),
     Preset(

@@ -110,6 +110,11 @@ def test_straight_on_the_map_costs(name, more):
     assert 100 * (straight_over_shortest(of(name)[0].subject.degrees) - 1) == pytest.approx(more, abs=0.06)
 
 
+def test_how_much_longer_is_said_with_digits_that_mean_something():
+    said = [caption_of(lesson.draw(of(name)[-2])).text for name in ("great-circle", "equator", "dateline")]
+    assert [text.rsplit(", ", 1)[1] for text in said] == ["11.9 % more.", "less than 0.01 % more.", "3,157 % more."]
+
+
 def test_the_means_of_numbers():
     assert last("dateline").apart / 1e3 == pytest.approx(16_455, abs=1)
     assert last("great-circle").apart > 2e6

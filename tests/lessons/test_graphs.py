@@ -50,6 +50,7 @@ def test_neighbour_is_not_mutual():
     assert [one.k for one in grown] == [1, 2, 3, 4, 5, 6]
     np.testing.assert_allclose([grown[k].one_way for k in (0, 2, 5)], [0.391, 0.248, 0.179], atol=0.002)
     assert [one.count for one in grown[:3]] == [457, 73, 1]
+    assert round(grown[2].one_way * 4500) == 1114
     mutual = dataclasses.replace(preset("one-way"), k=3, join="mutual")
     assert now(Grown, mutual).count == 227
 
@@ -168,7 +169,7 @@ def test_a_graph_is_not_the_surface():
     np.testing.assert_allclose(plain[12:16], 12.59, atol=0.01)
     np.testing.assert_array_equal(plain, values_of("sphere", jitter=0.25))  # to the last digit
     cotangent = values_of("cotangent")
-    np.testing.assert_allclose(cotangent[9:16], 12, rtol=0.015)
+    np.testing.assert_allclose([cotangent[9:16].min(), cotangent[9:16].max()], [11.85, 11.92], atol=0.005)
     np.testing.assert_allclose(values_of("cotangent", jitter=0.25)[9:16], 12, rtol=0.015)
 
 

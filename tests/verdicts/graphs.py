@@ -217,7 +217,8 @@ def _of_twelve(run: Run) -> np.ndarray:
 
 def _uneven(run: Run, k: int, m: re.Match[str]) -> bool:
     z, values = run.states[0].subject.p[:, 2], run.states[0].now.values
-    return 3 < np.mean(z > 0) / np.mean(z < 0) < 5 and values[3] / values[1] > 1.2
+    own = run.params.seed != 0 or np.allclose(values[1:4], [1.7, 1.8, 2.5], atol=0.05)
+    return 3 < np.mean(z > 0) / np.mean(z < 0) < 5 and values[3] / values[1] > 1.2 and bool(own)
 
 
 def _bridge(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -283,11 +284,11 @@ LINES = {
     ],
     "cotangent": [
         Claim(
-            r"all seven are within 1\.5 % of 12",
-            lambda run, k, m: bool(np.abs(_of_twelve(run) / 12 - 1).max() < 0.015),
+            r"all seven are 11\.85 to 11\.92",
+            lambda run, k, m: bool(np.allclose([_of_twelve(run).min(), _of_twelve(run).max()], [11.85, 11.92], atol=0.005)),
         ),
     ],
-    "uneven": [Claim(r"the three slowest should be alike and are not", _uneven)],
+    "uneven": [Claim(r"the three slowest should all be 2, and are 1\.7, 1\.8 and 2\.5", _uneven)],
     "twins": [
         Claim(
             r"both A have eigenvalues −2, 0, 0, 0, 2\. Those of L differ: 0, 1, 1, 1, 5 and 0, 0, 2, 2, 4",
