@@ -58,7 +58,7 @@ def _own(params: Params) -> Subject:
     return Subject(
         p_board=METRES[params.unit if params.corners else "m"] * found.p_board,
         uv=found.uv,
-        views=tuple(range(len(found.uv))),
+        views=found.views,
         size=found.size if pictures is None else found.stated or pictures.size,
         pictures=pictures,
         without=without,

@@ -156,7 +156,7 @@ def _own(params: Params) -> Subject:
     blank = np.full((PHOTOGRAPH[1], PHOTOGRAPH[0], 3), 248, np.uint8)
     return Subject(
         given=given,
-        K=intrinsics(params.f, *params.principal),
+        K=intrinsics(params.focal, *params.principal),
         T_true=None,
         frame=frame(given.p_world, 1.0, up=params.up),
         body=None,

@@ -22,6 +22,7 @@ Target = Literal["box", "marker", "street", "triangle"]
 Method = Literal["P3P", "DLT", "SQPnP", "EPnP", "IPPE", "RANSAC"]
 BOX, MARKER = {"target": ("box",)}, {"target": ("marker",)}
 SPREAD = {"target": ("box", "street")}
+GUESSED_FOCAL = 800.0  # of a person's own camera, px, as long as nobody says it
 FAR_DEGREES = 5.0
 NEAR_DEGREES, NEAR_SHARE = 10.0, 0.1
 """A pose counts as right within so many degrees, and with its centre within this share of its distance."""
@@ -46,9 +47,18 @@ class Params:
     ] = (1.6, -2.6, 1.8)  # fmt: skip
     distance: Annotated[float, Knob("How far the marker is, 0.1 m wide", 0.3, 10, unit="m", needs=MARKER)] = 1.0
     tilt: Annotated[float, Knob("How far it is turned away", 0, 80, unit="deg", needs=MARKER)] = 40.0
-    f: Annotated[float, Knob("Focal length of the camera", 200, 3000, unit="px", label="Focal length f", step=10)] = (
-        800.0
-    )
+    f: Annotated[
+        float,
+        Knob(
+            "Focal length of our camera",
+            200,
+            3000,
+            unit="px",
+            label="Focal length f",
+            step=10,
+            needs={"sightings": (None,)},
+        ),
+    ] = 800.0
     noise: Annotated[float, Knob("Noise of each pixel coordinate (sigma)", 0, 3, unit="px", step=0.1)] = 1.0
     outliers: Annotated[float, Knob("Share of points seen somewhere else", 0, 0.8, step=0.05, needs=SPREAD)] = 0.0
     origin: Annotated[float, Knob("How far off the origin of the coordinates is", 0, 1000, unit="km", needs=SPREAD)] = (
@@ -68,6 +78,18 @@ class Params:
     sightings: Annotated[Path | None, Knob("Own points instead: lines of X Y Z u v, metres and pixels (txt, csv)")] = (
         None
     )
+    focal: Annotated[
+        float,
+        Knob(
+            "Focal length of the camera that saw own points; 800 px is a guess until you give yours",
+            50,
+            20_000,
+            unit="px",
+            label="Own focal length",
+            step=1,
+            of_files=True,
+        ),
+    ] = GUESSED_FOCAL
     principal: Annotated[
         tuple[float, float],
         Knob("Principal point of own pixels", 0, 10_000, unit="px", parts=("u", "v"), of_files=True),

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lessons.pose.state import FAR_DEGREES, Repeated, State
+from lessons.pose.state import FAR_DEGREES, GUESSED_FOCAL, Repeated, State
 from lessons.pose.trials import ANEW, TRIPLES
 from workbench.algorithms import ransac
 from workbench.algorithms.camera_search import Searched
@@ -56,8 +56,14 @@ def _given(state: State) -> str:
     if subject.T_true is None:
         n = len(subject.p_shown)
         u, v = params.principal
-        camera = f"f = {pixels(params.f)} and the principal point ({u:g}, {v:g})"
-        return f"{n} points of your own and their pixels. {camera} are taken for your camera's: set them. Where was it?"
+        given = f"{n} points of your own and their pixels."
+        if params.focal == GUESSED_FOCAL:
+            ask = "What is its focal length? Set it: until then a guess is taken,"
+            return f"{given} Where was your camera? {ask} {pixels(params.focal)}, and as its principal point ({u:g}, {v:g})."
+        return (
+            f"{given} Where was your camera, with the focal length that you say, {pixels(params.focal)}, and the principal"
+            f" point ({u:g}, {v:g})?"
+        )
     noise = f"with noise of σ = {pixels(params.noise)}" if params.noise > 0 else "without noise"
     wrong = int(subject.given.is_outlier.sum())
     also = f"; {wrong} of the points are seen somewhere else altogether" if wrong else ""

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from workbench.apart import told
 from workbench.data import boards
 from workbench.data.corners import read_corners
 from workbench.errors import InputError
@@ -15,6 +16,15 @@ P = boards.board_points(4, 3)
 def views(k: int = 3) -> np.ndarray:
     rng = np.random.default_rng(0)
     return 200 + 1000 * P[None, :, :2] + rng.normal(size=(k, len(P), 2))
+
+
+def without_numbers(*whole: int, some: tuple[tuple[int, int], ...] = (), k: int = 3) -> np.ndarray:
+    """Corners of k views, NaN in whole views and in some (view, point)."""
+    uv = views(k)
+    uv[list(whole)] = np.nan
+    for n, place in enumerate(some):
+        uv[place][n % 2] = (np.nan, np.inf)[n % 2]
+    return uv
 
 
 @pytest.mark.parametrize("names", [("object_points", "left"), ("p_board", "uv"), ("board", "corners")])
@@ -48,6 +58,40 @@ def test_lines_of_text(tmp_path, header):
     np.testing.assert_allclose(found.uv, views())
 
 
+@pytest.mark.parametrize(
+    ("uv", "kept_views", "kept_points", "said"),
+    [
+        (without_numbers(some=((0, 5), (2, 5), (1, 7))), (0, 1, 2), 10,
+         "3 of 36 corners left out, NaN or infinite, and with them 2 points of the board in all views."),
+        (without_numbers(1), (0, 2), 12, "12 of 36 corners left out, NaN or infinite, and with them view 1."),
+        (without_numbers(1, 4, some=((0, 5),), k=5), (0, 2, 3), 11,
+         "25 of 60 corners left out, NaN or infinite, and with them views 1, 4 and 1 point of the board in all views."),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("ending", ["npz", "csv"])
+def test_corners_without_a_number_are_left_out_and_counted(tmp_path, uv, kept_views, kept_points, said, ending):
+    path = tmp_path / f"c.{ending}"
+    if ending == "npz":
+        np.savez(path, board=P, uv=uv)
+    else:
+        rows = [f"{i} {x} {y} {u} {v}" for i, of in enumerate(uv) for (x, y, _), (u, v) in zip(P, of, strict=True)]
+        path.write_text("\n".join(rows))
+    found = read_corners(path)
+    assert told(path) == (f"{path.name}: {said}",)
+    assert (found.views, found.count) == (kept_views, len(uv))
+    assert (len(found.p_board), found.uv.shape) == (kept_points, (len(kept_views), kept_points, 2))
+    at = [int(np.flatnonzero((p == P).all(axis=1))[0]) for p in found.p_board]
+    np.testing.assert_array_equal(found.uv, uv[np.ix_(kept_views, at)])
+
+
+def test_a_point_of_the_board_without_a_number_is_left_out_in_all_views(tmp_path):
+    board = P.copy()
+    board[3, 0] = np.nan
+    np.savez(tmp_path / "c.npz", board=board, uv=views())
+    np.testing.assert_array_equal(read_corners(tmp_path / "c.npz").p_board, np.delete(P, 3, axis=0))
+    assert told(tmp_path / "c.npz")[0].startswith("c.npz: 3 of 36 corners left out")
+
+
 def test_a_size_is_guessed_that_holds_all_corners(tmp_path):
     np.savez(tmp_path / "c.npz", board=P, uv=4 * views())
     assert read_corners(tmp_path / "c.npz").size == (1600, 1200)
@@ -70,7 +114,12 @@ def test_a_size_is_guessed_that_holds_all_corners(tmp_path):
         ({"board": P[:3], "uv": views()[:, :3]}, "3 points"),
         ({"board": P * [1, 0, 1], "uv": views()}, "one line"),
         ({"board": P + np.arange(12)[:, None] * [0, 0, 1.0], "uv": views()}, "plane"),
-        ({"board": P, "uv": np.where(views() > 250, np.nan, views())}, "NaN"),
+        ({"board": P, "uv": np.full_like(views(), np.nan)}, "all 36 corners are NaN or infinite"),
+        ({"board": P, "uv": without_numbers(0, 1)}, "1 views left without NaN"),
+        (
+            {"board": np.where(np.arange(12)[:, None] < 9, np.nan, P), "uv": views()},
+            "3 points on the board left without NaN",
+        ),
         ({"board": P, "uv": np.full_like(views(), 7.0)}, "one row or column"),
         ({"board": P, "uv": views(), "size": [1, 2, 3]}, "size"),
         ({"board": P, "uv": views(), "size": [-1, 2]}, "size"),

@@ -73,6 +73,33 @@ def test_pictures_lie_below_the_corners_of_their_views(corners, tmp_path):
             assert ((signs != np.roll(signs, 1, axis=0)).sum(axis=0) == 4).mean() > 0.9
 
 
+def test_corners_without_a_number_leave_the_same_camera(corners, tmp_path):
+    """View 3 is lost whole and three corners elsewhere: f is within its own ±, views keep their numbers and pictures."""
+    with np.load(corners) as arrays:
+        given = {name: arrays[name] for name in arrays.files}
+    whole = end(Params(corners=corners))
+    assert whole.now.K is not None
+    assert whole.now.adjustment is not None
+    given["left"] = given["left"].astype(float)
+    given["left"][3] = np.nan
+    for view, point in ((0, 10), (5, 10), (7, 31)):
+        given["left"][view, point] = np.nan
+    np.savez(tmp_path / "gaps.npz", **given)
+    params = Params(corners=tmp_path / "gaps.npz", images=corners.parent)
+    timeline = Timeline(lesson, params).complete()
+    assert timeline.stopped is None
+    assert "57 of 702 corners left out" in timeline[0].caption.text
+    assert "view 3 and 2 points of the board in all views" in timeline[0].caption.text
+    last = timeline[-1].state
+    assert 3 not in last.subject.views
+    assert len(last.subject.views) == len(whole.subject.views) - 1
+    assert abs(last.now.K[0, 0] - whole.now.K[0, 0]) < 2 * whole.now.adjustment.deviations[0]
+    fifth = next(step.state for step in timeline.known() if step.state.subject.views[step.state.shown] == 5)
+    picture = lesson.draw(fifth)["picture"]
+    assert isinstance(picture, Picture)
+    assert picture.title == "View 5, left06.jpg"
+
+
 def test_pictures_alone(corners, tmp_path):
     for path in corners.parent.glob("left*.jpg"):
         shutil.copyfile(path, tmp_path / path.name)

@@ -12,6 +12,7 @@ from lessons.alignment.scans import scans_of
 from lessons.graphs.experiments import BALL, VIEW
 from workbench.data.clouds import pair
 from workbench.geometry.motions import exp_so3, motion
+from workbench.knobs import fields_of
 from workbench.lesson import course
 from workbench.timeline import Timeline
 
@@ -45,8 +46,12 @@ def test_pose_says_which_camera_is_taken(tmp_path):
     p = rng.uniform([-1, -1, 5], [1, 1, 7], (12, 3))
     uv = np.add(600 * p[:, :2] / p[:, 2:], (319.5, 239.5))
     np.savetxt(tmp_path / "own.txt", np.hstack([p, uv]))
-    first = captions("pose", sightings=tmp_path / "own.txt", f=600.0)[0]
-    assert "f = 600 px and the principal point (319.5, 239.5) are taken for your camera's: set them" in first
+    asked = captions("pose", sightings=tmp_path / "own.txt")[0]
+    assert "What is its focal length? Set it: until then a guess is taken, 800 px" in asked
+    said = captions("pose", sightings=tmp_path / "own.txt", focal=600.0)[0]
+    assert "with the focal length that you say, 600 px, and the principal point (319.5, 239.5)" in said
+    hint = {field.name: field.knob.hint for field in fields_of(course()["pose"].params)}["focal"]
+    assert "800 px is a guess until you give yours" in hint
 
 
 def test_features_says_why_own_scans_have_no_verdict(tmp_path):

@@ -45,10 +45,21 @@ def test_own_points_give_their_camera(tmp_path, method):
 def test_a_real_board_by_ippe(tmp_path, shared_data):
     corners = np.load(shared_data / "calibration" / "corners_9x6.npz")
     path = written(tmp_path, corners["object_points"], corners["left"][0])
-    last = stop_of(Params(sightings=path, method="IPPE", f=540.0, principal=(342.0, 236.0)))
+    last = stop_of(Params(sightings=path, method="IPPE", focal=540.0, principal=(342.0, 236.0)))
     known = np.array([-0.0752, -0.1089, 0.3997])  # left_intrinsics.yml, the first view's translation, with its lens
     assert np.linalg.norm(last.T[:3, 3] - known) < 0.02
     assert last.subject.pixel_errors(last.T).mean() < 3  # what the lens, which is left out here, does to a corner
+
+
+def test_the_focal_length_of_own_pixels_is_the_persons_and_decides(tmp_path):
+    """A camera of 600 px: with its own focal length it is where it was, with the guess of 800 px it is too far away."""
+    T, p_world, xy = view(3, 20)
+    path = written(tmp_path, p_world, 600 * xy + [319.5, 239.5])
+    for focal, off in ((600.0, 1e-6), (800.0, None)):
+        for f in (300.0, 800.0):  # the focal length of our own camera has no part in it
+            last = stop_of(Params(sightings=path, method="SQPnP", focal=focal, f=f))
+            wrong = np.abs(last.T - T).max()
+            assert wrong < off if off else wrong > 0.5
 
 
 def test_files_of_one_place_or_of_too_few_points_are_refused(tmp_path):
@@ -75,5 +86,7 @@ def test_points_on_a_line_come_to_an_end(tmp_path):
 
 
 def test_how_a_file_is_read_is_kept_with_it():
-    mine = Params(sightings=Path("mine.csv"), principal=(5.0, 6.0), up="y", noise=3.0)
-    assert with_own_files(Params(), mine) == Params(sightings=Path("mine.csv"), principal=(5.0, 6.0), up="y")
+    mine = Params(sightings=Path("mine.csv"), focal=540.0, principal=(5.0, 6.0), up="y", noise=3.0)
+    assert with_own_files(Params(), mine) == Params(
+        sightings=Path("mine.csv"), focal=540.0, principal=(5.0, 6.0), up="y"
+    )

@@ -1,14 +1,14 @@
 """Corners of a board in people's own pictures: read or refused in one clear line, or found in the pictures themselves."""
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
 
-from workbench.apart import apart
+from workbench.apart import apart, note
 from workbench.data.arrays import read_arrays
 from workbench.data.board_corners import board_corners
 from workbench.data.boards import board_points
@@ -23,6 +23,7 @@ from workbench.data.pictures import (
     stamp_of,
 )
 from workbench.errors import InputError
+from workbench.numerals import counted
 
 MOST_VIEWS, MOST_POINTS = 40, 1000
 STRETCHED = 0.01  # share by which the shape of a picture may differ from that which corners were found in
@@ -41,15 +42,27 @@ class Corners:
 
     Attributes:
         p_board: Points of the board, in the file's unit, Z = 0.
-        uv: Their pixels in every view.
-        names: What the views are called; empty where the file does not say.
+        uv: Their pixels in every view that is left.
+        names: What the views of the file are called; empty where the file does not say.
         stated: Width and height of the pictures, as the file says, or None.
+        left_out: Views of the file that are not in `uv`, for too many of their corners have no number; counted from 0.
     """
 
     p_board: Float[np.ndarray, "n 3"]
     uv: Float[np.ndarray, "k n 2"]
     names: tuple[str, ...] = ()
     stated: tuple[int, int] | None = None
+    left_out: tuple[int, ...] = ()
+
+    @property
+    def count(self) -> int:
+        """How many views the file has."""
+        return len(self.uv) + len(self.left_out)
+
+    @property
+    def views(self) -> tuple[int, ...]:
+        """The numbers of the views in `uv`, as the file counts them from 0."""
+        return tuple(view for view in range(self.count) if view not in self.left_out)
 
     @property
     def size(self) -> tuple[int, int]:
@@ -63,24 +76,35 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
 
     Formats: npz with object_points (n, 3) or (n, 2), and left, corners, uv or image_points (k, n, 2), a second camera's in
     right, corners2, uv2 or image_points2, and optionally size (width, height) and what the pictures are called (names, or
-    left_names, right_names and so on); or lines of text `view X Y u v`.
+    left_names, right_names and so on); or lines of text `view X Y u v`. Corners with NaN or infinity are left out, and
+    counted; all views have the same points, so with a corner goes its point in all views, or its view: whichever lacks the
+    larger share of its corners.
 
     Args:
         path: The file.
         which: Of which of two cameras.
 
     Raises:
-        InputError: If it is no such file, holds NaN, or the board is not flat, not broad, or not the same in all views.
+        InputError: If it is no such file, too little of it is left, or the board is not flat, not broad, or not the same in
+            all views.
     """
     stamp(path)
-    found = _from_arrays(path, which) if path.suffix.lower() == ".npz" else _from_text(path)
+    given = _from_arrays(path, which) if path.suffix.lower() == ".npz" else _from_text(path)
+    if given.count > MOST_VIEWS:
+        raise InputError(f"{path.name}: {given.count} views; from 2 to {MOST_VIEWS} are calibrated from")
+    if len(given.p_board) > MOST_POINTS:
+        raise InputError(
+            f"{path.name}: {len(given.p_board)} points on the board; from 4 to {MOST_POINTS} are calibrated from"
+        )
+    found = _with_numbers(given, path.name)
     p, uv = found.p_board, found.uv
-    if not (np.isfinite(p).all() and np.isfinite(uv).all()):
-        raise InputError(f"{path.name}: some values are NaN or infinite")
-    if len(uv) < 2 or len(uv) > MOST_VIEWS:
-        raise InputError(f"{path.name}: {len(uv)} views; from 2 to {MOST_VIEWS} are calibrated from")
-    if len(p) < 4 or len(p) > MOST_POINTS:
-        raise InputError(f"{path.name}: {len(p)} points on the board; from 4 to {MOST_POINTS} are calibrated from")
+    left = " left without NaN and infinity" if found is not given else ""
+    if len(uv) < 2:
+        raise InputError(f"{path.name}: {len(uv)} views{left}; from 2 to {MOST_VIEWS} are calibrated from")
+    if len(p) < 4:
+        raise InputError(
+            f"{path.name}: {len(p)} points on the board{left}; from 4 to {MOST_POINTS} are calibrated from"
+        )
     reach = np.linalg.svd(p[:, :2] - p[:, :2].mean(axis=0), compute_uv=False)
     if not reach[1] > 1e-6 * reach[0] > 0 or np.ptp(p[:, 2]) > 1e-6 * reach[0]:
         raise InputError(f"{path.name}: the board's points lie on one line, or not in a plane Z = 0")
@@ -100,7 +124,7 @@ def pictures_below(found: Corners, path: Path, only: int) -> Pictures:
     Raises:
         InputError: If they are no pictures, not as many as views, or of another size than each other or the corners.
     """
-    count = len(found.uv)
+    count = found.count
     one = tuple(path.name if view == min(only, count - 1) else None for view in range(count))
     pictures = pictures_of(path, matched(path, found.names, count) if holds_many(path) else one)
     (w, h), (u, v), stated = pictures.size, found.uv.reshape(-1, 2).max(axis=0), found.stated
@@ -147,6 +171,35 @@ def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures
 @functools.lru_cache(maxsize=4 * MOST_VIEWS)
 def _found(path: Path, name: str, _stamp: tuple[int, int], columns: int, rows: int) -> np.ndarray | None:
     return board_corners(grey_picture(path, name), columns, rows)
+
+
+def _with_numbers(given: Corners, name: str) -> Corners:
+    """Return the views and points that all have numbers, and tell how many corners have none and what went with them."""
+    unknown = ~np.isfinite(given.uv).all(axis=2) | ~np.isfinite(given.p_board).all(axis=1)
+    if not unknown.any():
+        return given
+    if unknown.all():
+        raise InputError(f"{name}: all {unknown.size:,} corners are NaN or infinite")
+    views, points = np.arange(unknown.shape[0]), np.arange(unknown.shape[1])
+    while (missing := unknown[np.ix_(views, points)]).any():
+        of_views, of_points = missing.mean(axis=1), missing.mean(axis=0)
+        if of_views.max() > of_points.max():
+            views = np.delete(views, of_views.argmax())
+        else:
+            points = np.delete(points, of_points.argmax())
+    without = tuple(view for view in range(given.count) if view not in views)
+    lost = []
+    if without:
+        lost.append(f"{'view' if len(without) == 1 else 'views'} {', '.join(map(str, without))}")
+    if len(points) < len(given.p_board):
+        lost.append(f"{counted(len(given.p_board) - len(points), 'point')} of the board in all views")
+    note(
+        f"{name}: {int(unknown.sum()):,} of {counted(unknown.size, 'corner')} left out, NaN or infinite, and with them"
+        f" {' and '.join(lost)}."
+    )
+    return replace(
+        given, p_board=given.p_board[points], uv=given.uv[np.ix_(views, points)], left_out=without,
+    )  # fmt: skip
 
 
 def _from_arrays(path: Path, which: Which) -> Corners:
@@ -201,10 +254,12 @@ def _from_text(path: Path) -> Corners:
     if not views:
         raise InputError(f"{path.name}: no lines view X Y u v")
     table = np.array(list(views.values()))
-    if np.ptp(table[:, :, :2], axis=0).max() > 0:
+    known = np.isfinite(table).all(axis=2)
+    first = table[known.argmax(axis=0), np.arange(table.shape[1]), :2]  # of each point, in the first view that has it
+    if np.abs(table[:, :, :2] - first)[known].max(initial=0.0) > 0:
         raise InputError(f"{path.name}: the views do not list the same points of the board in the same order")
-    p = np.column_stack([table[0, :, :2], np.zeros(table.shape[1])])
-    return Corners(p_board=p, uv=table[:, :, 2:], names=tuple(views))
+    p = np.column_stack([first, np.zeros(table.shape[1])])
+    return Corners(p_board=p, uv=np.where(known[:, :, None], table[:, :, 2:], np.nan), names=tuple(views))
 
 
 def _size_of(uv: np.ndarray) -> tuple[int, int]:
