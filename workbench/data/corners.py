@@ -175,7 +175,7 @@ def _found(path: Path, name: str, _stamp: tuple[int, int], columns: int, rows: i
 
 def _with_numbers(given: Corners, name: str) -> Corners:
     """Return the views and points that all have numbers, and tell how many corners have none and what went with them."""
-    unknown = ~np.isfinite(given.uv).all(axis=2) | ~np.isfinite(given.p_board).all(axis=1)
+    unknown: np.ndarray = np.asarray(~np.isfinite(given.uv).all(axis=2) | ~np.isfinite(given.p_board).all(axis=1))
     if not unknown.any():
         return given
     if unknown.all():
@@ -254,7 +254,7 @@ def _from_text(path: Path) -> Corners:
     if not views:
         raise InputError(f"{path.name}: no lines view X Y u v")
     table = np.array(list(views.values()))
-    known = np.isfinite(table).all(axis=2)
+    known: np.ndarray = np.asarray(np.isfinite(table).all(axis=2))
     first = table[known.argmax(axis=0), np.arange(table.shape[1]), :2]  # of each point, in the first view that has it
     if np.abs(table[:, :, :2] - first)[known].max(initial=0.0) > 0:
         raise InputError(f"{path.name}: the views do not list the same points of the board in the same order")
