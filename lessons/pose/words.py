@@ -48,7 +48,10 @@ def caption(state: State) -> Caption:
 
 
 def _end(state: State, text: str) -> Caption:
-    return Caption(text) if state.subject.T_true is None else Caption.verdict(text, right=state.right)
+    if state.subject.T_true is not None:
+        return Caption.verdict(text, right=state.right)
+    guessed = state.params.focal == GUESSED_FOCAL
+    return Caption(f"{text} f = {pixels(GUESSED_FOCAL)} is a guess: set your camera's." if guessed else text)
 
 
 def _given(state: State) -> str:
@@ -58,8 +61,8 @@ def _given(state: State) -> str:
         u, v = params.principal
         given = f"{n} points of your own and their pixels."
         if params.focal == GUESSED_FOCAL:
-            ask = "What is its focal length? Set it: until then a guess is taken,"
-            return f"{given} Where was your camera? {ask} {pixels(params.focal)}, and as its principal point ({u:g}, {v:g})."
+            ask = f"What is its focal length? Until you set it, {pixels(params.focal)} is taken as a guess"
+            return f"{given} Where was your camera? {ask}, and ({u:g}, {v:g}) as the principal point."
         return (
             f"{given} Where was your camera, with the focal length that you say, {pixels(params.focal)}, and the principal"
             f" point ({u:g}, {v:g})?"

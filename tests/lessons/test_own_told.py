@@ -46,9 +46,11 @@ def test_pose_says_which_camera_is_taken(tmp_path):
     p = rng.uniform([-1, -1, 5], [1, 1, 7], (12, 3))
     uv = np.add(600 * p[:, :2] / p[:, 2:], (319.5, 239.5))
     np.savetxt(tmp_path / "own.txt", np.hstack([p, uv]))
-    asked = captions("pose", sightings=tmp_path / "own.txt")[0]
-    assert "What is its focal length? Set it: until then a guess is taken, 800 px" in asked
-    said = captions("pose", sightings=tmp_path / "own.txt", focal=600.0)[0]
+    asked, *_, end = captions("pose", sightings=tmp_path / "own.txt")
+    assert end.endswith("f = 800 px is a guess: set your camera's.")  # runs open past the first step
+    assert "What is its focal length? Until you set it, 800 px is taken as a guess" in asked
+    said, *others = captions("pose", sightings=tmp_path / "own.txt", focal=600.0)
+    assert not any("guess" in text for text in others)
     assert "with the focal length that you say, 600 px, and the principal point (319.5, 239.5)" in said
     hint = {field.name: field.knob.hint for field in fields_of(course()["pose"].params)}["focal"]
     assert "800 px is a guess until you give yours" in hint
