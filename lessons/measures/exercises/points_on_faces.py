@@ -194,7 +194,10 @@ def numbers_at_the_ends(candidate: Function) -> Verdict:
     weights = weights_of(candidate(triangle, one, u), triangle)
     single = weights_of(candidate(triangle, one, np.array([[0.2, 0.5, 0.3]])), triangle)
     off = float(-min(weights.min(), single.min()))
-    return nothing("Farthest off the triangle, in edges", off, "Look at rows of 0 and of nearly 1.")
+    p = np.concatenate([[[0.0, 0, z], [1, 0, z], [0, 1, z]] for z in range(10)])  # ten times a tenth is not quite 1
+    x, y, z = candidate(p, np.arange(30).reshape(10, 3), u).T
+    off = max(off, float(-np.min([x, y, 1 - x - y])), float(np.abs(z - np.rint(np.clip(z, 0, 9))).max()))
+    return nothing("Farthest off the triangles, in edges", off, "Look at rows of 0 and of nearly 1.")
 
 
 def _placed(p: np.ndarray, faces: np.ndarray, k: np.ndarray, weights: np.ndarray) -> np.ndarray:
