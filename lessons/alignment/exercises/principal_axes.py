@@ -147,7 +147,7 @@ def flat_and_thin(candidate: Function) -> Verdict:
         ("Equal points", np.tile(line[:1], (4, 1)), 0),
     ]
     for k in range(3):  # along an axis, and across one
-        cases.append(("Points on a line", np.outer(np.linspace(-2, 1, 6), np.eye(3)[k]), 1))
+        cases.append(("Points on a line", np.linspace(-2, 1, 6)[:, None] * np.eye(3)[[k]], 1))
         cases.append(("A flat cloud", (rng.normal(size=(40, 3)) * [0.5, 0.2, 0.0])[:, np.roll([0, 1, 2], k)], 3))
     verdicts = [refused(candidate, np.empty((0, 3)), what="A cloud without points")]
     for what, p, first in cases:

@@ -192,7 +192,7 @@ def small_large_and_far(candidate: Function) -> Verdict:
     thin = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.5, 1e-4, 1.0]])
     verdicts.append(found(candidate, far, "1 km away"))
     for size, name in (([1.0, 1.0, 1.0], "1 m"), ([1e-3, 1e-3, 1.0], "1 mm"), ([1e-6, 1e-6, 1e-6], "1 µm")):
-        verdicts.append(found(candidate, size * thin, f"{name} long and a ten-thousandth of that high"))
+        verdicts.append(found(candidate, thin * size, f"{name} long and a ten-thousandth of that high"))
     return worst(verdicts)
 
 
