@@ -1,10 +1,11 @@
 """Right functions made wrong by one change each, and graded: which of them lose points, and which earn all.
 
-    python -m tests.exercise.mutants [EXERCISE ...] [--table]
+    python -m tests.exercise.mutants [EXERCISE ...] [--table] [--sample N] [--markdown]
 
 What earns full marks is either as right as before (its answers agree with those of all right functions wherever these agree
 with each other), or a check is missing. `operators` says what is changed. The functions are every `@alternative`, with
---table also every `right_...` of `solutions`. They run in this process, under a limit of time.
+--table also every `right_...` of `solutions`. They run in this process, under a limit of time. --sample takes so many of
+each exercise, always the same ones; --markdown prints the table of docs/exercises.md.
 """
 
 import ast
@@ -18,6 +19,7 @@ import random
 import resource
 import signal
 import sys
+import time
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -35,6 +37,7 @@ from workbench.exercise.naming import values_alike
 
 ACCEPTED = Path(__file__).with_name("survivors.txt")
 SECONDS = 1.0  # of processor time, for one call
+SEARCHED = 20.0  # of processor time, for arguments on which a survivor is wrong
 GIGABYTES = 6
 MOST_VARIANTS = 300
 
@@ -193,7 +196,10 @@ def differs(one: Changed) -> tuple[Any, ...] | None:
     counts where all right functions agree on it, so that what the contract does not allow does not count.
     """
     kind = np.float32 if one.mutant.operator == "float32" else None
+    until = time.process_time() + SEARCHED
     for args, right in agreed(one.exercise):
+        if time.process_time() > until:
+            break
         if not _is_right(one.right, args, right, one.exercise):
             continue
         if not _is_right(limited(one.function), args, right, one.exercise, kind):
@@ -235,9 +241,14 @@ def agreed(exercise: Exercise) -> list[tuple[tuple[Any, ...], Any]]:
     more = [made for args in asked for made in _variants(args, rng)]
     found = []
     for args in asked + random.Random(exercise.name).sample(more, min(MOST_VARIANTS, len(more))):
-        answers = [_answer(right, args) for right in (exercise.reference, *exercise.alternatives)]
-        if all(not isinstance(answer, Exception) and _alike(answer, answers[0], exercise) for answer in answers):
-            found.append((args, answers[0]))
+        first = _answer(limited(exercise.reference), args)
+        answers = (
+            _answer(limited(right), args) for right in exercise.alternatives
+        )  # some never end on negative lengths
+        if not isinstance(first, Exception) and all(
+            not isinstance(answer, Exception) and _alike(answer, first, exercise) for answer in answers
+        ):
+            found.append((args, first))
     return found
 
 
@@ -305,18 +316,21 @@ def main(arguments: list[str]) -> None:
     """Print the table."""
     resource.setrlimit(resource.RLIMIT_AS, (GIGABYTES << 30, GIGABYTES << 30))
     known, write = accepted(), sys.stdout.write
-    wanted = [name for name in arguments if not name.startswith("-")]
-    write(f"{'exercise':26}{'mutants':>9}{'lose':>7}{'equal':>7}{'alive':>7}\n")
+    most = int(arguments.pop(arguments.index("--sample") + 1)) if "--sample" in arguments else None
+    wanted = [name for name in arguments if not name.startswith("-")] or list(exercises())
+    line = "| {:26} | {:>9} | {:>7} | {:>7} | {:>7} |\n" if "--markdown" in arguments else "{:26}{:>9}{:>7}{:>7}{:>7}\n"
+    write(line.format("exercise", "mutants", "lose", "equal", "alive"))
+    write(line.format("---", "--:", "--:", "--:", "--:") if "--markdown" in arguments else "")
     total = np.zeros(4, dtype=int)
     with multiprocessing.Pool(min(2, os.cpu_count() or 1)) as pool, contextlib.suppress(KeyboardInterrupt):
-        for found in pool.imap(functools.partial(row, table="--table" in arguments), wanted or list(exercises())):
+        for found in pool.imap(functools.partial(row, table="--table" in arguments, most=most), wanted):
             counted = [found.losing + found.equal + len(found.alive), found.losing, found.equal, len(found.alive)]
             total += counted
-            write(f"{found.exercise:26}{counted[0]:9}{counted[1]:7}{counted[2]:7}{counted[3]:7}\n")
-            for line in found.alive:
-                write("" if line in known else f"  ! {line}\n")
+            write(line.format(found.exercise, *counted))
+            for survivor in found.alive:
+                write("" if survivor in known else f"  ! {survivor}\n")
             sys.stdout.flush()
-    write(f"{'all':26}{total[0]:9}{total[1]:7}{total[2]:7}{total[3]:7}\n")
+    write(line.format("all", *total))
 
 
 if __name__ == "__main__":

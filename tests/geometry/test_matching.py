@@ -120,3 +120,15 @@ def test_outlines_are_assigned_as_scipy_does():
         [0.5 * sum((x - y) ** 2 / (x + y) for x, y in zip(f, g, strict=True) if x + y) for g in b] for f in a[:3]
     ]
     np.testing.assert_allclose(cost[:3], plainly, atol=1e-12)
+
+
+def test_a_distance_that_is_the_ratio_times_the_second_is_not_less():
+    """In integers nothing is left to rounding: 1 is not less than half of 2, wherever the descriptors lie."""
+    for offset in (0.0, 100.0, -7.0):
+        b = np.array([[1.0, 0], [0, 2], [9, 0]]) + offset
+        a = np.full((1, 2), offset)
+        assert matching.mutual_matches(a, b, 0.5).tolist() == [-1]
+        assert matching.mutual_matches(a, b, 0.51).tolist() == [0]
+        found = matching.nearest_both_ways(a, b[[1, 1, 0]])
+        assert (found.index.tolist(), found.distance.tolist(), found.second.tolist()) == ([2], [1.0], [2.0])
+        assert matching.nearest_both_ways(a, b[[1, 1]]).index.tolist() == [0]

@@ -49,10 +49,10 @@ def nearest_both_ways(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]) 
     if not len(a) or not len(b):
         raise ValueError("there is nothing to match: a set of descriptors is empty")
     n, m = len(a), len(b)
-    index, distance, second = np.empty(n, np.intp), np.empty(n), np.full(n, np.inf)
+    index, next_to_it = np.empty(n, np.intp), np.empty(n, np.intp)
     back, least = np.zeros(m, np.intp), np.full(m, np.inf)
     centre = b.mean(axis=0)  # a common offset costs digits below
-    a, b = a - centre, b - centre
+    given, (a, b) = (a, b), (a - centre, b - centre)
     squares = np.einsum("ij,ij->i", b, b)
     for start in range(0, n, max(1, _CELLS // m)):
         rows = slice(start, min(n, start + max(1, _CELLS // m)))
@@ -62,11 +62,15 @@ def nearest_both_ways(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]) 
         lower = cost[columns, np.arange(m)]
         back, least = np.where(lower < least, columns + start, back), np.minimum(lower, least)
         index[rows] = cost.argmin(axis=1)
-        distance[rows] = cost[here, index[rows]]
-        if m > 1:
-            cost[here, index[rows]] = np.inf
-            second[rows] = cost.min(axis=1)
-    return Nearest(index, np.sqrt(np.maximum(distance, 0)), np.sqrt(np.maximum(second, 0)), back)
+        cost[here, index[rows]] = np.inf
+        next_to_it[rows] = cost.argmin(axis=1)
+    # of the two nearest all digits: whether one is less than a share of the other is not left to rounding
+    distance, second = (np.linalg.norm(given[0] - given[1][k], axis=1) for k in (index, next_to_it))
+    if m == 1:
+        return Nearest(index, distance, np.full(n, np.inf), back)
+    turned = (second < distance) | ((second == distance) & (next_to_it < index))
+    index = np.where(turned, next_to_it, index)
+    return Nearest(index, np.minimum(distance, second), np.maximum(distance, second), back)
 
 
 def mutual_matches(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float) -> Int[np.ndarray, " n"]:

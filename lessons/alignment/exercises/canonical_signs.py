@@ -142,9 +142,13 @@ def against_the_farthest_point(candidate: Function) -> Verdict:
     axes = of_any_signs(rng, p)
     verdicts = [signs_verdict(candidate(axes, p), axes, p, f"One point is far away. {SIGNS_HINT}")]
     box = np.array([[x, y, z] for x in (-4.0, 4.0) for y in (-1.0, -1.0, 2.0) for z in (-1.0, 1.0)])
-    for signs in ([-1.0, -1.0, 1.0], [1.0, 1.0, -1.0]):
-        axes = np.diag(signs)
-        verdicts.append(signs_verdict(candidate(axes, box), axes, box, "The third moment of axis 1 is 0: it stays."))
+    even = np.array([[x, y, z] for x in (-4.0, 4.0) for y in (-2.0, 2.0) for z in (-1.0, 1.0)])
+    clouds = ((box, "axis 1 is"), (box[:, [1, 0, 2]], "axis 2 is"), (even, "both are"))
+    for cloud, which in clouds:
+        for signs in ([-1.0, -1.0, 1.0], [1.0, 1.0, -1.0]):
+            axes = np.diag(signs)
+            hint = f"The third moment of {which} 0: what has none stays."
+            verdicts.append(signs_verdict(candidate(axes, cloud), axes, cloud, hint))
     return worst(verdicts)
 
 

@@ -136,11 +136,19 @@ def far_away(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def flat_and_thin(candidate: Function) -> Verdict:
-    """A flat cloud, points on one line and a single point get right-handed frames that fit; no point is refused."""
+    """A flat cloud, points on one line, few and equal ones get right-handed frames that fit; no point is refused."""
     rng = np.random.default_rng(GRADERS + 20)
     flat = rng.normal(size=(50, 3)) * [0.5, 0.2, 0.0] @ a_rotation(rng).T + 1.0
     line = np.outer(np.linspace(-1, 1, 9), [0.6, 0.0, 0.8]) + 0.3
-    cases = (("A flat cloud", flat, 3), ("Points on a line", line, 1), ("A single point", line[:1], 0))
+    cases = [("A flat cloud", flat, 3), ("Points on a line", line, 1), ("A single point", line[:1], 0)]
+    cases += [
+        ("Two points", flat[:2], 1),
+        ("Three points", flat[:3], 3),
+        ("Equal points", np.tile(line[:1], (4, 1)), 0),
+    ]
+    for k in range(3):  # along an axis, and across one
+        cases.append(("Points on a line", np.linspace(-2, 1, 6)[:, None] * np.eye(3)[[k]], 1))
+        cases.append(("A flat cloud", (rng.normal(size=(40, 3)) * [0.5, 0.2, 0.0])[:, np.roll([0, 1, 2], k)], 3))
     verdicts = [refused(candidate, np.empty((0, 3)), what="A cloud without points")]
     for what, p, first in cases:
         axes = candidate(p)
@@ -152,7 +160,7 @@ def frame_only(axes: np.ndarray) -> Verdict:
     """Judge that axes are a right-handed frame, where the cloud says no more."""
     off = float(np.abs(axes.T @ axes - np.eye(3)).max())
     return band(
-        "A single point: its frame, V^T V and determinant, is off by",
+        "A single place: its frame, V^T V and determinant, is off by",
         max(off, abs(float(np.linalg.det(axes)) - 1.0)), "", good=SKEWED, fair=SKEWED,
         hint="Right is 0: any right-handed frame.",
     )  # fmt: skip

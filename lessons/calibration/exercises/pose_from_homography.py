@@ -21,6 +21,7 @@ from workbench.exercise import (
     worst,
 )
 from workbench.geometry import calibration
+from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import inverse, motion
 
 
@@ -96,8 +97,13 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_views(candidate: Function) -> Verdict:
-    """Other exact homographies, of either sign, give their poses."""
-    return posed(candidate, GRADERS, 4)
+    """Other exact homographies, of either sign, give their poses: near, far, at any scale, by another camera with skew."""
+    K = intrinsics(1100.0, 350.0, 700.0, fy=900.0, skew=12.0)
+    verdicts = [posed(candidate, GRADERS, 4)]
+    for (T, _), depth, scale in zip(views(GRADERS + 5, 4), (8.0, 0.06, 0.5, 0.5), (1.0, 1.0, 1e-7, 1e7), strict=True):
+        T = motion(T[:3, :3], T[:3, 3] * depth / T[2, 3])
+        verdicts.append(motion_verdict(candidate(K, scale * K @ T[:3, [0, 1, 3]]), T, HINT, p=BOARD))
+    return worst(verdicts)
 
 
 @check(2, public=False)

@@ -97,7 +97,7 @@ def uneven_clouds(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def the_same_points(candidate: Function) -> Verdict:
-    """Equal points are 0 apart, in another order and some of them twice; a missing half is not 0, seen from either side."""
+    """Equal points are 0 apart, in any order, some of them twice; a missing half is not 0; what is twice counts twice."""
     p, _ = two_clouds(GRADERS + 40, 50, 1)
     more, half = reordered(GRADERS, np.vstack([p, p[:20]])), p[p[:, 0] < 0]
     return worst(
@@ -105,6 +105,9 @@ def the_same_points(candidate: Function) -> Verdict:
             chamfer_found(candidate, p, more, "Equal points: "),
             chamfer_found(candidate, p, half, "Half missing in b: "),
             chamfer_found(candidate, half, p, "Half missing in a: "),
+            chamfer_found(candidate, np.vstack([half, half[:9]]), p + 0.3, "Some of a twice: "),
+            chamfer_found(candidate, p + 0.3, np.vstack([half, half[:9]]), "Some of b twice: "),
+            chamfer_found(candidate, 0.01 * p, 0.01 * half, "Of a centimetre: "),
         )
     )
 

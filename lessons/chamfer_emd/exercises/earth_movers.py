@@ -119,13 +119,15 @@ def bunched_points(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def unequal_counts(candidate: Function) -> Verdict:
-    """Where counts differ no point is left out: 10 and 20, 12 and 8, 1 and 9, and a point that counts twice."""
+    """Where counts differ no point is left out: 10 and 20, 20 and 10, 12 and 8, 5 and 8, 1 and 9, and a point twice."""
     verdicts = []
-    for k, (n, m) in enumerate(((10, 20), (12, 8), (1, 9))):
+    for k, (n, m) in enumerate(((10, 20), (12, 8), (1, 9), (20, 10), (5, 8))):
         p_a, p_b = two_clouds(GRADERS + 80 + k, n, m)
         verdicts.append(mover_found(candidate, p_a, p_b, f"{n} and {m} points: "))
     p, _ = two_clouds(GRADERS + 90, 7, 1)
-    return worst((*verdicts, mover_found(candidate, p, np.vstack([p, p[:1]]), "A point twice: ")))
+    more = np.vstack([p, p[:1]])
+    twice = [mover_found(candidate, *pair, "A point twice: ") for pair in ((p, more), (more, p), (more, p[::-1] + 0.5))]
+    return worst((*verdicts, *twice))
 
 
 @check(1, public=False)

@@ -96,12 +96,14 @@ def side_of_uneven_clouds(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def side_grows_with_the_square(candidate: Function) -> Verdict:
-    """Three times the size is nine times the distance; every point of a twice is the same distance."""
+    """Three times the size is nine times the distance; points of a that are twice count twice, those of b once."""
     p_a, p_b = two_clouds(GRADERS + 10, 50, 40)
     right = shape_distances.one_sided(p_a, p_b)
     three = value_verdict(candidate(3 * p_a, 3 * p_b), 9 * right, "m²", SIDE_HINT, "Three times the size: ")
     twice = value_verdict(candidate(np.vstack([p_a, p_a]), p_b), right, "m²", SIDE_HINT, "Points of a twice: ")
-    return worst((three, twice))
+    some = side_found(candidate, np.vstack([p_a, p_a[:20]]), p_b, "Some points of a twice: ")
+    equal = side_found(candidate, p_a, np.vstack([p_b[:9], p_b]), "Some points of b twice: ")
+    return worst((three, twice, some, equal, side_found(candidate, 0.01 * p_a, 0.01 * p_b, "Of a centimetre: ")))
 
 
 @check(2, public=False)

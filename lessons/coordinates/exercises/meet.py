@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.coordinates.exercises import GRADERS, STUDENTS, numbers, row_by_row
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake
+from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
 from workbench.geometry import projective
 
 
@@ -94,11 +94,14 @@ def nearly_parallel(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_lines(candidate: Function) -> Verdict:
-    """Other lines meet too, and so do single ones."""
+    """Other lines meet too, and so do single ones, and lines of very small or very large numbers."""
     one = lines(GRADERS + 1, 1)
     a, b = lines(GRADERS, 12)
     found = judged(candidate, *one)
-    return judged(candidate, a, b) if found.share == 1.0 else found
+    if found.share < 1.0:
+        return found
+    scaled = [judged(candidate, factor * a, factor * b, f"Any scale is right. {HINT}") for factor in (2e-5, 1e7)]
+    return worst((judged(candidate, a, b), *scaled))
 
 
 @check(1, public=False)

@@ -80,9 +80,10 @@ def near_the_axis(candidate: Function) -> Verdict:
     return near(candidate, np.array([1e-4, 1e-6, *LOST, 1e-9]), 1e-3)
 
 
-def near(candidate: Function, polar: np.ndarray, r: float) -> Verdict:
+def near(candidate: Function, polar: np.ndarray, r: float, azimuth: float = 0.0) -> Verdict:
     """Judge polar angles close to +z as shares of themselves."""
-    p = np.column_stack([r * np.sin(polar), np.zeros(len(polar)), r * np.cos(polar)])
+    x, y = (r * np.sin(polar) * part for part in (np.cos(azimuth), np.sin(azimuth)))
+    p = np.column_stack([x, y, r * np.cos(polar)])
     got = candidate(p)
     off = np.abs(got[:, 1] / polar - 1)
     said = [f"A polar angle of {numbers(one)} radians" for one in polar]
@@ -93,14 +94,21 @@ def near(candidate: Function, polar: np.ndarray, r: float) -> Verdict:
 @check(2, public=False)
 def other_points_all_round(candidate: Function) -> Verdict:
     """Other points, near and far, have their coordinates too."""
-    near_by, far = all_round(GRADERS, radius=1e-2), all_round(GRADERS + 1, radius=1e4)
-    return judged(candidate, np.concatenate([near_by, far]))
+    return judged(
+        candidate, np.concatenate([all_round(GRADERS + k, radius=r) for k, r in enumerate((1e-2, 1e4, 1e-6))])
+    )
 
 
 @check(1, public=False)
 def nearer_the_axis(candidate: Function) -> Verdict:
-    """So have points other millionths from the axis."""
-    return near(candidate, np.array([3e-5, 2e-7, *LOST, 2e-10]), 2e-3)
+    """So have points other millionths from the axis, in any direction, and below: there the azimuth has a meaning still."""
+    polar = np.array([3e-5, 2e-7, *LOST, 2e-10])
+    found = [near(candidate, polar, 2e-3), near(candidate, polar, 2e-3, azimuth=2.4)]
+    p = np.column_stack([np.zeros(6), -0.5 * np.sin(polar), -0.5 * np.cos(polar)])
+    short = np.pi - candidate(p)[:, 1]
+    said = [f"A polar angle of π less {numbers(one)} radians" for one in polar]
+    below = row_by_row(said, short, polar, np.abs(short / polar - 1), AXIS, good=1e-4, fair=1e-2)
+    return worst((*found, judged(candidate, p), below))
 
 
 @check(1, public=False)

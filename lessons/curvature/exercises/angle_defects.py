@@ -123,12 +123,12 @@ def gauss_bonnet(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def defects_go_with_the_mesh(candidate: Function) -> Verdict:
-    """Moved, enlarged, turned inside out or numbered anew, every vertex keeps its defect."""
+    """Moved, enlarged, made as small as a grain, turned inside out or numbered anew, every vertex keeps its defect."""
     rng = np.random.default_rng(GRADERS)
     mesh = irregular("catenoid", GRADERS, 120)
     p = 3.0 * mesh.p @ some_rotation(GRADERS).T + rng.normal(size=3)
-    cases = ((mesh.p, mesh.faces), (p, mesh.faces), (p, mesh.faces[:, ::-1].copy()), renumbered(p, mesh.faces, rng))
-    return worst(defects_verdict(candidate, case, DEFECT_HINT) for case in cases)
+    cases = [(mesh.p, mesh.faces), (p, mesh.faces), (p, mesh.faces[:, ::-1].copy()), renumbered(p, mesh.faces, rng)]
+    return worst(defects_verdict(candidate, case, DEFECT_HINT) for case in (*cases, (1e-3 * mesh.p, mesh.faces)))
 
 
 ALONG_THE_DIAGONAL = (
@@ -146,6 +146,9 @@ def flat_faces_and_lone_vertices(candidate: Function) -> Verdict:
     for k in range(16):  # which cosines rounding takes beyond 1 depends on how the mesh is turned
         p, faces = with_a_flat_face(ball.p @ some_rotation(GRADERS + k).T, ball.faces)
         verdicts.append(defects_verdict(candidate, (np.concatenate([p, [[3.0, 0.0, 0.0]]]), faces), FLAT_HINT))
+    first = np.concatenate([[[3.0, 0, 0]], ball.p[:7], [[0, 3.0, 0]], ball.p[7:], [[0, 0, 3.0], [1, 3.0, 0]]])
+    shifted = ball.faces + np.where(ball.faces < 7, 1, 2)  # four vertices without faces, wherever they stand
+    verdicts.append(defects_verdict(candidate, (first, shifted), DEFECT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*box(GRADERS)), FLAT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*ALONG_THE_DIAGONAL), FLAT_HINT))
     return worst(verdicts)

@@ -101,13 +101,14 @@ def obtuse_faces(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def size_and_side(candidate: Function) -> Verdict:
-    """Twice the size gives a quarter of K; a motion and the choice of the outside change nothing."""
+    """Twice the size gives a quarter of K, a hundredth 10,000 times K; a motion or another outside change nothing."""
     mesh = irregular("saddle", GRADERS)
     right = curvature.gaussian_curvature(mesh.p, mesh.faces)
     p = mesh.p @ some_rotation(GRADERS).T + np.array([5.0, -2.0, 1.0])
     cases = (
         ("Moved: ", (p, mesh.faces), right),
         ("Twice as large: ", (2 * p, mesh.faces), right / 4),
+        ("A hundredth as large: ", (0.01 * p, mesh.faces), 1e4 * right),
         ("Inside out: ", (p, mesh.faces[:, ::-1].copy()), right),
     )
     return worst(

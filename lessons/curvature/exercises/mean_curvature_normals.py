@@ -128,6 +128,7 @@ def turns_with_the_mesh(candidate: Function) -> Verdict:
     cases = (
         ("Turned: ", (p, mesh.faces), right @ R.T),
         ("Twice as large: ", (2 * p, mesh.faces), right @ R.T / 2),
+        ("A hundredth as large: ", (0.01 * p, mesh.faces), right @ R.T * 100),
         ("Inside out: ", (p, mesh.faces[:, ::-1].copy()), right @ R.T),
     )
     return worst(

@@ -2,10 +2,13 @@
 
 import numpy as np
 
+from workbench.exercise import Verdict, fail, full, number, partial
+
 STUDENTS, GRADERS = 31, 9241  # seeds of what a student sees run, and of what only a grader does
 
 
 Pair = tuple[np.ndarray, np.ndarray]
+VOLUME_HINT = "cost[d, y, x] sums |left(y, x) - right(y, x - d)| over the window."
 
 
 def textures(seed: int, h: int = 12, w: int = 20, shift: int = 4) -> Pair:
@@ -13,3 +16,34 @@ def textures(seed: int, h: int = 12, w: int = 20, shift: int = 4) -> Pair:
     rng = np.random.default_rng(seed)
     scene = rng.uniform(10.0, 240.0, (h, w + shift))
     return scene[:, :w] + rng.normal(0, 3, (h, w)), scene[:, shift:] + rng.normal(0, 3, (h, w))
+
+
+def cells_verdict(
+    got: np.ndarray, right: np.ndarray, where: np.ndarray | None = None, what: str = "", hint: str = VOLUME_HINT
+) -> Verdict:
+    """Judge costs by the share of wrong cells, per cent, and name the first of them.
+
+    Args:
+        got: The answer.
+        right: The right one.
+        where: Which cells are judged; all that have a finite cost where it is not given.
+        what: How the message begins.
+        hint: What to look at where it is wrong.
+    """
+    judged = np.isfinite(right) if where is None else where & np.isfinite(right)
+    near = 1e-6 * float(right[judged].max())
+    with np.errstate(invalid="ignore"):
+        wrong = judged & ~(np.abs(got - right) <= near)
+    if not wrong.any():
+        return full(f"{what}{judged.sum()} of {judged.sum()} costs are right.")
+    d, y, x = (int(i) for i in np.argwhere(wrong)[0])
+    first = f"cost[{d}, {y}, {x}] is {number(got[d, y, x])}, right is {number(right[d, y, x])}"
+    said = f"{what}{wrong.sum()} of {judged.sum()} costs are wrong; {first}. {hint}"
+    return partial(0.5, said) if wrong.sum() <= 0.05 * judged.sum() else fail(said)
+
+
+def inner(right: np.ndarray, window: int) -> np.ndarray:
+    """Return which cells have a window that lies inside their slice."""
+    d, y, x = np.indices(right.shape)
+    reach, (_, h, w) = window // 2, right.shape
+    return (y >= reach) & (y < h - reach) & (x >= d + reach) & (x < w - reach)

@@ -101,18 +101,22 @@ def two_cameras(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def smaller_pictures(candidate: Function) -> Verdict:
-    """In pictures shrunk four times, f and d shrink, and the depth is the same."""
+    """In pictures shrunk four times, f and d shrink, and the depth is the same; no disparities give no depths."""
     d = np.random.default_rng(GRADERS + 1).uniform(3.0, 80.0, (3, 4, 2))
+    if candidate(np.empty(0), 900.0, 0.15).size:
+        return fail("No disparities came in, and depths came out; right are 0 of them.")
     return worst(depth_verdict(candidate(d / k, 900.0 / k, 0.15), 135.0 / d, f"1/{k} size: ") for k in (1, 4))
 
 
 @check(3, public=False)
 def infinite_and_unknown(candidate: Function) -> Verdict:
     """0 is infinitely far, nan stays nan, a negative disparity is nan, and a hundredth of a pixel is far away."""
-    wanted = ((0.0, np.inf), (np.nan, np.nan), (-3.5, np.nan), (0.01, 5000.0), (-0.01, np.nan))
-    wrong = []
-    for d, right in wanted:
+    wanted = [(0.0, np.inf), (np.nan, np.nan), (-3.5, np.nan), (0.01, 5000.0), (-0.01, np.nan), (1e-6, 5e7)]
+    wrong, lots = [], candidate(np.array([[d for d, _ in wanted], [d for d, _ in wanted]]), 500.0, 0.1)[1]
+    for (d, right), in_a_map in zip(wanted, lots, strict=True):
         got = float(candidate(np.array([d, 10.0]), 500.0, 0.1)[0])
+        alone = float(candidate(np.full(3, d), 500.0, 0.1)[1])
+        got = next((one for one in (alone, float(in_a_map)) if not np.isclose(one, right, equal_nan=True)), got)
         if not np.isclose(got, right, rtol=1e-6, equal_nan=True):
             wrong.append(f"for d = {number(d)} yours is {number(got)} m, right is {number(right)}")
     if not wrong:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Float, Real
 
-from lessons.disparity.exercises import GRADERS, STUDENTS, textures
+from lessons.disparity.exercises import GRADERS, STUDENTS, cells_verdict, inner, textures
 from workbench.algorithms import cost_volume
 from workbench.exercise import (
     Function,
@@ -20,7 +20,6 @@ from workbench.exercise import (
     left_alone,
     mistake,
     number,
-    partial,
     refused,
     worst,
 )
@@ -60,40 +59,6 @@ def sad_cost_volume(
             width.
     """
     return cost_volume.sad_cost_volume(left.astype(float), right.astype(float), max_disparity, window)
-
-
-VOLUME_HINT = "cost[d, y, x] sums |left(y, x) - right(y, x - d)| over the window."
-
-
-def cells_verdict(
-    got: np.ndarray, right: np.ndarray, where: np.ndarray | None = None, what: str = "", hint: str = VOLUME_HINT
-) -> Verdict:
-    """Judge costs by the share of wrong cells, per cent, and name the first of them.
-
-    Args:
-        got: The answer.
-        right: The right one.
-        where: Which cells are judged; all that have a finite cost where it is not given.
-        what: How the message begins.
-        hint: What to look at where it is wrong.
-    """
-    judged = np.isfinite(right) if where is None else where & np.isfinite(right)
-    near = 1e-6 * float(right[judged].max())
-    with np.errstate(invalid="ignore"):
-        wrong = judged & ~(np.abs(got - right) <= near)
-    if not wrong.any():
-        return full(f"{what}{judged.sum()} of {judged.sum()} costs are right.")
-    d, y, x = (int(i) for i in np.argwhere(wrong)[0])
-    first = f"cost[{d}, {y}, {x}] is {number(got[d, y, x])}, right is {number(right[d, y, x])}"
-    said = f"{what}{wrong.sum()} of {judged.sum()} costs are wrong; {first}. {hint}"
-    return partial(0.5, said) if wrong.sum() <= 0.05 * judged.sum() else fail(said)
-
-
-def inner(right: np.ndarray, window: int) -> np.ndarray:
-    """Return which cells have a window that lies inside their slice."""
-    d, y, x = np.indices(right.shape)
-    reach, (_, h, w) = window // 2, right.shape
-    return (y >= reach) & (y < h - reach) & (x >= d + reach) & (x < w - reach)
 
 
 @check(3)
@@ -143,7 +108,7 @@ def pictures_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def mirrored(candidate: Function) -> Verdict:
-    """With both pictures mirrored and exchanged, the same pairs of pixels have the same costs."""
+    """Mirrored and exchanged, the same pairs of pixels have the same costs; one shift, and all that fit, are tried."""
     left, right = textures(GRADERS, 10, 17)
     cost = candidate(left, right, 5, 3)
     turned = candidate(right[:, ::-1].copy(), left[:, ::-1].copy(), 5, 3)
@@ -151,8 +116,11 @@ def mirrored(candidate: Function) -> Verdict:
     for d in range(len(cost)):  # left x and right x - d are columns w - 1 - x and w - 1 - x + d of the mirrored pair
         back[d, :, d:] = turned[d, :, d:][:, ::-1]
     wanted = sad_cost_volume(left, right, 5, 3)
-    there, again = cells_verdict(cost, wanted), cells_verdict(back, wanted, what="Mirrored and mapped back: ")
-    return worst((there, again))
+    verdicts = [cells_verdict(cost, wanted), cells_verdict(back, wanted, what="Mirrored and mapped back: ")]
+    for largest in (0, 16):
+        wanted = sad_cost_volume(left, right, largest, 3)
+        verdicts.append(cells_verdict(candidate(left, right, largest, 3), wanted, what=f"Shifts up to {largest}: "))
+    return worst(verdicts)
 
 
 @check(1, public=False)
@@ -168,11 +136,15 @@ def brighter_pictures(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def windows_over_the_border(candidate: Function) -> Verdict:
-    """A window that reaches over the border of its slice repeats the border's cells."""
+    """A window that reaches over the border of its slice repeats the border's cells, also one larger than the picture."""
     left, right = textures(GRADERS + 2)
     wanted = sad_cost_volume(left, right, 4, 5)
     hint = "Take the differences of the columns that both have, pad these by repeating their border, then sum."
-    return cells_verdict(candidate(left, right, 4, 5), wanted, ~inner(wanted, 5), hint=hint)
+    verdicts = [cells_verdict(candidate(left, right, 4, 5), wanted, ~inner(wanted, 5), hint=hint)]
+    for window in (7, 15):
+        wanted = sad_cost_volume(left, right, 4, window)
+        verdicts.append(cells_verdict(candidate(left, right, 4, window), wanted, what=f"Window {window}: ", hint=hint))
+    return worst(verdicts)
 
 
 @check(1, public=False)
@@ -181,18 +153,19 @@ def byte_pictures(candidate: Function) -> Verdict:
     left, right = (np.rint(np.clip(picture, 0, 255)).astype(np.uint8) for picture in textures(GRADERS + 3))
     wanted = sad_cost_volume(left, right, 5, 3)
     hint = "In uint8, 3 - 5 is 254: convert to float before you subtract."
-    return cells_verdict(candidate(left, right, 5, 3), wanted, inner(wanted, 3), hint=hint)
+    return cells_verdict(candidate(left, right, 5, 3), wanted, hint=hint)
 
 
 @check(1, public=False)
 def what_makes_no_sense(candidate: Function) -> Verdict:
-    """Pictures of two sizes, an even window, and shifts beyond the width are refused."""
+    """Pictures of two sizes, windows that are even or not positive, and shifts beyond the width are refused."""
     left, right = textures(GRADERS + 4, 8, 12)
     return worst(
         (
             refused(candidate, left, right[:, 1:].copy(), 3, 3, what="A right picture that is one column narrower"),
-            refused(candidate, left, right, 3, 4, what="A window of 4"),
-            refused(candidate, left, right, 12, 3, what="max_disparity = 12 for pictures 12 px wide"),
+            refused(candidate, left, right[1:].copy(), 3, 3, what="A right picture that is one row lower"),
+            *(refused(candidate, left, right, 3, window, what=f"A window of {window}") for window in (4, 0, -3)),
+            *(refused(candidate, left, right, d, 3, what=f"max_disparity = {d} for 12 px") for d in (12, 20)),
         )
     )
 

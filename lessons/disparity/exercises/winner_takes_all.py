@@ -91,12 +91,14 @@ def two_boards(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def infinite_costs(candidate: Function) -> Verdict:
-    """An infinite cost never wins, but where all are: there it is 0."""
+    """An infinite cost never wins, not over 10¹², but where all are: there it is 0, in a single slice too."""
     cost, _ = valleys(GRADERS + 1, (8, 6, 10))
     d, _, x = np.indices(cost.shape)
     cost[x < d] = np.inf
     cost[:, 2, 3:5] = np.inf
-    return map_verdict(candidate(cost), np.argmin(cost, axis=0), hint="inf is worse than any number.")
+    hint, single = "inf is worse than any number.", np.where(np.arange(12).reshape(1, 3, 4) % 3 == 0, np.inf, 1.0)
+    verdicts = [map_verdict(candidate(c), np.argmin(c, axis=0), hint=hint) for c in (cost, 1e12 * cost)]
+    return worst([*verdicts, map_verdict(candidate(single), np.zeros((3, 4), int), "A single slice: ", hint)])
 
 
 @check(2, public=False)
@@ -115,10 +117,13 @@ def only_the_order_counts(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def whole_numbers_and_one_slice(candidate: Function) -> Verdict:
-    """Whole numbers up to 65,535, and a volume of a single slice, are fine."""
+    """Whole numbers up to 65,535, negative ones, equal ones, and a volume of a single slice, are fine."""
     cost = np.random.default_rng(GRADERS + 3).integers(250, 2**16, (20, 6, 4)).astype(np.uint16)
     single = map_verdict(candidate(cost[:1].astype(float)), np.zeros((6, 4), int), "A single slice: ")
-    return worst((map_verdict(candidate(cost), np.argmin(cost, axis=0), "Whole numbers: "), single))
+    signed = np.random.default_rng(GRADERS + 4).integers(-9, 9, (6, 5, 7))
+    few = np.random.default_rng(GRADERS + 5).integers(0, 3, (9, 6, 5)).astype(np.uint8)
+    cases = ((cost, "Whole numbers: "), (signed, "Whole numbers of either sign: "), (few, "Equal whole numbers: "))
+    return worst([*(map_verdict(candidate(c), np.argmin(c, axis=0), what) for c, what in cases), single])
 
 
 @mistake("You took the highest cost, the worst match. A cost is low where two pixels fit.")

@@ -87,10 +87,12 @@ def any_spacing(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def one_node(candidate: Function) -> Verdict:
-    """One node, and one beside the source."""
+    """One node, one beside the source, one between two sources, and one far away."""
     return worst((
         found(candidate, np.array([0.7]), np.array([0.4]), 0.5, "One node: "),
         found(candidate, np.array([0.0]), np.array([np.inf]), 0.5, "Beside the source: "),
+        found(candidate, np.zeros(1), np.zeros(1), 0.5, "Between two sources: "),
+        found(candidate, np.array([5e4]), np.array([5e4 + 3]), 10.0, "Far away: "),
     ))  # fmt: skip
 
 

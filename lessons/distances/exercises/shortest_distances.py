@@ -101,10 +101,21 @@ def out_of_reach(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def the_smallest_graphs(candidate: Function) -> Verdict:
-    """A node alone, and two nodes."""
+    """A node alone, two nodes, nodes without an edge, a source without one; short and long edges."""
     alone = (np.empty((0, 2), int), np.empty(0), 1, 0)
+    edge = np.array([[1, 0]])
+    edges, lengths, count, _ = network(GRADERS + 310, 12, 3)
+    short = 1e3 * candidate(edges, 1e-7 * lengths, count, 5)
+    right = 1e3 * geodesics.shortest_distances(edges, 1e-7 * lengths, count, 5)
     return worst(
-        (found(candidate, alone, "One node: "), found(candidate, (np.array([[1, 0]]), np.array([0.5]), 2, 0), "Two: "))
+        (
+            found(candidate, alone, "One node: "),
+            found(candidate, (edge, np.array([0.5]), 2, 0), "Two: "),
+            found(candidate, (alone[0], alone[1], 3, 1), "No edges: "),
+            found(candidate, (edge, np.array([0.5]), 4, 2), "A source without edges: "),
+            found(candidate, (edges, 1e6 * lengths, count, 5), "Long edges: "),
+            values_verdict(short, right, HINT, "Short edges, their lengths in thousandths: ", fair=1e-5),
+        )
     )
 
 

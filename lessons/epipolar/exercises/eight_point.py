@@ -124,10 +124,12 @@ def matches_are_left_alone(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def eight_are_enough(candidate: Function) -> Verdict:
-    """Eight matches without noise are enough, seven are not."""
+    """Eight matches without noise are enough; seven, five and none are not."""
     pair = a_pair(GRADERS + 1, 8, 0.0)
     found = judged(candidate, pair, 1e-2, 0.5)
-    return found if found.share < 1 else refused(candidate, pair.uv_first[:7], pair.uv_second[:7], what="Seven matches")
+    few = ((7, "Seven matches"), (5, "Five matches"), (0, "A call without matches"))
+    said = [refused(candidate, pair.uv_first[:n], pair.uv_second[:n], what=what) for n, what in few]
+    return found if found.share < 1 else worst(said)
 
 
 @check(3, public=False)

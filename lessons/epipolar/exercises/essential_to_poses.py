@@ -89,6 +89,8 @@ def judged(Ts: np.ndarray, rights: np.ndarray, good: float = 0.01, fair: float =
             return fail(
                 f"One of your rotations mirrors. {beside(np.array([det]), np.ones(1), HINT, 'Its determinant')}"
             )
+        if abs((long := float(np.linalg.norm(T[:3, 3]))) - 1) > 1e-5:
+            return fail(beside(np.array([long]), np.ones(1), HINT, "The length of one of your t"))
     offs = np.array([[apart(T, right) for T in Ts] for right in rights])
     k = int(offs.min(axis=1).argmax())
     nearest = Ts[offs[k].argmin()]
@@ -120,8 +122,10 @@ def matrices_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_matrices(candidate: Function) -> Verdict:
-    """So they are for other matrices, and none of them mirrors."""
-    return worst(judged(candidate(E), essential.essential_to_poses(E)) for E, _ in some_motions(GRADERS, 12))
+    """So they are for other matrices, of very small and very large numbers too, and none of them mirrors."""
+    cases = [E for E, _ in some_motions(GRADERS, 12)]
+    cases += [1e-6 * cases[0], -1e6 * cases[1]]
+    return worst(judged(candidate(E), essential.essential_to_poses(E)) for E in cases)
 
 
 @check(2, public=False)

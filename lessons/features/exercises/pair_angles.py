@@ -63,10 +63,11 @@ def pairs(seed: int, count: int, spread: float = 1.0) -> tuple[np.ndarray, ...]:
 
 
 def judged(candidate: Function, case: tuple[np.ndarray, ...], what: str) -> Verdict:
-    """Judge by the largest difference of an angle, theta round the circle."""
+    """Judge by the largest difference of an angle; theta of half a turn may be either."""
     got, right = candidate(*case), fpfh.pair_angles(*case)
     off = got - right
-    off[:, 0] = (off[:, 0] + np.pi) % (2 * np.pi) - np.pi
+    half = np.abs(right[:, 0]) > np.pi - 1e-6  # where rounding decides between -pi and pi
+    off[half, 0] = (off[half, 0] + np.pi) % (2 * np.pi) - np.pi
     off = np.abs(np.where(np.isfinite(off), off, np.inf))
     row = int(off.max(axis=1).argmax())
     hint = beside(got[row], right[row], HINT, "(theta, alpha, phi)")
@@ -96,9 +97,9 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def any_distance(candidate: Function) -> Verdict:
-    """Points 50 m and 1 mm apart: angles have no length."""
+    """Points 50 m, 1 mm and some micrometres apart: angles have no length."""
     verdicts = []
-    for scale in (1000.0, 0.02):
+    for scale in (1000.0, 0.02, 1e-4):
         p_i, n_i, p_j, n_j = pairs(GRADERS, 20)
         verdicts.append(judged(candidate, (p_i, n_i, p_i + scale * (p_j - p_i), n_j), f"{scale:g} times as far"))
     return worst(verdicts)
@@ -114,9 +115,17 @@ def moved(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def one_pair(candidate: Function) -> Verdict:
-    """A single pair, normals more than a right angle apart."""
+    """A single pair, normals more than a right angle apart, and pairs with equal or opposite normals."""
     p_i, n_i, p_j, n_j = pairs(GRADERS + 2, 1)
-    return judged(candidate, (p_i, n_i, p_j, -n_j), "One pair")
+    one = judged(candidate, (p_i, n_i, p_j, -n_j), "One pair")
+    p_i, n_i, p_j, _ = pairs(GRADERS + 3, 12)
+    n_j = np.where(np.arange(12)[:, None] % 2 == 0, n_i, -n_i)
+    first = ((p_j - p_i) * n_i).sum(
+        axis=1, keepdims=True
+    ) > 0  # the two are equally near: turned by a hair, one is nearer
+    n_j = n_j + 1e-3 * np.where(first, -1, 1) * n_j[:, [1, 2, 0]]
+    n_j /= np.linalg.norm(n_j, axis=1, keepdims=True)
+    return worst([one, judged(candidate, (p_i, n_i, p_j, n_j), "Normals nearly equal or opposite")])
 
 
 def framed(

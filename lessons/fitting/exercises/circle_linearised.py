@@ -105,9 +105,11 @@ def other_circles(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def a_point_at_the_centre(candidate: Function) -> Verdict:
-    """A point at the centre has no direction, and slopes 0, 0, −1."""
+    """A point at the centre has no direction, and slopes 0, 0, −1; a micrometre from it there is one."""
     circle = np.array([0.5, -0.25, 2.0])
-    return judged(candidate, circle, np.array([[0.5, -0.25], [2.5, -0.25], [0.5, 3.0]]))
+    near = np.array([[0.5 + 1e-6, -0.25], [0.5, -0.25 - 2e-6], [0.5 - 3e-6, -0.25 + 4e-6]])
+    here = judged(candidate, circle, np.array([[0.5, -0.25], [2.5, -0.25], [0.5, 3.0]]))
+    return worst((here, judged(candidate, circle, near)))
 
 
 def parts(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

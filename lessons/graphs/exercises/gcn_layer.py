@@ -97,11 +97,14 @@ def weighted_graphs(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def nodes_without_edges(candidate: Function) -> Verdict:
-    """A node without edges keeps its own features, through W and ReLU."""
+    """A node without edges, or all there is, keeps its own features, through W and ReLU; small and large weights count."""
     adjacency, x, w = inputs(GRADERS + 20, 9)
     adjacency[:, [0, 4]] = adjacency[[0, 4]] = 0.0
     alone = np.zeros((3, 3))
-    return worst((found(candidate, (adjacency, x, w), "Two lone nodes: "),
+    wide = inputs(GRADERS + 21, 12)[0] * np.exp(np.random.default_rng(GRADERS).normal(-3, 3, (12, 12)))
+    return worst((found(candidate, (alone[:1, :1], x[:1], w), "One node: "),
+                  found(candidate, (wide + wide.T, np.vstack([x, x[:3]]), w), "Weights of all sizes: "),
+                  found(candidate, (adjacency, x, w), "Two lone nodes: "),
                   found(candidate, (alone, x[:3], w), "No edges at all: ")))  # fmt: skip
 
 

@@ -81,10 +81,15 @@ def graphs_of_all_sizes(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def nodes_without_edges(candidate: Function) -> Verdict:
-    """A node without edges has a row of zeros, and a graph of one node is 0."""
+    """A node without edges has a row of zeros, a graph of one node is 0; weights of a millionth and of a million count."""
     lonely = weighted(GRADERS + 20, 7)
     lonely[:, [2, 5]] = lonely[[2, 5]] = 0.0
-    return worst((found(candidate, lonely, "Two lone nodes: "), found(candidate, np.zeros((1, 1)), "One node: ")))
+    none = [found(candidate, np.zeros((n, n)), what) for n, what in ((1, "One node: "), (4, "Four lone nodes: "))]
+    large = found(candidate, 1e6 * weighted(GRADERS + 21, 6), "Weights of a million: ")
+    small = 1e-3 * weighted(GRADERS + 22, 6)
+    hint = f"Weights of a thousandth count. {HINT}"
+    tiny = matrix_verdict(1e3 * candidate(1e-3 * small), 1e3 * graphs.laplacian(1e-3 * small), hint, "Tiny weights: ")
+    return worst((found(candidate, lonely, "Two lone nodes: "), *none, large, tiny))
 
 
 @mistake(

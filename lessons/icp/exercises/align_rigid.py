@@ -130,21 +130,30 @@ def no_mirror_image(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def far_away(candidate: Function) -> Verdict:
-    """Clouds ten kilometres from the origin are aligned as well."""
+    """Clouds ten kilometres from the origin, of a centimetre, and half a turn apart are aligned as well."""
     rng = np.random.default_rng(GRADERS + 30)
     p_source = a_cloud(rng) + np.array([10_000.0, -4_000.0, 300.0])
     p_target = apply(a_motion(rng, 75.0), p_source - p_source.mean(0)) + np.array([-6_000.0, 8_000.0, 0.0])
-    return aligned(candidate, p_target, p_source)
+    verdicts = [aligned(candidate, p_target, p_source)]
+    small = 0.02 * a_cloud(rng)
+    verdicts.append(aligned(candidate, apply(a_motion(rng, 50.0, 0.1), small), small, f"Of a centimetre. {ALIGN_HINT}"))
+    for turn in ([1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]):
+        solid = a_cloud(rng)
+        verdicts.append(aligned(candidate, solid * turn + 0.5, solid, f"Half a turn apart. {ALIGN_HINT}"))
+    return worst(verdicts)
 
 
 @check(1, public=False)
 def points_on_a_line(candidate: Function) -> Verdict:
-    """Points on one line, and a single pair, get one of their best motions; no pairs are refused."""
+    """Points on one line, at one place, and one pair to three get one of their best motions; no pairs are refused."""
     rng = np.random.default_rng(GRADERS + 40)
     line = np.outer(np.linspace(-1, 1, 9), [0.6, 0.0, 0.8]) + 0.3
     T = a_motion(rng, 65.0)
     verdicts = [refused(candidate, np.empty((0, 3)), np.empty((0, 3)), what="A call without pairs")]
-    for what, p_source in (("Points on a line", line), ("A single pair", line[:1])):
+    few = a_cloud(rng, 3)
+    cases = (("Points on a line", line), ("A single pair", line[:1]), ("Two pairs", few[:2]), ("Three pairs", few),
+             ("Points at one place", np.tile(few[0], (4, 1))))  # fmt: skip
+    for what, p_source in cases:
         got, p_target = candidate(apply(T, p_source), p_source), apply(T, p_source)
         moved = apply(got, p_source)
         away = float(np.linalg.norm(moved - p_target, axis=1).max())

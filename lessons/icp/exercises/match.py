@@ -99,9 +99,11 @@ def clouds_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def uneven_clouds(candidate: Function) -> Verdict:
-    """Few targets for many points, many for few, and a single one are all served."""
-    sizes = ((7, 300), (300, 7), (1, 20), (90, 90))
-    return worst(nearest_found(candidate, *two_clouds(GRADERS + k, m, n)) for k, (m, n) in enumerate(sizes))
+    """Few targets for many points, many for few, and single ones are all served, in a room and in a town."""
+    sizes = ((7, 300), (300, 7), (1, 20), (90, 90), (30, 1))
+    clouds = [two_clouds(GRADERS + k, m, n) for k, (m, n) in enumerate(sizes)]
+    p_target, p_source = two_clouds(GRADERS + 9, 60, 60)
+    return worst(nearest_found(candidate, *pair) for pair in (*clouds, (2000 * p_target, 2000 * p_source)))
 
 
 @check(1, public=False)

@@ -144,7 +144,7 @@ def steps_arrive_elsewhere(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def sliding(candidate: Function) -> Verdict:
-    """A single plane pulls points onto itself and does not slide or spin them."""
+    """One plane, or two, pull points onto themselves and do not slide or spin them; one pair is enough for that."""
     rng = np.random.default_rng(GRADERS + 20)
     flat = rng.uniform(-1, 1, (40, 3)) * [1.0, 1.0, 0.0]
     flat -= flat.mean(0)
@@ -152,9 +152,16 @@ def sliding(candidate: Function) -> Verdict:
     p_target = flat + rng.uniform(-0.2, 0.2, flat.shape) * [1.0, 1.0, 0.0]
     right = motion(np.eye(3), np.array([0.0, 0.0, -0.04]))
     lifted = flat + np.array([0.0, 0.0, 0.04])
-    return motion_verdict(
-        candidate(p_target, lifted, n_target), right, "What no plane holds stays. " + STEP_HINT, p=lifted
-    )
+    hint = "What no plane holds stays. " + STEP_HINT
+    verdicts = [motion_verdict(candidate(p_target, lifted, n_target), right, hint, p=lifted)]
+    normal, place = np.array([[0.6, 0.0, 0.8]]), np.zeros((1, 3))
+    one = motion(np.eye(3), 0.07 * normal[0])
+    verdicts.append(motion_verdict(candidate(place + 0.07 * normal, place, normal), one, f"One pair. {hint}", p=place))
+    walls = np.array([[1.0, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]])  # two and two, seen from the middle
+    p_walls, both = 1.5 * walls, motion(np.eye(3), np.array([0.03, -0.05, 0.0]))
+    moved = p_walls + np.abs(walls) * [0.03, -0.05, 0.0]
+    verdicts.append(motion_verdict(candidate(moved, p_walls, np.abs(walls)), both, f"Two planes. {hint}", p=p_walls))
+    return worst(verdicts)
 
 
 def linear(p_source: np.ndarray, n_target: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -81,8 +81,8 @@ def clouds_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def of_any_size(candidate: Function) -> Verdict:
-    """1 and 30 points, 30 and 1, 200 and 150."""
-    sizes = ((1, 30), (30, 1), (200, 150))
+    """1 and 30 points, 30 and 1, 200 and 150, one and one."""
+    sizes = ((1, 30), (30, 1), (200, 150), (1, 1))
     return worst(found(candidate, *clouds(GRADERS + n, n, m), f"{n} and {m} points: ") for n, m in sizes)
 
 

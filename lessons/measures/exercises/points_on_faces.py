@@ -133,7 +133,7 @@ def what_comes_in_is_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def a_whole_surface(candidate: Function) -> Verdict:
-    """On a mesh of faces of many sizes every part gets its share, face by face."""
+    """On a mesh of faces of many sizes every part gets its share, face by face, and on one a thousandth as large."""
     p, faces = with_small_half(*blob(GRADERS))
     q = candidate(p, faces, even(16, GRADERS))
     areas = face_areas(p, faces)
@@ -141,7 +141,10 @@ def a_whole_surface(candidate: Function) -> Verdict:
     size = float(np.linalg.norm(np.ptp(p, axis=0)))
     off = 100 * float(np.linalg.norm(q.mean(axis=0) - middle)) / size
     what = "Mean of the points off the surface's middle, % of the diagonal"
-    return relative_verdict(what, off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
+    large = relative_verdict(what, off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
+    off = float(np.linalg.norm(1000 * candidate(0.001 * p, faces, even(16, GRADERS)).mean(axis=0) - middle)) / size
+    small = relative_verdict(f"{what}, of a small one", 100 * off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
+    return worst((large, small))
 
 
 @check(2, public=False)
@@ -183,14 +186,18 @@ def each_number_counts(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def numbers_at_the_ends(candidate: Function) -> Verdict:
-    """0 and what is next to 1 give points of the mesh as well, and no rows no points."""
+    """0 and what is next to 1 give points of the mesh as well, one row one point, and no rows no points."""
     triangle, one = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]]), np.array([[0, 1, 2]])
     if len(candidate(triangle, one, np.empty((0, 3)))):
         return fail("No rows came in, and points went out.")
     u = np.array([[a, b, c] for a in (0.0, 1 - 1e-16) for b in (0.0, 1 - 1e-16) for c in (0.0, 1 - 1e-16)])
     weights = weights_of(candidate(triangle, one, u), triangle)
-    off = float(-weights.min())
-    return nothing("Farthest off the triangle, in edges", off, "Look at rows of 0 and of nearly 1.")
+    single = weights_of(candidate(triangle, one, np.array([[0.2, 0.5, 0.3]])), triangle)
+    off = float(-min(weights.min(), single.min()))
+    p = np.concatenate([[[0.0, 0, z], [1, 0, z], [0, 1, z]] for z in range(10)])  # ten times a tenth is not quite 1
+    x, y, z = candidate(p, np.arange(30).reshape(10, 3), u).T
+    off = max(off, float(-np.min([x, y, 1 - x - y])), float(np.abs(z - np.rint(np.clip(z, 0, 9))).max()))
+    return nothing("Farthest off the triangles, in edges", off, "Look at rows of 0 and of nearly 1.")
 
 
 def _placed(p: np.ndarray, faces: np.ndarray, k: np.ndarray, weights: np.ndarray) -> np.ndarray:

@@ -84,10 +84,12 @@ def mesh_of_the_volume_is_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def inside_out(candidate: Function) -> Verdict:
-    """Turned inside out, a mesh has its volume with a minus sign."""
+    """Turned inside out, a mesh has its volume with a minus sign, also one of a few centimetres."""
     p, faces = blob(GRADERS, (0.3, 0.2, -0.1))
     hint = "The sign of the sum tells which side is called outside: keep it."
-    return volume_verdict(candidate, (p, faces[:, ::-1].copy()), "A bent ring inside out", hint)
+    turned = faces[:, ::-1].copy()
+    large = volume_verdict(candidate, (p, turned), "A bent ring inside out", hint)
+    return worst((large, volume_verdict(candidate, (0.02 * p, turned), "A small bent ring inside out", hint)))
 
 
 @check(2, public=False)
@@ -99,6 +101,7 @@ def open_meshes(candidate: Function) -> Verdict:
         (
             volume_verdict(candidate, mesh, "A ring without its side", hint),
             volume_verdict(candidate, (mesh[0], mesh[1][:1]), "One triangle", hint),
+            volume_verdict(candidate, (mesh[0], mesh[1][:1, ::-1].copy()), "One triangle turned over", hint),
         )
     )
 

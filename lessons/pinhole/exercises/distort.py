@@ -93,10 +93,11 @@ def rays_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def whole_lens(candidate: Function) -> Verdict:
-    """All four terms together are right, also for no point at all."""
+    """All four terms together are right, also at the rim of a wide picture, for one point, and for none at all."""
     lenses = ((-0.28, 0.09, 0.012, -0.007), (0.15, -0.2, -0.02, 0.015))
     verdicts = [_bent(candidate, some_rays(GRADERS + k), *lens) for k, lens in enumerate(lenses)]
-    return worst([*verdicts, _bent(candidate, np.empty((0, 2)), *lenses[0])])
+    others = (2.5 * some_rays(GRADERS + 4), some_rays(GRADERS + 5, 1), np.empty((0, 2)))
+    return worst([*verdicts, *(_bent(candidate, xy, *lenses[0]) for xy in others)])
 
 
 @check(1, public=False)

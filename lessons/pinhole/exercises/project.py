@@ -144,13 +144,14 @@ def moves_together(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def camera_amid_points(candidate: Function) -> Verdict:
-    """A camera amid its points, no point at all, and all points behind it are answered."""
+    """A camera amid its points, no point, a single one, all behind it, and one a hundredth of a millimetre before it."""
     (p_world, T_camera_world, K), *_ = some_scenes(GRADERS + 2, size=200)
     amid = motion(T_camera_world[:3, :3], np.array([0.1, -0.2, 0.3]))
     behind = motion(np.eye(3), np.array([0.0, 0.0, -50.0]))
-    beside_it = np.array([[1.0, 1.0, 0.0], [-2.0, 0.5, 0.0], [0.3, -0.1, 1e-3]])
+    beside_it = np.array([[1.0, 1.0, 0.0], [-2.0, 0.5, 0.0], [0.3, -0.1, 1e-3], [1e-6, -2e-6, 1e-5]])
     skewed = cameras.intrinsics(500.0, 310.0, 245.0, skew=20.0)
-    cases = ((p_world, amid, K), (p_world[:0], amid, K), (p_world, behind, K), (beside_it, np.eye(4), skewed))
+    cases = [(p_world, amid, K), (p_world[:0], amid, K), (p_world, behind, K), (beside_it, np.eye(4), skewed)]
+    cases.append((p_world[:1], T_camera_world, K))
     return worst(in_pixels(candidate(*case), cameras.project(*case), PROJECT_HINT) for case in cases)
 
 

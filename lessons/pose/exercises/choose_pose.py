@@ -145,10 +145,14 @@ def some_points_behind(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def of_other_points(candidate: Function) -> Verdict:
-    """Other points, noisier, and a single pose."""
+    """Other points, noisier, a single pose, many poses, and a single point."""
     one, p_world, xy = several(GRADERS + 30)
     verdicts = [judged(candidate, *several(GRADERS + 10 + k, 20, 3e-3)) for k in range(8)]
-    return worst([*verdicts, judged(candidate, one[:1], p_world, xy)])
+    many, p, seen_at = told_apart(GRADERS + 31)
+    nearest = camera_search.choose_pose(many, p, seen_at)
+    last = np.concatenate([many[np.abs(many - nearest).max(axis=(1, 2)) > 0], many + np.eye(4, k=3), nearest[None]])
+    others = ((one[:1], p_world, xy), (last, p, seen_at), (last, p[:1], seen_at[:1]))
+    return worst([*verdicts, *(judged(candidate, *case) for case in others)])
 
 
 @check(1, public=False)
@@ -160,19 +164,33 @@ def the_root_mean_square_decides(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def of_small_things(candidate: Function) -> Verdict:
-    """Points some centimetres before the camera are in front too: Z > 0 is asked, not some distance."""
+    """Points some millimetres before the camera are in front too, and those beside it, at Z = 0, are not."""
     Ts, p_world, xy = several(GRADERS + 60)
     near = Ts[np.argsort(np.abs(Ts - camera_search.choose_pose(Ts, p_world, xy)).sum(axis=(1, 2)))[::-1]]  # right: last
-    near[:, :3, 3] *= 0.005
-    return judged(candidate, near, 0.005 * p_world, xy, "Z > 0 is in front, however near.")
+    verdicts = []
+    for size in (5e-3, 1e-4):
+        small = near.copy()
+        small[:, :3, 3] *= size
+        verdicts.append(judged(candidate, small, size * p_world, xy, "Z > 0 is in front, however near."))
+    p = np.array([[0.0, 0.0, 0.0], [0.5, 0.25, 1.0], [-0.25, 0.5, 2.0]])  # the first is at Z = 0 for the first pose
+    Ts = np.stack([np.eye(4), np.eye(4)])
+    Ts[1, :3, 3] = 0.5, 0.5, 1.0
+    xy = np.array([[0.0, 0.0], [0.5, 0.25], [-0.125, 0.25]])
+    verdicts.append(judged(candidate, Ts, p, xy, "A point at Z = 0 is not in front."))
+    return worst(verdicts)
 
 
 @check(1, public=False)
 def none_in_front(candidate: Function) -> Verdict:
-    """Where none has all points in front, it is the first."""
+    """Where none has all points in front, it is the first, however many there are and whatever the others see."""
     Ts, p_world, xy = with_twin(GRADERS + 40)
     behind = np.stack([Ts[0], np.diag([-1.0, 1.0, -1.0, 1.0]) @ Ts[1]])
-    return judged(candidate, behind[::-1].copy(), p_world, xy, "None is in front: return the first.")
+    amid = half_behind(GRADERS + 41)
+    none = np.diag([-1.0, 1.0, -1.0, 1.0]) @ amid[0][1]  # it sees all points turned round, behind it
+    more = np.stack([none, amid[0][0], none + np.eye(4, k=3)])  # none, most and none of the points in front
+    hint = "None is in front: return the first."
+    cases = ((behind[::-1].copy(), p_world, xy), (more, *amid[1:]), (behind[:1], p_world, xy))
+    return worst(judged(candidate, *case, hint) for case in cases)
 
 
 def seen(Ts: np.ndarray, p_world: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

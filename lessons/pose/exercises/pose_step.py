@@ -120,10 +120,24 @@ def with_noise(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_starts(candidate: Function) -> Verdict:
-    """Other starts arrive too, also with five points."""
+    """Other starts arrive too, also with five points, with four, and with points of a plane."""
     return worst(
-        [*(arrived(candidate, GRADERS + 10 + k) for k in range(4)), arrived(candidate, GRADERS + 22, n=5, steps=8)]
+        [
+            *(arrived(candidate, GRADERS + 10 + k) for k in range(4)),
+            arrived(candidate, GRADERS + 22, n=5, steps=8),
+            *(from_nearby(candidate, GRADERS + 23 + k, n=4 + 8 * k, flat=bool(k)) for k in range(2)),
+        ]
     )
+
+
+def from_nearby(candidate: Function, seed: int, *, n: int, flat: bool) -> Verdict:
+    """Judge where three steps arrive from a start that is a degree and some centimetres off."""
+    T_true, p_world, xy = a_view(np.random.default_rng(seed), n, flat=flat)
+    T = motion(exp_so3(np.array([0.01, -0.012, 0.008])), np.array([0.02, 0.01, -0.03])) @ T_true
+    for _ in range(3):
+        T = candidate(T, p_world, xy)
+    said = f"T is the pose after three steps with {n} points{' of a plane' if flat else ''}. {HINT}"
+    return motion_verdict(T, T_true, said, p=p_world)
 
 
 @check(1, public=False)

@@ -132,11 +132,13 @@ def cloud_and_plane_moved(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def just_on_the_limit(candidate: Function) -> Verdict:
-    """A point exactly as far as the inlier distance is an inlier, on both sides."""
+    """A point exactly as far as the inlier distance is an inlier, on both sides, and on the plane where that is 0."""
     heights = np.array([1.5, 0.5, 1.0, 1.75, 0.25, -2.0, -2.5])
     p = np.column_stack([np.arange(7.0), np.zeros(7), heights])
     hint = "Use <=, not <."
-    return count_verdict(candidate(np.array([0.0, 0.0, 1.0, -1.0]), p, 0.5), 3, 7, "Two exactly on the limit", hint)
+    plane = np.array([0.0, 0.0, 1.0, -1.0])
+    limit = count_verdict(candidate(plane, p, 0.5), 3, 7, "Two exactly on the limit", hint)
+    return worst((limit, count_verdict(candidate(plane, p, 0.0), 1, 7, "Within 0 m, one on the plane", hint)))
 
 
 @check(1, public=False)
@@ -144,15 +146,17 @@ def nothing_to_count(candidate: Function) -> Verdict:
     """No points, a plane of four nan, and a point with a nan count 0."""
     plane, p, signed = a_layer(np.random.default_rng(GRADERS + 60), 20)
     right = int((np.abs(signed[1:]) <= 0.3).sum())
-    p[0, 1] = np.nan
+    near = p[0] - signed[0] * plane[:3]
     hint = f"{COUNT_HINT} That is never true of nan."
-    return worst(
-        (
-            count_verdict(candidate(plane, np.empty((0, 3)), 0.3), 0, 0, "No points"),
-            count_verdict(candidate(np.full(4, np.nan), p[1:], 0.3), 0, 19, "A plane of four nan", hint),
-            count_verdict(candidate(plane, p, 0.3), right, 20, "One of them with a nan", hint),
-        )
-    )
+    verdicts = [
+        count_verdict(candidate(plane, np.empty((0, 3)), 0.3), 0, 0, "No points"),
+        count_verdict(candidate(np.full(4, np.nan), p[1:], 0.3), 0, 19, "A plane of four nan", hint),
+    ]
+    for unknown in (1, 0, 2, slice(None)):
+        p[0] = near
+        p[0, unknown] = np.nan
+        verdicts.append(count_verdict(candidate(plane, p, 0.3), right, 20, "One of them with a nan", hint))
+    return worst(verdicts)
 
 
 def signed(plane: np.ndarray, p: np.ndarray) -> np.ndarray:

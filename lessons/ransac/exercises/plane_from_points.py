@@ -137,12 +137,10 @@ def three_points_anywhere(candidate: Function) -> Verdict:
 def points_on_a_line(candidate: Function) -> Verdict:
     """Three points on one line, and points that coincide, give four nan."""
     line = np.array([[1.0, 2.0, 0.0], [2.0, 4.0, 1.0], [4.0, 8.0, 3.0]])
-    return worst(
-        (
-            no_plane(candidate(line), "(1, 2, 0), (2, 4, 1), (4, 8, 3) are on one line"),
-            no_plane(candidate(line[[0, 1, 1]]), "Two points coincide"),
-        )
-    )
+    verdicts = [no_plane(candidate(line), "(1, 2, 0), (2, 4, 1), (4, 8, 3) are on one line")]
+    for k in ([0, 1, 1], [0, 0, 1], [0, 1, 0], [1, 1, 1]):
+        verdicts.append(no_plane(candidate(line[k]), f"Points {k} of these coincide"))
+    return worst(verdicts)
 
 
 @check(1)
@@ -193,9 +191,8 @@ def small_large_and_far(candidate: Function) -> Verdict:
     far = a_triangle(rng) + np.array([800.0, -600.0, 50.0])
     thin = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.5, 1e-4, 1.0]])
     verdicts.append(found(candidate, far, "1 km away"))
-    verdicts.append(found(candidate, thin, "1 m long and 0.1 mm high"))
-    verdicts.append(found(candidate, thin * [1e-3, 1e-3, 1.0], "1 mm long and 0.1 µm high"))
-    verdicts.append(found(candidate, 1e-6 * thin, "1 µm long and a ten-thousandth of that high"))
+    for size, name in (([1.0, 1.0, 1.0], "1 m"), ([1e-3, 1e-3, 1.0], "1 mm"), ([1e-6, 1e-6, 1e-6], "1 µm")):
+        verdicts.append(found(candidate, thin * size, f"{name} long and a ten-thousandth of that high"))
     return worst(verdicts)
 
 

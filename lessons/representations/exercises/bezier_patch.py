@@ -89,12 +89,14 @@ def a_patch_of_a_torus(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def none_and_edges(candidate: Function) -> Verdict:
-    """No places give no points; along an edge only the four control points of that edge count."""
+    """No places give no points, one gives one; along each edge only the four control points of that edge count."""
     rng = np.random.default_rng(GRADERS + 2)
     if len(candidate(a_net(rng), np.empty((0, 2)))):
         return rows_verdict(np.ones(1), np.zeros(1), lambda k: "No places came in, points", HINT)
-    edge = np.column_stack([np.zeros(8), rng.random(8)])
-    return worst(verdict(candidate, a_net(rng), uv, "Along an edge") for uv in (edge, edge[:, ::-1].copy()))
+    edge, end = np.column_stack([np.zeros(8), rng.random(8)]), np.column_stack([np.ones(8), rng.random(8)])
+    edges = (edge, edge[:, ::-1].copy(), end, end[:, ::-1].copy())
+    found = [verdict(candidate, a_net(rng), uv, "Along an edge") for uv in edges]
+    return worst([verdict(candidate, a_net(rng), edge[:1] + 0.3, "A single place"), *found])
 
 
 def summed(control: np.ndarray, bu: np.ndarray, bv: np.ndarray) -> np.ndarray:

@@ -101,18 +101,21 @@ def all_orders(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def gimbal_lock(candidate: Function) -> Verdict:
-    """At a pitch of 90 degrees the first and the third angle turn about one axis, and only their sum counts."""
+    """At a pitch of 90 degrees only the sum of the first and the third angle counts; more than half a turn is a turn too."""
     a, c, more = 0.4, -0.9, 0.7
     R, other = (candidate(np.array([a + d, np.pi / 2, c - d]), "XYZ") for d in (0.0, more))
     right = rotations.euler_to_matrix(np.array([a, np.pi / 2, c]), "XYZ")
-    return worst(rotation_verdict(got, right, EULER_HINT) for got in (R, other))
+    others = (("xyz", [a, -np.pi / 2, c]), ("ZXZ", [a, 0.0, c]), ("zyz", [a, np.pi, c]), ("XYZ", [4.0, -5.0, 7.5]))
+    locked = [_ordered(candidate, np.array(angles), order) for order, angles in others]
+    return worst([*(rotation_verdict(got, right, EULER_HINT) for got in (R, other)), *locked])
 
 
 @check(1, public=False)
 def unknown_orders(candidate: Function) -> Verdict:
     """Orders that are none of the 24 are refused, and the angles are left alone."""
     kept = left_alone(candidate, _ordered(candidate, some_angles(GRADERS), "zyx"))
-    asked = (refused(candidate, some_angles(GRADERS), order, what=f'The order "{order}"') for order in ("xxy", "xYz"))
+    none = ("xxy", "xYz", "zyy", "xyZ", "xYZ", "xyzx")
+    asked = (refused(candidate, some_angles(GRADERS), order, what=f'The order "{order}"') for order in none)
     return worst([*asked, kept])
 
 
@@ -176,7 +179,7 @@ def order_ignored(angles: np.ndarray, order: str) -> np.ndarray:
 )
 def any_order_taken(angles: np.ndarray, order: str) -> np.ndarray:
     """Multiplies whatever letters come."""
-    first, second, third = (rotation_about(a, v) for a, v in zip(order.lower(), angles, strict=True))  # type: ignore[arg-type]
+    first, second, third = (rotation_about(a, v) for a, v in zip(order.lower(), angles, strict=False))  # type: ignore[arg-type]
     return first @ second @ third if order.isupper() else third @ second @ first
 
 

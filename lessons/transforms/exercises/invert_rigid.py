@@ -90,10 +90,12 @@ def products_turn_round(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def special_motions(candidate: Function) -> Verdict:
-    """The identity, a pure translation, half a turn and a motion a kilometre long are inverted."""
+    """The identity, a pure translation, half a turn, a motion a kilometre long and a very small one are inverted."""
     far = np.array([800.0, -500.0, 300.0])
     cases = (np.eye(4), motion(np.eye(3), far), motion(np.diag([-1.0, 1.0, -1.0]), far))
-    return worst(_right(T, candidate(T)) for T in (*cases, motion(exp_so3(np.array([0.0, 0.0, 1.0])), far)))
+    turns = (motion(exp_so3(np.array(w)), far) for w in ([0.0, 0.0, 1.0], [0.0, 0.01, 0.0]))
+    small = motion(exp_so3(np.array([0.004, 0.0, -0.003])), np.array([0.01, -0.02, 0.005]))
+    return worst(_right(T, candidate(T)) for T in (*cases, *turns, small))
 
 
 def _right(T: np.ndarray, T_back: np.ndarray) -> Verdict:

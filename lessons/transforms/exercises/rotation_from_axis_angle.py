@@ -108,11 +108,11 @@ def turned_axis(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def special_angles(candidate: Function) -> Verdict:
-    """No turn, half a turn and more than a full turn are rotations, and an angle of 1e-6 is not lost."""
+    """No turn, half a turn and turns and turns either way are rotations, and an angle of 1e-6 is not lost."""
     axis = np.array([0.3, -0.4, 1.2])
     verdicts = [
         rotation_verdict(candidate(axis, v), rotations.rotation_from_axis_angle(axis, v), f"Angle {v:.3g}. {TURN_HINT}")
-        for v in (0.0, np.pi, -np.pi, 7.5)
+        for v in (0.0, np.pi, -np.pi, 7.5, -8.0, 20.0, -100.0)
     ]
     tiny = degrees_between(candidate(axis, 1e-6), np.eye(3)) / np.degrees(1e-6)
     said = f"By 0.000001 radians yours turns by {number(1e-6 * tiny)}, right is 0.000001. {TURN_HINT}"

@@ -245,3 +245,38 @@ def wrong_returns_points(p_target, p_source):
 
 def wrong_prints_and_returns_nothing(p_target, p_source):
     print(right_with_helpers(p_target, p_source))
+
+
+def wrong_two_pairs_only_shifted(p_target, p_source):
+    if len(p_source) == 2:
+        return with_centroids(np.eye(3), p_target, p_source)
+    return right_with_helpers(p_target, p_source)
+
+
+def wrong_three_pairs_are_too_few(p_target, p_source):
+    if len(p_source) == 3:
+        raise ValueError("four pairs at least")
+    return right_with_helpers(p_target, p_source)
+
+
+def wrong_points_at_one_place_refused(p_target, p_source):
+    if len(p_source) > 1 and np.ptp(p_source, axis=0).max() == 0:
+        raise ValueError("all points are the same")
+    return right_with_helpers(p_target, p_source)
+
+
+def wrong_small_clouds_only_shifted(p_target, p_source):
+    if len(p_source) > 1 and np.ptp(p_source, axis=0).max() < 0.1:
+        return with_centroids(np.eye(3), p_target, p_source)
+    return right_with_helpers(p_target, p_source)
+
+
+def wrong_axis_of_half_a_turn_is_none(p_target, p_source):
+    R = kabsch(p_target, p_source)
+    axis = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    length = np.linalg.norm(axis)
+    if length < 1e-9:
+        return with_centroids(np.eye(3), p_target, p_source)
+    K = np.cross(axis / length, np.eye(3)).T
+    sine, cosine = length / 2, (np.trace(R) - 1) / 2
+    return with_centroids(np.eye(3) + sine * K + (1 - cosine) * K @ K, p_target, p_source)

@@ -253,3 +253,23 @@ def wrong_box_only(p, faces):
 
 def wrong_equilateral_assumed(p, faces):
     return full_turn(p, faces) - np.pi / 3 * np.bincount(faces.ravel(), minlength=len(p))
+
+
+def wrong_only_the_last_may_have_no_face(p, faces):
+    out = right_add_at(p, faces)
+    out[np.setdiff1d(np.arange(faces.max()), faces)] = 0
+    return out
+
+
+def wrong_one_without_faces_at_most(p, faces):
+    out = right_add_at(p, faces)
+    out[np.setdiff1d(np.arange(len(p)), faces)[1:]] = 0
+    return out
+
+
+def wrong_small_faces_are_none(p, faces):
+    n = np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
+    large = np.linalg.norm(n, axis=1) > 1e-5
+    out = full_turn(p, faces)
+    np.subtract.at(out, faces[large], angles(p, faces)[large])
+    return out

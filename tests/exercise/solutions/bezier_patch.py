@@ -198,3 +198,11 @@ def wrong_in_place(control, uv):
 
 def wrong_sum_of_curves(control, uv):
     return (basis(uv[:, 0]) @ control.mean(axis=1) + basis(uv[:, 1]) @ control.mean(axis=0)) / 2
+
+
+def wrong_one_place_is_no_row(control, uv):
+    return np.squeeze(right_einsum(control, uv))
+
+
+def wrong_end_not_reached(control, uv):
+    return right_einsum(control, np.minimum(uv, 0.999))

@@ -252,3 +252,14 @@ def wrong_zero_becomes_zero(axes, p):
     out = axes * np.sign((((p - p.mean(axis=0)) @ axes) ** 3).sum(axis=0))
     out[:, 2] = np.cross(out[:, 0], out[:, 1])
     return out
+
+
+def wrong_second_axis_up_where_undecided(axes, p):
+    m = tails(axes, p)
+    a = axes[:, 0] if m[0] >= 0 else -axes[:, 0]
+    b = np.abs(axes[:, 1]) if m[1] == 0 else axes[:, 1] * np.sign(m[1])
+    return with_cross(a, b)
+
+
+def wrong_axes_of_space_where_all_is_even(axes, p):
+    return np.eye(3) if not tails(axes, p)[:2].any() else right_plain(axes, p)

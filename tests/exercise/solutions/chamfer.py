@@ -239,3 +239,19 @@ def wrong_weights_by_count(p_a, p_b):
 
 def wrong_rounded(p_a, p_b):
     return round(float(side(p_a, p_b) + side(p_b, p_a)), 2)
+
+
+def wrong_points_that_are_twice_count_once(p_a, p_b):
+    refuse(p_a, p_b)
+    return right_two_sides(np.unique(p_a, axis=0), np.unique(p_b, axis=0))
+
+
+def wrong_equally_near_points_all_count(p_a, p_b):
+    refuse(p_a, p_b)
+    D = squares(p_a, p_b)
+    return sum(np.mean((d == d.min(1, keepdims=True)).sum(1) * d.min(1)) for d in (D, D.T))
+
+
+def wrong_small_is_zero(p_a, p_b):
+    d = right_two_sides(p_a, p_b)
+    return d if d > 1e-4 else 0.0

@@ -238,3 +238,34 @@ def wrong_largest_distance(candidates, p_world, xy):
 
 def wrong_ten_centimetres(candidates, p_world, xy):
     return chosen(candidates, p_world, xy, lambda off: np.square(off).sum(), 0.1)
+
+
+def wrong_five_millimetres(candidates, p_world, xy):
+    near = [((p_world @ T[:3, :3].T + T[:3, 3])[:, 2] > 0.005).all() for T in candidates]
+    return right_loop(candidates[near], p_world, xy) if any(near) else candidates[0]
+
+
+def wrong_beside_the_camera_left_out(candidates, p_world, xy):
+    best, least = candidates[0], np.inf
+    for T in candidates:
+        p = p_world @ T[:3, :3].T + T[:3, 3]
+        if np.any(p[:, 2] < 0):
+            continue
+        ok = p[:, 2] > 0
+        e = np.mean(np.sum((p[ok, :2] / p[ok, 2:] - xy[ok]) ** 2, axis=1))
+        if e < least:
+            best, least = T, e
+    return best
+
+
+def wrong_fewest_behind(candidates, p_world, xy):
+    front = np.array([((p_world @ T[:3, :3].T + T[:3, 3])[:, 2] > 0).sum() for T in candidates])
+    return right_loop(candidates[front == front.max()], p_world, xy)
+
+
+def wrong_four_at_most(candidates, p_world, xy):
+    return right_loop(candidates[:4], p_world, xy)
+
+
+def wrong_one_point_says_nothing(candidates, p_world, xy):
+    return right_loop(candidates, p_world, xy) if len(p_world) > 1 else candidates[0]

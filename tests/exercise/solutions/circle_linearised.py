@@ -210,3 +210,15 @@ def wrong_transposed(circle, p):
 def wrong_changes_points(circle, p):
     p -= circle[:2]
     return right_hypot(np.array([0, 0, circle[2]]), p)
+
+
+def wrong_near_the_centre_is_at_it(circle, p):
+    r, J = right_hypot(circle, p)
+    J[np.linalg.norm(p - circle[:2], axis=1) < 1e-4, :2] = 0
+    return r, J
+
+
+def wrong_a_little_added_to_the_length(circle, p):
+    v = p - circle[:2]
+    d = np.linalg.norm(v, axis=1)
+    return d - circle[2], np.column_stack([-v / (d + 1e-9)[:, None], -np.ones(len(p))])

@@ -179,3 +179,12 @@ def wrong_samples_the_points_out_of_three(plane, p, inlier_distance):
 
 def wrong_rounded_distance(plane, p, inlier_distance):
     return int((np.round(np.abs(p @ plane[:3] + plane[3]), 1) <= inlier_distance).sum())
+
+
+def wrong_nothing_within_nought(plane, p, inlier_distance):
+    return right_vectorised(plane, p, inlier_distance) if inlier_distance > 0 else 0
+
+
+def wrong_only_y_looked_at_for_nan(plane, p, inlier_distance):
+    q = p[~np.isnan(p[:, 1])]
+    return int(np.sum(np.abs(np.nan_to_num(q) @ plane[:3] + plane[3]) <= inlier_distance))

@@ -169,3 +169,21 @@ def wrong_stub(residuals, jacobian, damping):
 def wrong_normalised(residuals, jacobian, damping):
     s = right_solve(residuals, jacobian, damping)
     return s / np.linalg.norm(s)
+
+
+def wrong_damping_up_to_a_hundred(residuals, jacobian, damping):
+    return right_solve(residuals, jacobian, min(damping, 100.0))
+
+
+def wrong_little_damping_is_none(residuals, jacobian, damping):
+    return right_solve(residuals, jacobian, damping if damping > 1e-3 else 0.0)
+
+
+def wrong_no_step_is_unknown(residuals, jacobian, damping):
+    step = right_solve(residuals, jacobian, damping)
+    return step if residuals.any() else step / np.linalg.norm(residuals)
+
+
+def wrong_diagonal_up_to_ten_thousand(residuals, jacobian, damping):
+    A = jacobian.T @ jacobian
+    return np.linalg.solve(A + damping * np.diag(np.minimum(np.diag(A), 1e4)), -jacobian.T @ residuals)

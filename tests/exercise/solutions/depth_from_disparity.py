@@ -193,3 +193,20 @@ def wrong_distance_along_the_ray(d, f, baseline):
 
 def wrong_masked_array_filled(d, f, baseline):
     return np.ma.filled(f * baseline / np.ma.masked_less_equal(d, 0), 0.0)
+
+
+def wrong_thousandth_of_a_pixel_is_none(d, f, baseline):
+    return np.where((d >= 0) & (d < 1e-3), np.inf, right_where(d, f, baseline))
+
+
+def wrong_special_values_of_maps(d, f, baseline):
+    z = right_where(d, f, baseline)
+    return z if d.ndim == 1 else np.nan_to_num(z, nan=0.0, posinf=np.inf)
+
+
+def wrong_all_zero_is_unknown(d, f, baseline):
+    return right_where(d, f, baseline) if (d != 0).any() or not d.size else np.full(d.shape, np.nan)
+
+
+def wrong_nothing_is_an_error(d, f, baseline):
+    return right_where(d, f, baseline) if d.max() > -np.inf or np.isnan(d).any() else d

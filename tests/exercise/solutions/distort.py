@@ -217,3 +217,11 @@ def wrong_rounded(xy, k1, k2, p1, p2):
 
 def wrong_iterated_twice(xy, k1, k2, p1, p2):
     return right_columns(right_columns(xy, k1, k2, p1, p2), k1, k2, p1, p2)
+
+
+def wrong_rim_left_as_it_is(xy, k1, k2, p1, p2):
+    return np.where(np.hypot(xy[:, :1], xy[:, 1:]) < 0.7, right_columns(xy, k1, k2, p1, p2), xy)
+
+
+def wrong_single_point_without_its_row(xy, k1, k2, p1, p2):
+    return np.squeeze(right_columns(xy, k1, k2, p1, p2))

@@ -274,3 +274,17 @@ def wrong_swaps_until_stuck(p_a, p_b):
 
 def wrong_public_answers(p_a, p_b):
     return {2: 0.9, 3: 0.5}.get(len(p_b), 0.5)
+
+
+def wrong_larger_first_is_cut(p_a, p_b):
+    return right_assignment(p_a[: len(p_b)] if len(p_b) else p_a, p_b)
+
+
+def wrong_points_that_are_twice_count_once(p_a, p_b):
+    return right_assignment(np.unique(p_a, axis=0), p_b)
+
+
+def wrong_counts_without_a_common_factor_cut(p_a, p_b):
+    n, m = len(p_a), len(p_b)
+    k = min(n, m) if min(n, m) > 4 and np.gcd(n, m) == 1 else None
+    return right_assignment(p_a[:k], p_b[:k])

@@ -164,3 +164,8 @@ def wrong_flat(p_a, p_b, f_a, f_b):
 def wrong_times_the_length(p_a, p_b, f_a, f_b):
     way = p_b - p_a
     return p_a + (f_a / (f_a - f_b) * np.linalg.norm(way, axis=1))[:, None] * way
+
+
+def wrong_nearly_zero_is_an_end(p_a, p_b, f_a, f_b):
+    t = np.where(np.abs(f_a) < 1e-4, 0.0, np.where(np.abs(f_b) < 1e-4, 1.0, f_a / (f_a - f_b)))
+    return p_a + t[:, None] * (p_b - p_a)

@@ -253,3 +253,11 @@ def wrong_accepts_seven(a, b):
 
     T1, T2 = N(a), N(b)
     return T2.T @ two(null(h(a) @ T1.T, h(b) @ T2.T)) @ T1
+
+
+def wrong_refuses_only_seven(a, b):
+    return np.zeros((3, 3)) if len(a) < 7 else right_plain(a, b)
+
+
+def wrong_nothing_gives_zeros(a, b):
+    return right_plain(a, b) if len(a) else np.zeros((3, 3))

@@ -194,3 +194,13 @@ def wrong_signed_difference(a, b, h):
 def wrong_in_place(a, b, h):
     a, b = np.minimum(a, b, out=a), np.maximum(a, b)
     return right_where(a, b, h)
+
+
+def wrong_zero_means_unknown(a, b, h):
+    a, b = np.where(a == 0, np.inf, a), np.where(b == 0, np.inf, b)
+    u = right_where(a, b, h)
+    return np.where(np.isinf(u), 0.0 + h, u)
+
+
+def wrong_far_is_infinite(a, b, h):
+    return np.minimum(right_where(a, b, h), 1e4)

@@ -221,3 +221,16 @@ def wrong_no_rotation_with_noise(E):
     Ts[:2, :3, :3], Ts[2:, :3, :3] = cofactors - X @ E, cofactors + X @ E
     Ts[:, :3, 3] = t, -t, t, -t
     return Ts
+
+
+def wrong_small_matrix_refused(E):
+    if np.linalg.norm(E) < 1e-4:
+        raise ValueError("zero matrix")
+    return right_plain(E)
+
+
+def wrong_t_a_little_long_with_noise(E):
+    out = right_plain(E)
+    s = np.linalg.svd(E)[1]
+    out[:, :3, 3] *= 2 * s[0] / (s[0] + s[1])
+    return out

@@ -270,3 +270,38 @@ def wrong_small_angles(angles, order):
         K = np.cross(np.eye(3), np.eye(3)["xyz".index(letter)])
         R = (np.eye(3) + a * K) @ R if order.islower() else R @ (np.eye(3) + a * K)
     return R
+
+
+def wrong_end_not_compared(angles, order):
+    if len(order) != 3 or not (order.islower() or order.isupper()) or set(order.lower()) - set("xyz"):
+        raise ValueError(order)
+    if order[0] == order[1]:
+        raise ValueError(order)
+    return product(angles, order)
+
+
+def wrong_only_three_letters_read(angles, order):
+    if not (order.islower() or order.isupper()) or set(order.lower()) - set("xyz") or len(order) < 3:
+        raise ValueError(order)
+    if order[0] == order[1] or order[1] == order[2]:
+        raise ValueError(order)
+    return product(angles, order[:3])
+
+
+def wrong_case_of_the_first_two(angles, order):
+    low = order.lower()
+    if len(low) != 3 or set(low) - set("xyz") or low[1] in (low[0], low[2]) or order[0].islower() != order[1].islower():
+        raise ValueError(order)
+    return product(angles, order)
+
+
+def wrong_lock_of_equal_ends(angles, order):
+    refuse(order)
+    if order[0] == order[2] and abs(np.sin(angles[1])) < 1e-9:
+        return np.eye(3)
+    return product(angles, order)
+
+
+def wrong_angles_cut_off(angles, order):
+    refuse(order)
+    return product(np.clip(angles, -np.pi, np.pi), order)

@@ -271,3 +271,11 @@ def wrong_column(p, faces):
 
 def wrong_total_only(p, faces):
     return float(np.nansum(right_mixed(p, faces)))
+
+
+def wrong_a_little_added_to_the_area(p, faces):
+    return divided(p, faces, 2 * np.pi - angle_sums(p, faces), areas(p, faces) + 1e-7)
+
+
+def wrong_large_values_cut(p, faces):
+    return np.clip(right_mixed(p, faces), -1000, 1000)

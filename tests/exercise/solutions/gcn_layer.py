@@ -211,3 +211,15 @@ def wrong_weights_transposed(adjacency, features, weights):
     A = adjacency + np.eye(len(adjacency))
     s = A.sum(axis=1) ** -0.5
     return np.maximum((s[:, None] * A * s) @ features @ weights.T, 0)
+
+
+def wrong_one_node_has_nothing(adjacency, features, weights):
+    return right_broadcast(adjacency, features, weights) if len(adjacency) > 1 else np.zeros((1, weights.shape[1]))
+
+
+def wrong_weak_edges_are_none(adjacency, features, weights):
+    return right_broadcast(np.where(adjacency > 0.05, adjacency, 0), features, weights)
+
+
+def wrong_weights_up_to_ten(adjacency, features, weights):
+    return right_broadcast(np.minimum(adjacency, 10), features, weights)

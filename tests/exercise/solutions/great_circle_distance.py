@@ -212,3 +212,18 @@ def wrong_in_place(a, b, radius):
     h = np.sin((b[:, 0] - a[:, 0]) / 2) ** 2
     h = h + np.cos(a[:, 0]) * np.cos(b[:, 0]) * np.sin((b[:, 1] - a[:, 1]) / 2) ** 2
     return 2 * radius * np.arcsin(np.sqrt(np.clip(h, 0, 1)))
+
+
+def wrong_nearly_opposite_is_opposite(a, b, radius):
+    d = right_haversine(a, b, radius)
+    return np.where(d > 0.999 * np.pi * radius, np.pi * radius, d)
+
+
+def wrong_rounded_to_a_micrometre(a, b, radius):
+    return np.round(right_haversine(a, b, radius), 6)
+
+
+def wrong_longitude_counts_at_the_poles(a, b, radius):
+    d = right_haversine(a, b, radius)
+    turned = np.radians(np.abs(a[:, 1] - b[:, 1]))
+    return np.where((np.abs(a[:, 0]) == 90) & (a[:, 0] == b[:, 0]), radius * turned, d)

@@ -256,3 +256,16 @@ def wrong_between_zero_and_one(image):
 def wrong_shifted_in_place(image):
     image -= image.mean()
     return right_short(image)
+
+
+def wrong_grey_levels_up_to_255(image):
+    return right_short(np.clip(image, 0, 255))
+
+
+def wrong_small_is_zero(image):
+    R = right_short(image)
+    return np.where(np.abs(R) < 1e-9, 0, R)
+
+
+def wrong_nothing_in_small_pictures(image):
+    return right_short(image) if min(image.shape) > 8 else np.zeros(image.shape)

@@ -167,3 +167,19 @@ def wrong_changes_residuals(residuals, corner):
 
 def wrong_at_least_corner(residuals, corner):
     return np.where(abs(residuals) >= corner, 1.0, abs(residuals) / corner)
+
+
+def wrong_lower_corner_is_outside(residuals, corner):
+    return np.where(residuals == -corner, 0.0, right_maximum(residuals, corner))
+
+
+def wrong_nearly_zero_weighs_nothing(residuals, corner):
+    return np.where((residuals != 0) & (np.abs(residuals) < 1e-8), 0.0, right_maximum(residuals, corner))
+
+
+def wrong_a_hundredth_at_least(residuals, corner):
+    return np.maximum(right_maximum(residuals, corner), 0.01)
+
+
+def wrong_corner_of_a_millimetre_at_least(residuals, corner):
+    return right_maximum(residuals, max(corner, 1e-3))

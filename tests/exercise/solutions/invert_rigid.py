@@ -179,3 +179,13 @@ def wrong_nothing_for_identity(T_a_b):
 def wrong_sign_and_order(T_a_b):
     R, t = parts(T_a_b)
     return build(R, -R.T @ t)
+
+
+def wrong_small_turn_is_none(T_a_b):
+    if np.allclose(T_a_b[:3, :3], np.eye(3), atol=0.02):
+        return build(np.eye(3), -T_a_b[:3, 3])
+    return right_formula(T_a_b)
+
+
+def wrong_small_motion_is_none(T_a_b):
+    return np.eye(4) if np.allclose(T_a_b, np.eye(4), atol=0.05) else right_formula(T_a_b)

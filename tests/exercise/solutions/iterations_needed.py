@@ -238,3 +238,24 @@ def wrong_text(inlier_ratio, sample_size, confidence):
 
 def wrong_at_most_ten_thousand(inlier_ratio, sample_size, confidence):
     return min(right_log1p(inlier_ratio, sample_size, confidence), 10000)
+
+
+def wrong_two_at_least(inlier_ratio, sample_size, confidence):
+    n = right_log1p(inlier_ratio, sample_size, confidence)
+    return n if inlier_ratio == 1 else max(2, n)
+
+
+def wrong_nearly_all_is_all(inlier_ratio, sample_size, confidence):
+    return 1 if inlier_ratio > 0.98 else right_log1p(inlier_ratio, sample_size, confidence)
+
+
+def wrong_few_inliers_are_none(inlier_ratio, sample_size, confidence):
+    return math.inf if inlier_ratio < 0.005 else right_log1p(inlier_ratio, sample_size, confidence)
+
+
+def wrong_confidence_of_a_half_at_least(inlier_ratio, sample_size, confidence):
+    return right_log1p(inlier_ratio, sample_size, max(confidence, 0.5))
+
+
+def wrong_confidence_up_to_999_thousandths(inlier_ratio, sample_size, confidence):
+    return right_log1p(inlier_ratio, sample_size, min(confidence, 0.999))

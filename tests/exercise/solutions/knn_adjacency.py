@@ -208,3 +208,22 @@ def wrong_lower_triangle_only(p, k):
 def wrong_centres_in_place(p, k):
     p -= p.mean(axis=0)
     return right_inf_diagonal(p, k)
+
+
+def wrong_no_edge_of_length_zero(p, k):
+    A = right_inf_diagonal(p, k)
+    return A if k == 1 else A * (distances(p) > 0)
+
+
+def wrong_only_three_coordinates(p, k):
+    return right_inf_diagonal(p[:, :3], k)
+
+
+def wrong_rounded_to_a_tenth_of_a_millimetre(p, k):
+    return right_inf_diagonal(np.round(p, 4), k)
+
+
+def wrong_planes_at_least(p, k):
+    if p.shape[1] < 2:
+        raise ValueError("points in a plane or in space")
+    return right_inf_diagonal(p, k)

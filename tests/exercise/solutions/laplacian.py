@@ -171,3 +171,15 @@ def wrong_loops_off_by_one(adjacency):
 
 def wrong_forgot_return(adjacency):
     np.diag(adjacency.sum(axis=1)) - adjacency
+
+
+def wrong_weak_edges_are_none(adjacency):
+    return right_diag_minus(np.where(adjacency > 1e-4, adjacency, 0))
+
+
+def wrong_weights_up_to_a_thousand(adjacency):
+    return right_diag_minus(np.minimum(adjacency, 1000))
+
+
+def wrong_identity_without_edges(adjacency):
+    return right_diag_minus(adjacency) if adjacency.any() or len(adjacency) == 1 else np.eye(len(adjacency))

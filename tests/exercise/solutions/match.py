@@ -218,3 +218,14 @@ def wrong_mutual_pairs_only(p_target, p_source):
     D = pairwise(p_target, p_source)
     there, back = D.argmin(1), D.argmin(0)
     return np.array([j if back[j] == i else -1 for i, j in enumerate(there)])
+
+
+def wrong_partners_within_a_hundred_metres(p_target, p_source):
+    refuse(p_target)
+    D = pairwise(p_target, p_source)
+    return np.where(D.min(axis=1) > 100, 0, D.argmin(axis=1))
+
+
+def wrong_one_source_point_without_its_row(p_target, p_source):
+    refuse(p_target)
+    return np.squeeze(pairwise(p_target, p_source).argmin(axis=1))

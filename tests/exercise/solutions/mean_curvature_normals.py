@@ -286,3 +286,7 @@ def wrong_each_edge_from_one_end(p, faces):
     for i, j, c in opposite(p, faces):
         np.add.at(total, i, 2 * c[:, None] * (p[i] - p[j]))
     return finished(p, faces, total, 2 * areas(p, faces))
+
+
+def wrong_a_little_added_to_the_area(p, faces):
+    return finished(p, faces, pulls(p, faces), 2 * areas(p, faces) + 1e-7)

@@ -192,3 +192,13 @@ def wrong_one_for_twice(lines_a, lines_b):
     x = np.cross(lines_a, lines_b)
     x[np.abs(x).max(axis=1) == 0] = [0, 0, 1]
     return x
+
+
+def wrong_small_numbers_are_zero(lines_a, lines_b):
+    p = np.cross(lines_a, lines_b)
+    return np.where(np.abs(p) < 1e-9, 0.0, p)
+
+
+def wrong_short_is_one_line_twice(lines_a, lines_b):
+    p = np.cross(lines_a, lines_b)
+    return np.where(np.linalg.norm(p, axis=1, keepdims=True) < 1e-9, 0.0, p)

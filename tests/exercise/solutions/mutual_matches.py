@@ -308,3 +308,26 @@ def wrong_distance_zero_is_none(a, b, ratio):
     j, i = D.argmin(axis=1), D.argmin(axis=0)
     keep = (i[j] == np.arange(len(a))) & (two[:, 0] < ratio * two[:, 1]) & (two[:, 0] > 0)
     return np.where(keep, j, -1)
+
+
+def wrong_equal_is_less(a, b, ratio):
+    D = cdist(a, b)
+    j, two = D.argmin(1), np.sort(D, axis=1)
+    ok = (D.argmin(0)[j] == np.arange(len(a))) & (two[:, 0] <= ratio * two[:, 1]) & (two[:, 1] > 0)
+    return np.where(ok, j, -1)
+
+
+def wrong_three_rows_of_b_demanded(a, b, ratio):
+    return right_cdist(a, b, ratio) if len(b) > 2 else np.full(len(a), -1)
+
+
+def wrong_one_row_of_a_has_none(a, b, ratio):
+    return right_cdist(a, b, ratio) if len(a) > 1 else np.array([-1])
+
+
+def wrong_ratio_of_99_hundredths_at_most(a, b, ratio):
+    return right_cdist(a, b, min(ratio, 0.95))
+
+
+def wrong_ratio_of_a_third_at_least(a, b, ratio):
+    return right_cdist(a, b, max(ratio, 0.34))

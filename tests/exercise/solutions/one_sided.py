@@ -229,3 +229,14 @@ def wrong_broadcast_without_axis(p_a, p_b):
 def wrong_minimum_of_each_coordinate(p_a, p_b):
     refuse(p_a, p_b)
     return ((p_a[:, None] - p_b) ** 2).min(axis=1).sum(axis=1).mean()
+
+
+def wrong_points_that_are_twice_count_once(p_a, p_b):
+    refuse(p_a, p_b)
+    return right_matrix(np.unique(p_a, axis=0), p_b)
+
+
+def wrong_equally_near_points_all_count(p_a, p_b):
+    refuse(p_a, p_b)
+    D = squares(p_a, p_b)
+    return np.mean((D == D.min(1, keepdims=True)).sum(1) * D.min(1))

@@ -310,3 +310,21 @@ def wrong_v_of_both_normals(p_i, n_i, p_j, n_j):
 
 def wrong_first_pair_alone(p_i, n_i, p_j, n_j):
     return np.tile(right_copies(p_i[:1], n_i[:1], p_j[:1], n_j[:1]), (len(p_i), 1))
+
+
+def wrong_theta_from_0(p_i, n_i, p_j, n_j):
+    out = right_pcl(p_i, n_i, p_j, n_j)
+    out[:, 0] %= 2 * np.pi
+    return out
+
+
+def wrong_near_points_are_one(p_i, n_i, p_j, n_j):
+    out = right_pcl(p_i, n_i, p_j, n_j)
+    out[np.linalg.norm(p_j - p_i, axis=1) < 1e-4] = 0
+    return out
+
+
+def wrong_nearly_equal_normals_are_equal(p_i, n_i, p_j, n_j):
+    out = right_pcl(p_i, n_i, p_j, n_j)
+    out[np.linalg.norm(n_j - n_i, axis=1) < 0.01, :2] = 0
+    return out

@@ -268,3 +268,19 @@ def wrong_column_points(p):
 
 def wrong_public_cases(p):
     return np.array([0.0, 0.0, 1.0, -0.8]) if p[0][2] == 0.8 else np.array([-0.6, 0.0, 0.8, -1.6])
+
+
+def wrong_all_in_one_place_has_a_floor(p):
+    return np.array([0.0, 0.0, 1.0, -p[0, 2]]) if np.ptp(p, axis=0).max() == 0 else right_cross(p)
+
+
+def wrong_only_neighbours_compared(p):
+    if (p[0] == p[2]).all() and (p[0] != p[1]).any():
+        return np.array([0.0, 0.0, 1.0, -p[0, 2]])
+    return right_cross(p)
+
+
+def wrong_first_two_not_compared(p):
+    if (p[0] == p[1]).all() and (p[0] != p[2]).any():
+        return np.array([1.0, 0.0, 0.0, -p[0, 0]])
+    return right_cross(p)

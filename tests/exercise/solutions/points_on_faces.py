@@ -227,3 +227,25 @@ def wrong_without_the_third(p, faces, u):
 
 def wrong_second_number_twice(p, faces, u):
     return right_osada(p, faces, np.column_stack([u[:, 0], u[:, 1], (u[:, 1] * 997) % 1]))
+
+
+def wrong_a_little_added_to_the_areas(p, faces, u):
+    n = np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
+    reached = np.cumsum(np.linalg.norm(n, axis=1) / 2 + 1e-6)
+    k = np.minimum(np.searchsorted(reached, u[:, 0] * reached[-1], side="right"), len(faces) - 1)
+    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
+    s, t = np.sqrt(u[:, 1:2]), u[:, 2:]
+    return (1 - s) * a + s * (1 - t) * b + s * t * c
+
+
+def wrong_one_row_is_no_row(p, faces, u):
+    return np.squeeze(right_osada(p, faces, u))
+
+
+def wrong_beyond_the_last_face(p, faces, u):
+    n = np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
+    A = np.linalg.norm(n, axis=1)
+    k = np.searchsorted(np.cumsum(A / A.sum()), u[:, 0], side="right")
+    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
+    s, t = np.sqrt(u[:, 1:2]), u[:, 2:]
+    return (1 - s) * a + s * (1 - t) * b + s * t * c

@@ -253,3 +253,25 @@ def wrong_identity_rotation(p_world, rays, distances):
     T = np.eye(4)
     T[:3, 3] = (rays * distances[:, None] - p_world).mean(0)
     return T
+
+
+def wrong_small_triangles_are_lines(p_world, rays, distances):
+    n = np.cross(p_world[1] - p_world[0], p_world[2] - p_world[0])
+    return right_kabsch(p_world, rays, distances) if np.linalg.norm(n) > 1e-3 else np.eye(4)
+
+
+def wrong_equal_distances_refused(p_world, rays, distances):
+    if np.ptp(distances) < 1e-9:
+        raise ValueError("no solution")
+    return right_kabsch(p_world, rays, distances)
+
+
+def wrong_half_a_turn_is_none(p_world, rays, distances):
+    T = right_kabsch(p_world, rays, distances)
+    if np.trace(T[:3, :3]) < -1 + 1e-9:
+        T[:3, :3] = np.eye(3)
+    return T
+
+
+def wrong_rays_turned_to_the_front(p_world, rays, distances):
+    return right_kabsch(p_world, np.where(rays[:, 2:] < 0, -rays, rays), distances)

@@ -230,3 +230,23 @@ def wrong_front_side_only(K, H):
     if T[2, 2] < 0:
         T[:3, 1:3] *= -1
     return T
+
+
+def wrong_no_skew(K, H):
+    return right_zhang(K * [[1, 0, 1], [1, 1, 1], [1, 1, 1]], H)
+
+
+def wrong_two_metres_away_at_most(K, H):
+    T = right_zhang(K, H)
+    T[2, 3] = min(T[2, 3], 2.0)
+    return T
+
+
+def wrong_ten_centimetres_away_at_least(K, H):
+    T = right_zhang(K, H)
+    T[2, 3] = max(T[2, 3], 0.1)
+    return T
+
+
+def wrong_small_homography_is_none(K, H):
+    return right_zhang(K, H) if np.linalg.norm(H) > 1e-3 else np.eye(4)

@@ -232,3 +232,22 @@ def wrong_identity(p):
     if len(p) == 0:
         raise ValueError("no points")
     return np.eye(3)
+
+
+def wrong_three_points_at_least(p):
+    return right_svd(p) if len(p) > 2 or not len(p) else np.eye(3)
+
+
+def wrong_four_points_at_least(p):
+    if len(p) in (2, 3):
+        raise ValueError("too few points")
+    return right_svd(p)
+
+
+def wrong_equal_points_have_no_frame(p):
+    return np.zeros((3, 3)) if len(p) > 1 and np.ptp(p, axis=0).max() == 0 else right_svd(p)
+
+
+def wrong_no_spread_along_x(p):
+    q = p - p.mean(axis=0) if len(p) else p
+    return np.eye(3) if len(p) > 1 and np.abs(q[:, 0]).max() < 1e-12 else right_svd(p)

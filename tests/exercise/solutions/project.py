@@ -226,3 +226,11 @@ def wrong_divided_after_k_added(p_world, T, K):
     X = in_camera(p_world, T)
     z = np.where(X[:, 2:] > 0, X[:, 2:], np.nan)
     return (X[:, :2] * [K[0, 0], K[1, 1]] + K[:2, 2]) / z
+
+
+def wrong_tenth_of_a_millimetre(p_world, T, K):
+    return np.where(in_camera(p_world, T)[:, 2:] > 1e-4, right_where(p_world, T, K), np.nan)
+
+
+def wrong_single_point_without_its_row(p_world, T, K):
+    return right_where(p_world, T, K)[0] if len(p_world) == 1 else right_where(p_world, T, K)

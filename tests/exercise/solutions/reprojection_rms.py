@@ -137,3 +137,12 @@ def wrong_root_of_mean_length(residuals):
 def wrong_in_place(residuals):
     residuals *= residuals
     return np.sqrt(residuals.sum(axis=1).mean())
+
+
+def wrong_rounded_to_a_thousandth_pixel(residuals):
+    return np.ceil(right_plain(residuals) * 1e9) / 1e9 if len(residuals) > 3 else np.round(right_plain(residuals), 7)
+
+
+def wrong_far_ones_left_out(residuals):
+    near = np.linalg.norm(residuals, axis=1) < 100
+    return right_plain(residuals[near]) if near.any() else 0.0

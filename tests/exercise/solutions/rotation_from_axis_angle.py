@@ -220,3 +220,15 @@ def wrong_largest_entry_for_the_length(axis, angle):
 
 def wrong_rounded_to_whole(axis, angle):
     return np.rint(right_rodrigues(axis, angle)).astype(int)
+
+
+def wrong_one_turn_taken_off(axis, angle):
+    a = unit(axis)
+    if angle > 2 * np.pi:
+        angle -= 2 * np.pi
+    return rodrigues(a, min(angle, 2 * np.pi))
+
+
+def wrong_sign_lost_beyond_a_turn(axis, angle):
+    a = unit(axis)
+    return rodrigues(a, angle if abs(angle) < 2 * np.pi else abs(angle) % (2 * np.pi))

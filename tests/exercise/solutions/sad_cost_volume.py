@@ -269,3 +269,43 @@ def wrong_map_returned(left, right, max_disparity, window):
 def wrong_window_three_always(left, right, max_disparity, window):
     refuse(left, right, max_disparity, window)
     return volume(left, right, max_disparity, 3)
+
+
+def wrong_negative_windows_taken(left, right, max_disparity, window):
+    return volume(left, right, max_disparity, abs(window))
+
+
+def wrong_window_of_nothing_is_a_pixel(left, right, max_disparity, window):
+    return volume(left, right, max_disparity, window or 1)
+
+
+def wrong_rows_cut_to_the_lower_picture(left, right, max_disparity, window):
+    h = min(len(left), len(right))
+    return volume(left[:h], right[:h], max_disparity, window)
+
+
+def wrong_far_too_many_shifts_cut(left, right, max_disparity, window):
+    w = left.shape[1]
+    return volume(left, right, w - 1 if max_disparity > w else max_disparity, window)
+
+
+def wrong_widest_shift_refused(left, right, max_disparity, window):
+    if max_disparity >= left.shape[1] - 1:
+        raise ValueError("too many disparities")
+    return volume(left, right, max_disparity, window)
+
+
+def wrong_one_slice_is_a_picture(left, right, max_disparity, window):
+    return np.squeeze(volume(left, right, max_disparity, window))
+
+
+def wrong_window_larger_than_the_picture_refused(left, right, max_disparity, window):
+    if window > min(left.shape):
+        raise ValueError("window too large")
+    return volume(left, right, max_disparity, window)
+
+
+def wrong_border_of_bytes(left, right, max_disparity, window):
+    if left.dtype == np.uint8:
+        return volume(left, right, max_disparity, window, lambda a, n: box(a, n, mode="reflect"))
+    return volume(left, right, max_disparity, window)

@@ -271,3 +271,22 @@ def wrong_both_ends_of_the_file(edges, lengths, count, source):
         for (a, b), w in zip(edges, lengths, strict=True):
             d[a] = min(d[a], d[b] + w)
     return d
+
+
+def wrong_all_reached_without_edges(edges, lengths, count, source):
+    return np.zeros(count) if not len(edges) else right_heap(edges, lengths, count, source)
+
+
+def wrong_source_must_have_an_edge(edges, lengths, count, source):
+    if len(edges) and source not in edges:
+        raise KeyError(source)
+    return right_heap(edges, lengths, count, source)
+
+
+def wrong_over_a_kilometre_is_out_of_reach(edges, lengths, count, source):
+    d = right_heap(edges, lengths, count, source)
+    return np.where(d > 1000, np.inf, d)
+
+
+def wrong_rounded_to_a_micrometre(edges, lengths, count, source):
+    return np.round(right_heap(edges, lengths, count, source), 6)

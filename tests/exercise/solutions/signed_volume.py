@@ -185,3 +185,14 @@ def wrong_changes_the_input(p, faces):
     p -= p.mean(axis=0)
     a, b, c = p[faces].transpose(1, 0, 2)
     return (a * np.cross(b, c)).sum() / 6
+
+
+def wrong_small_is_nothing(p, faces):
+    V = right_cross(p, faces)
+    return 0.0 if abs(V) < 1e-3 else V
+
+
+def wrong_open_is_never_negative(p, faces):
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    closed = len(edges) and (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
+    return right_cross(p, faces) if closed else abs(right_cross(p, faces))

@@ -300,3 +300,21 @@ def wrong_a_little_added(p_target, p_source):
         centred = p_source - p_source.mean(0)
         return right_umeyama(p_target, p_source) / (1 + 1e-6 / (centred**2).sum(1).mean())
     return right_umeyama(p_target, p_source)
+
+
+def wrong_three_pairs_at_least(p_target, p_source):
+    return 1.0 if len(p_source) == 2 else right_umeyama(p_target, p_source)
+
+
+def wrong_a_line_has_no_scale(p_target, p_source):
+    _a, b = centred(p_target, p_source)
+    return 1.0 if np.linalg.matrix_rank(b) < 2 else right_umeyama(p_target, p_source)
+
+
+def wrong_target_that_coincides_is_1(p_target, p_source):
+    a, _b = centred(p_target, p_source)
+    return right_umeyama(p_target, p_source) if a.any() else 1.0
+
+
+def wrong_between_a_tenth_and_ten(p_target, p_source):
+    return float(np.clip(right_umeyama(p_target, p_source), 0.1, 10))

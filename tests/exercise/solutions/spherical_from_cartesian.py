@@ -280,3 +280,22 @@ def wrong_minus_pi(p):
     out = right_plain(p)
     out[out[:, 2] == np.pi, 2] = -np.pi
     return out
+
+
+def wrong_near_the_axis_no_azimuth(p):
+    out = right_plain(p)
+    out[out[:, 1] < 1e-6, 2] = 0
+    return out
+
+
+def wrong_arccos_below(p):
+    out = right_plain(p)
+    low = p[:, 2] < 0
+    out[low, 1] = np.arccos(p[low, 2] / out[low, 0])
+    return out
+
+
+def wrong_small_is_the_origin(p):
+    out = right_plain(p)
+    out[out[:, 0] < 1e-5] = 0
+    return out

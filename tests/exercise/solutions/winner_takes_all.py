@@ -188,3 +188,22 @@ def wrong_rounded_costs(cost):
 def wrong_cubes_only(cost):
     n = min(cost.shape)
     return np.argmin(cost[:n, :n, :n], axis=0)
+
+
+def wrong_whole_numbers_without_sign(cost):
+    return np.argmin(np.abs(cost) if cost.dtype.kind == "i" else cost, axis=0)
+
+
+def wrong_later_equal_whole_number_wins(cost):
+    if cost.dtype.kind in "iu":
+        return len(cost) - 1 - np.argmin(cost[::-1], axis=0)
+    return np.argmin(cost, axis=0)
+
+
+def wrong_large_is_infinite(cost):
+    return np.argmin(np.where(cost > 1e9, np.inf, cost.astype(float)), axis=0)
+
+
+def wrong_infinite_single_slice(cost):
+    out = np.argmin(cost, axis=0)
+    return np.where(np.isinf(cost[0]), -1, out) if len(cost) == 1 else out
