@@ -6,7 +6,7 @@ at once. Every InputError becomes one line on stderr and exit code 2.
 
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -63,17 +63,19 @@ def show(
     """Open one lesson in the browser, at these params; one given by its path is loaded again when its files are saved."""
     from workbench.viewer.serving import serve as serve_page
 
-    _try_first_step(run.lesson, run.params)
-    if step is None and run.preset is not None:
-        step = run.lesson.preset(run.preset).step
     watched = edited = None
     if with_ is not None:
         from workbench.exercise.sandbox import best
         from workbench.exercise.watching import Watched
 
         watched = Watched(run.lesson, with_)
+        first = None if run.preset is not None else watched.first_preset(run.params)
+        run = run if first is None else replace(run, params=first.params, preset=first.name)
         if not best().holds:
             _complain(f"{with_} runs without a sandbox ({best().why}): show only what you trust")
+    _try_first_step(run.lesson, run.params)
+    if step is None and run.preset is not None:
+        step = run.lesson.preset(run.preset).step
     if run.path is not None:
         from workbench.authoring.reloading import Edited
 

@@ -117,6 +117,7 @@ class Contract:
     examples: tuple[tuple[str, str], ...] = ()
     seconds: float = 5.0
     either: Callable[[Any], Any] | None = None
+    preset: str | None = None
 
     def __call__(self, *args: Any) -> Any:
         """Return what our function returns."""
@@ -137,6 +138,7 @@ def contract(
     examples: tuple[tuple[str, str], ...] = (),
     seconds: float = 5.0,
     either: Callable[[Any], Any] | None = None,
+    preset: str | None = None,
 ) -> Callable[[Function], Contract]:
     """Make the contract of an exercise of our function: it has the name of its file, which is that of the exercise.
 
@@ -146,8 +148,12 @@ def contract(
         seconds: How long one call may take.
         either: Where the contract leaves open which of some answers is given (a plane's normal may point to either side):
             makes the other of the one, or a list of the others.
+        preset: The lesson's preset at which a student's own function is first watched, where the default run does not
+            call it.
     """
-    return lambda function: Contract(function=function, slot=slot, examples=examples, seconds=seconds, either=either)
+    return lambda function: Contract(
+        function=function, slot=slot, examples=examples, seconds=seconds, either=either, preset=preset
+    )
 
 
 @dataclass(frozen=True, eq=False)

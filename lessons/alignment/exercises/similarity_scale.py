@@ -23,6 +23,7 @@ from workbench.geometry import alignment
 
 @contract(
     slot="similarity_scale",
+    preset="scale",
     examples=(
         ("similarity_scale(np.array([[0.0, 0, 0], [3, 0, 0], [0, 6, 0]]), np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0]]))",
          "3"),

@@ -12,6 +12,7 @@ from workbench.geometry import globe
 
 @contract(
     slot="great_circle_distance",
+    preset="great-circle",
     examples=(
         ("great_circle_distance(np.array([[0.0, 0.0]]), np.array([[0.0, 90.0]]), 2.0)", "[3.1416]"),
         (

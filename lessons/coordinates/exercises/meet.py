@@ -12,6 +12,7 @@ from workbench.geometry import projective
 
 @contract(
     slot="meet",
+    preset="infinity",
     examples=(
         ("meet(np.array([[1.0, 0, -2]]), np.array([[0.0, 1, -3]]))", "[[2, 3, 1]]"),
         ("meet(np.array([[0.0, 1, 0]]), np.array([[0.0, 1, -1]]))", "[[-1, 0, 0]]"),

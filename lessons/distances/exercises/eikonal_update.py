@@ -14,6 +14,7 @@ Values = Float[np.ndarray, " n"]
 
 @contract(
     slot="eikonal_update",
+    preset="marching",
     examples=(
         ("eikonal_update(np.array([1.0, 0.0]), np.array([1.0, 2.0]), 1.0)", "[1.7071, 1]"),
         ("eikonal_update(np.array([0.3, np.inf]), np.array([np.inf, 0.5]), 0.1)", "[0.4, 0.6]"),

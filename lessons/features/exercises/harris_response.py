@@ -13,6 +13,7 @@ from workbench.geometry import keypoints
 
 @contract(
     slot="harris_response",
+    preset="patches",
     examples=(
         ("harris_response(np.zeros((3, 4)))", "[[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]]"),
         ("harris_response(np.outer(np.arange(9.0), np.ones(9)))[4, 4]", "-0.0354"),

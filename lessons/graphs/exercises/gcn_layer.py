@@ -31,6 +31,7 @@ def club(seed: int) -> Inputs:
 
 @contract(
     slot="gcn_layer",
+    preset="layer",
     examples=(
         ("gcn_layer(np.array([[0.0, 1], [1, 0]]), np.array([[2.0], [4.0]]), np.array([[1.0]]))", "[[3], [3]]"),
         ("gcn_layer(np.zeros((2, 2)), np.array([[2.0], [-4.0]]), np.array([[1.0, -1.0]]))", "[[2, 0], [0, 4]]"),

@@ -25,6 +25,7 @@ from workbench.geometry.motions import apply, exp_so3, motion, skew
 
 @contract(
     slot="step",
+    preset="plane",
     examples=(
         (
             "point_to_plane_step(np.array([[9.0, 0, 0]]), np.array([[0.0, 0, 0]]), np.array([[0.0, 0, 1]]))",

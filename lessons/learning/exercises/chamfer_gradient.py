@@ -15,6 +15,7 @@ HINT = "2/n (p_i − its nearest q), plus 2/m (p_i − q_j) for every q_j whose 
 
 @contract(
     slot="chamfer_gradient",
+    preset="smeared",
     examples=(
         ("chamfer_gradient(array([[0., 0., 0.]]), array([[1., 0., 0.]]))", "[[-4, 0, 0]]"),
         (

@@ -14,6 +14,7 @@ HINT = "w_i = T_i (1 − exp(−density_i · spacing)); T_i is what passes all s
 
 @contract(
     slot="ray_weights",
+    preset="two",
     examples=(
         ("ray_weights(array([[0., 1., 1.]]) * np.log(2), 1.0)", "[[0, 0.5, 0.25]]"),
         ("ray_weights(array([[1000., 1.]]), 0.5)", "[[1, 0]]"),

@@ -14,6 +14,7 @@ HINT = "u = a / |a|; v is b without its part along u, normalised; the third colu
 
 @contract(
     slot="rotation_from_six",
+    preset="rotation",
     examples=(
         ("rotation_from_six(array([[2., 0., 0., 1., 3., 0.]]))", "[[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]"),
         ("rotation_from_six(array([[0., 5., 0., 0., 1., 2.]]))", "[[[0, 0, 1], [1, 0, 0], [0, 1, 0]]]"),

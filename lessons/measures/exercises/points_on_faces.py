@@ -28,6 +28,7 @@ CORNERS = "np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0]]), np.array([[0, 1, 2]])"
 
 @contract(
     slot="points_on_faces",
+    preset="alike",
     examples=(
         (f"points_on_faces({CORNERS}, np.full((2, 3), 0.4)).shape", "(2, 3)"),
         (f"points_on_faces({CORNERS}, np.full((1, 3), 0.4))[:, 2]", "[0]"),

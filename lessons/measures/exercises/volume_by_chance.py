@@ -12,6 +12,7 @@ from workbench.geometry import sampling
 
 @contract(
     slot="volume_by_chance",
+    preset="throws",
     examples=(
         ("volume_by_chance(np.array([True, False, True, True]), 8.0)", "(6.0, 1.73205)"),
         ("volume_by_chance(np.array([False, False]), 8.0)", "(0.0, 0.0)"),

@@ -12,6 +12,7 @@ from workbench.geometry import signed_distances
 
 @contract(
     slot="box_sdf",
+    preset="edges",
     examples=(
         ("box_sdf(np.array([[3.0, 0, 0], [4, 5, 0]]), np.array([1.0, 1, 1]))", "[2, 5]"),
         ("box_sdf(np.array([[0.0, 0, 0], [0, 0, 0.9]]), np.array([1.0, 2, 1]))", "[-1, -0.1]"),
