@@ -214,6 +214,9 @@ def grade(
     assignment: Annotated[
         Path | None, Option("What a handout's assignment.json says its exercises are worth.", "FILE.json")
     ] = None,
+    seed: Annotated[
+        int | None, Option("A number of yours, 0 or more, that the hidden checks are drawn from.", "N")
+    ] = None,
     sandbox: Sandbox = "auto",
 ) -> int:
     """Grade a folder of submissions; goes on where it was interrupted."""
@@ -223,9 +226,10 @@ def grade(
     if lesson is not None:
         lesson_given(lesson)  # what is wrong with it is told once, before the first submission
     worth = None if assignment is None else read_file(assignment).worth
-    asked = Asked(
-        (only,) if only else (), Path(lesson).resolve() if lesson is not None and is_path(lesson) else None, sandbox
-    )
+    if seed is not None and seed < 0:
+        raise InputError(f"--seed {seed}: a seed is 0 or more")
+    place = Path(lesson).resolve() if lesson is not None and is_path(lesson) else None
+    asked = Asked((only,) if only else (), place, sandbox, seed)
     return grade_folder(
         folder,
         out or folder / "graded",

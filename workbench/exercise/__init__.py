@@ -31,12 +31,14 @@ from workbench.exercise.model import (
     number,
     partial,
 )
+from workbench.exercise.seeds import HiddenSeed
 
 __all__ = [
     "Check",
     "Contract",
     "Exercise",
     "Function",
+    "HiddenSeed",
     "Mistake",
     "Verdict",
     "alternative",

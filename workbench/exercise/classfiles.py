@@ -89,6 +89,9 @@ def summary(results: Sequence[Result], worth: Mapping[str, float] | None = None)
     lines = [f"# {counted(len(results), 'submission')}", ""]
     perfectly = f"{perfect} with full marks{_of_what(results, worth)}"
     lines.append(f"{len(graded)} graded, {perfectly}, {len(results) - len(graded)} could not be graded.")
+    seeds = dict.fromkeys(result["seed"] for result in results if result["seed"] is not None)
+    if seeds:
+        lines += ["", f"Hidden checks are drawn from seed {', '.join(map(str, seeds))}."]
     if any(result["sandbox"] == "none" for result in results):
         lines += ["", f"**{UNSAFE}**"]
     parts = Counter(part for result in results for part in result["handed"]) if worth is None else Counter()

@@ -9,6 +9,7 @@ from workbench.exercise.judging import changed
 from workbench.exercise.model import Check, Exercise, Function, Mistake, Verdict, fail
 from workbench.exercise.naming import concerned, recognised
 from workbench.exercise.sandbox import CallBudget, Student, StudentError, Wall
+from workbench.exercise.seeds import drawn_from
 from workbench.exercise.submission import Submission
 
 
@@ -45,6 +46,7 @@ class Report:
         concerned: The names of the checks in which it makes that mistake.
         printed: The beginning of what the student's code printed.
         wall: What shut the student's code in; nothing where it was ours.
+        seed: The teacher's number that the hidden checks were drawn from, None where it was the usual one.
     """
 
     exercise: Exercise
@@ -55,6 +57,7 @@ class Report:
     concerned: frozenset[str] = frozenset()
     printed: str = field(default="", repr=False)
     wall: Wall | None = None
+    seed: int | None = None
 
     @property
     def points(self) -> float:
@@ -85,6 +88,7 @@ def grade_file(
     hidden: bool = True,
     wall: Wall | None = None,
     megabytes: int | None = None,
+    seed: int | None = None,
 ) -> Report:
     """Grade a student's file in a process of its own.
 
@@ -94,6 +98,7 @@ def grade_file(
         hidden: Whether hidden checks are run too.
         wall: What shuts the process in; the best of this machine by default.
         megabytes: Address space of the process; MEGABYTES by default.
+        seed: What the hidden checks are drawn from, 0 or more; None takes their usual seeds.
 
     Raises:
         InputError: If the file cannot be read or does not load; the message names the line.
@@ -102,10 +107,12 @@ def grade_file(
     room = {} if megabytes is None else {"megabytes": megabytes}
     with Student(given, exercise.name, seconds=seconds, wall=wall, budget=CallBudget(seconds), **room) as student:
         student.start()
-        return grade_function(student, exercise, hidden=hidden, file=student.submission.file)
+        return grade_function(student, exercise, hidden=hidden, file=student.submission.file, seed=seed)
 
 
-def grade_function(function: Function, exercise: Exercise, *, hidden: bool = True, file: str = "") -> Report:
+def grade_function(
+    function: Function, exercise: Exercise, *, hidden: bool = True, file: str = "", seed: int | None = None
+) -> Report:
     """Grade a callable: a student's function in its process, or one of ours.
 
     Args:
@@ -113,13 +120,15 @@ def grade_function(function: Function, exercise: Exercise, *, hidden: bool = Tru
         exercise: What is asked of it.
         hidden: Whether hidden checks are run too.
         file: How the report names it.
+        seed: What the hidden checks are drawn from, 0 or more; None takes their usual seeds.
     """
     outcomes: list[Outcome] = []
     asked: dict[str, Candidate] = {}
-    for check in exercise.checks:
-        if check.public or hidden:
-            asked[check.name] = Candidate(function, exercise.reference)
-            outcomes.append(_judged(check, asked[check.name]))
+    with drawn_from(seed):
+        for check in exercise.checks:
+            if check.public or hidden:
+                asked[check.name] = Candidate(function, exercise.reference)
+                outcomes.append(_judged(check, asked[check.name]))
     outcomes = _inputs_looked_at(outcomes, asked)
     failing = {outcome.check.name for outcome in outcomes if outcome.verdict.share < 1.0}
     calls = {name: candidate.calls for name, candidate in asked.items()}
@@ -134,6 +143,7 @@ def grade_function(function: Function, exercise: Exercise, *, hidden: bool = Tru
         frozenset() if mistake is None else concerned(mistake, calls, failing, exercise),
         "" if ours else function.printed(),
         None if ours else function.wall,
+        seed,
     )
 
 

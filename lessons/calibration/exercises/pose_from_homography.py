@@ -97,19 +97,19 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_views(candidate: Function) -> Verdict:
     """Other exact homographies, of either sign, give their poses."""
-    return posed(candidate, GRADERS, 4)
+    return posed(candidate, GRADERS(), 4)
 
 
 @check(2, public=False)
 def other_noise(candidate: Function) -> Verdict:
     """Other noise leaves rotations too."""
-    return rotations(candidate, GRADERS + 10)
+    return rotations(candidate, GRADERS() + 10)
 
 
 @check(1, public=False)
 def before_the_camera(candidate: Function) -> Verdict:
     """H and -H give the same pose, with the board's origin before the camera, seen from the front or from the back."""
-    T, _ = views(GRADERS + 20, 1)[0]
+    T, _ = views(GRADERS() + 20, 1)[0]
     verdicts = []
     for turn in (np.eye(3), np.diag([1.0, -1.0, -1.0])):  # about the board's own x axis: its back is seen
         T_board = motion(T[:3, :3] @ turn, T[:3, 3])

@@ -68,13 +68,13 @@ def residuals_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def shifted(candidate: Function) -> Verdict:
     """Residuals that all point one way count in full."""
-    return worst(said(candidate, some(GRADERS, n, shift=2.0)) for n in (3, 60))
+    return worst(said(candidate, some(GRADERS(), n, shift=2.0)) for n in (3, 60))
 
 
 @check(2, public=False)
 def one_that_is_far_off(candidate: Function) -> Verdict:
     """One corner far off among good ones counts with its square."""
-    residuals = some(GRADERS + 1, 54)
+    residuals = some(GRADERS() + 1, 54)
     residuals[7] += [30.0, -20.0]
     return said(candidate, residuals)
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from workbench.exercise import Function, Verdict, fail, full, number, partial, refused, worst
+from workbench.exercise import Function, HiddenSeed, Verdict, fail, full, number, partial, refused, worst
 from workbench.geometry.motions import apply, exp_so3, motion
 
-STUDENTS, GRADERS = 53, 7718  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 53, HiddenSeed(7718)  # seeds of what a student sees run, and of what only a grader does
 
 
 Cloud = np.ndarray

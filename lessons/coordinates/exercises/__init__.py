@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from workbench.exercise import Verdict, fail, full, partial
+from workbench.exercise import HiddenSeed, Verdict, fail, full, partial
 from workbench.numerals import brief
 
-STUDENTS, GRADERS = 61, 8410  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 61, HiddenSeed(8410)  # seeds of what a student sees run, and of what only a grader does
 
 
 def numbers(values: np.ndarray) -> str:

@@ -102,7 +102,7 @@ def short(candidate: Function, axis: int, metres: float) -> Verdict:
 @check(2, public=False)
 def other_places(candidate: Function) -> Verdict:
     """Other places are right, across the date line and near the poles too."""
-    a, b = places(GRADERS, 12), places(GRADERS + 1, 12)
+    a, b = places(GRADERS(), 12), places(GRADERS() + 1, 12)
     a[:3], b[:3] = [[10.0, 179.5], [-40.0, 170.0], [89.0, 0.0]], [[12.0, -179.0], [-41.0, -170.0], [88.0, 180.0]]
     return judged(candidate, a, b)
 
@@ -110,7 +110,7 @@ def other_places(candidate: Function) -> Verdict:
 @check(1, public=False)
 def the_same_place(candidate: Function) -> Verdict:
     """A place and itself are 0 apart, antipodes half the circumference."""
-    a = np.vstack([places(GRADERS + 2, 40), [[0.0, 0.0], [90.0, 0.0]]])
+    a = np.vstack([places(GRADERS() + 2, 40), [[0.0, 0.0], [90.0, 0.0]]])
     b = np.column_stack([-a[:, 0], np.where(a[:, 1] > 0, a[:, 1] - 180, a[:, 1] + 180)])
     a, b = np.vstack([a, a]), np.vstack([a, b])
     got, right = candidate(a, b, EARTH), np.repeat([0.0, np.pi * EARTH], len(a) // 2)

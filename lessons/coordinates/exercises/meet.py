@@ -96,8 +96,8 @@ def nearly_parallel(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_lines(candidate: Function) -> Verdict:
     """Other lines meet too, and so do single ones."""
-    one = lines(GRADERS + 1, 1)
-    a, b = lines(GRADERS, 12)
+    one = lines(GRADERS() + 1, 1)
+    a, b = lines(GRADERS(), 12)
     found = judged(candidate, *one)
     return judged(candidate, a, b) if found.share == 1.0 else found
 

@@ -93,7 +93,7 @@ def near(candidate: Function, polar: np.ndarray, r: float) -> Verdict:
 @check(2, public=False)
 def other_points_all_round(candidate: Function) -> Verdict:
     """Other points, near and far, have their coordinates too."""
-    near_by, far = all_round(GRADERS, radius=1e-2), all_round(GRADERS + 1, radius=1e4)
+    near_by, far = all_round(GRADERS(), radius=1e-2), all_round(GRADERS() + 1, radius=1e4)
     return judged(candidate, np.concatenate([near_by, far]))
 
 
@@ -106,7 +106,7 @@ def nearer_the_axis(candidate: Function) -> Verdict:
 @check(1, public=False)
 def a_single_point(candidate: Function) -> Verdict:
     """A single point is one row."""
-    return judged(candidate, all_round(GRADERS + 2, 3)[2:])
+    return judged(candidate, all_round(GRADERS() + 2, 3)[2:])
 
 
 @check(1, public=False)

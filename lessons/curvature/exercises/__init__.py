@@ -4,11 +4,11 @@ import numpy as np
 
 from workbench.data import surfaces
 from workbench.data.surfaces import Surface
-from workbench.exercise import Verdict, band, fail, number, partial
+from workbench.exercise import HiddenSeed, Verdict, band, fail, number, partial
 from workbench.geometry.meshes import face_areas, on_boundary
 from workbench.geometry.motions import exp_so3
 
-STUDENTS, GRADERS = 21, 8123  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 21, HiddenSeed(8123)  # seeds of what a student sees run, and of what only a grader does
 
 
 Mesh = tuple[np.ndarray, np.ndarray]

@@ -111,8 +111,8 @@ def gauss_bonnet(candidate: Function) -> Verdict:
     """All defects add up to 2 pi (V - E + F): on a sphere, a torus, a tube, a sheet, whatever the mesh."""
     verdicts = []
     for k, name in enumerate(("sphere", "torus", "cylinder", "saddle")):
-        mesh = irregular(name, GRADERS + k)
-        p = surfaces.with_noise(mesh, 0.02, np.random.default_rng(GRADERS + k)).p
+        mesh = irregular(name, GRADERS() + k)
+        p = surfaces.with_noise(mesh, 0.02, np.random.default_rng(GRADERS() + k)).p
         chi = euler_characteristic(mesh.faces)
         total = float(np.degrees(candidate(p, mesh.faces).sum()))
         what = f"On a {name} with noise your sum is {number(total, 6)} degrees, right is {360 * chi}: error"
@@ -124,9 +124,9 @@ def gauss_bonnet(candidate: Function) -> Verdict:
 @check(2, public=False)
 def defects_go_with_the_mesh(candidate: Function) -> Verdict:
     """Moved, enlarged, turned inside out or numbered anew, every vertex keeps its defect."""
-    rng = np.random.default_rng(GRADERS)
-    mesh = irregular("catenoid", GRADERS, 120)
-    p = 3.0 * mesh.p @ some_rotation(GRADERS).T + rng.normal(size=3)
+    rng = np.random.default_rng(GRADERS())
+    mesh = irregular("catenoid", GRADERS(), 120)
+    p = 3.0 * mesh.p @ some_rotation(GRADERS()).T + rng.normal(size=3)
     cases = ((mesh.p, mesh.faces), (p, mesh.faces), (p, mesh.faces[:, ::-1].copy()), renumbered(p, mesh.faces, rng))
     return worst(defects_verdict(candidate, case, DEFECT_HINT) for case in cases)
 
@@ -144,9 +144,9 @@ def flat_faces_and_lone_vertices(candidate: Function) -> Verdict:
     ball = surfaces.sphere(42)
     verdicts = []
     for k in range(16):  # which cosines rounding takes beyond 1 depends on how the mesh is turned
-        p, faces = with_a_flat_face(ball.p @ some_rotation(GRADERS + k).T, ball.faces)
+        p, faces = with_a_flat_face(ball.p @ some_rotation(GRADERS() + k).T, ball.faces)
         verdicts.append(defects_verdict(candidate, (np.concatenate([p, [[3.0, 0.0, 0.0]]]), faces), FLAT_HINT))
-    verdicts.append(defects_verdict(candidate, with_a_flat_face(*box(GRADERS)), FLAT_HINT))
+    verdicts.append(defects_verdict(candidate, with_a_flat_face(*box(GRADERS())), FLAT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*ALONG_THE_DIAGONAL), FLAT_HINT))
     return worst(verdicts)
 

@@ -2,7 +2,9 @@
 
 import numpy as np
 
-STUDENTS, GRADERS = 31, 9241  # seeds of what a student sees run, and of what only a grader does
+from workbench.exercise import HiddenSeed
+
+STUDENTS, GRADERS = 31, HiddenSeed(9241)  # seeds of what a student sees run, and of what only a grader does
 
 
 Pair = tuple[np.ndarray, np.ndarray]

@@ -90,7 +90,7 @@ def disparities_are_left_alone(candidate: Function) -> Verdict:
 @check(3, public=False)
 def two_cameras(candidate: Function) -> Verdict:
     """Points seen by two cameras come back to the depths at which they are."""
-    rng = np.random.default_rng(GRADERS)
+    rng = np.random.default_rng(GRADERS())
     verdicts = []
     for f, baseline in ((350.0, 0.06), (1200.0, 0.54)):
         x, Z = rng.uniform(-1, 1, 40), rng.uniform(0.8, 40.0, 40)
@@ -102,7 +102,7 @@ def two_cameras(candidate: Function) -> Verdict:
 @check(1, public=False)
 def smaller_pictures(candidate: Function) -> Verdict:
     """In pictures shrunk four times, f and d shrink, and the depth is the same."""
-    d = np.random.default_rng(GRADERS + 1).uniform(3.0, 80.0, (3, 4, 2))
+    d = np.random.default_rng(GRADERS() + 1).uniform(3.0, 80.0, (3, 4, 2))
     return worst(depth_verdict(candidate(d / k, 900.0 / k, 0.15), 135.0 / d, f"1/{k} size: ") for k in (1, 4))
 
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from workbench.exercise import Verdict, fail, full, partial
+from workbench.exercise import HiddenSeed, Verdict, fail, full, partial
 from workbench.numerals import brief
 
-STUDENTS, GRADERS = 23, 7019  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 23, HiddenSeed(7019)  # seeds of what a student sees run, and of what only a grader does
 
 
 def values_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "", *, fair: float = 1e-3) -> Verdict:

@@ -76,13 +76,13 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_dimensions(candidate: Function) -> Verdict:
     """In 1, 3 and 7 dimensions."""
-    return worst(found(candidate, scattered(GRADERS + d, 9, d), f"{d} dimensions: ") for d in (1, 3, 7))
+    return worst(found(candidate, scattered(GRADERS() + d, 9, d), f"{d} dimensions: ") for d in (1, 3, 7))
 
 
 @check(2, public=False)
 def units_do_not_matter(candidate: Function) -> Verdict:
     """One axis in millimetres changes no distance."""
-    p, mean, C = scattered(GRADERS + 20, 8, 2)
+    p, mean, C = scattered(GRADERS() + 20, 8, 2)
     units = np.array([1.0, 1000.0])
     return found(candidate, (p * units, mean * units, C * np.outer(units, units)))
 
@@ -90,7 +90,7 @@ def units_do_not_matter(candidate: Function) -> Verdict:
 @check(1, public=False)
 def one_point_and_many(candidate: Function) -> Verdict:
     """One point, two points in two dimensions, and 3,000."""
-    return worst(found(candidate, scattered(GRADERS + 30 + n, n, 2), f"{n:,} points: ") for n in (1, 2, 3000))
+    return worst(found(candidate, scattered(GRADERS() + 30 + n, n, 2), f"{n:,} points: ") for n in (1, 2, 3000))
 
 
 @mistake("You returned the squared distance. Take the root: only then it is a metric, and counts standard deviations.")

@@ -88,13 +88,13 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def random_networks(candidate: Function) -> Verdict:
     """Networks of 8 to 200 nodes, from any source."""
-    return worst(found(candidate, network(GRADERS + n, n, 4), f"{n} nodes: ") for n in (8, 40, 200))
+    return worst(found(candidate, network(GRADERS() + n, n, 4), f"{n} nodes: ") for n in (8, 40, 200))
 
 
 @check(2, public=False)
 def out_of_reach(candidate: Function) -> Verdict:
     """Nodes in another piece, and nodes without edges, are infinitely far."""
-    edges, lengths, count, _ = network(GRADERS + 300, 15, 3)
+    edges, lengths, count, _ = network(GRADERS() + 300, 15, 3)
     both = np.concatenate([edges, edges + count]), np.concatenate([lengths, lengths])
     return found(candidate, (*both, 2 * count + 2, count + 1))
 

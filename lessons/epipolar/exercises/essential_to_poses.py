@@ -121,14 +121,14 @@ def matrices_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_matrices(candidate: Function) -> Verdict:
     """So they are for other matrices, and none of them mirrors."""
-    return worst(judged(candidate(E), essential.essential_to_poses(E)) for E, _ in some_motions(GRADERS, 12))
+    return worst(judged(candidate(E), essential.essential_to_poses(E)) for E, _ in some_motions(GRADERS(), 12))
 
 
 @check(2, public=False)
 def with_noise(candidate: Function) -> Verdict:
     """Of a matrix that is an essential one but for 0.3 % of noise, they are motions, and within 2.5 degrees."""
-    rng, verdicts = np.random.default_rng(GRADERS + 1), []
-    for E, _ in some_motions(GRADERS + 1):
+    rng, verdicts = np.random.default_rng(GRADERS() + 1), []
+    for E, _ in some_motions(GRADERS() + 1):
         noisy = E + 0.003 * np.linalg.norm(E) * rng.normal(size=(3, 3))
         verdicts.append(judged(candidate(noisy), essential.essential_to_poses(E), good=2.5, fair=5.0))
     return worst(verdicts)

@@ -78,12 +78,12 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_pictures(candidate: Function) -> Verdict:
     """High and wide pictures, and one of noise alone."""
-    noise = np.random.default_rng(GRADERS + 3).normal(128.0, 20.0, (30, 30))
+    noise = np.random.default_rng(GRADERS() + 3).normal(128.0, 20.0, (30, 30))
     return worst(
         judged(candidate, image, what)
         for image, what in (
-            (textured(GRADERS, 64, 24), "64 rows of 24"),
-            (textured(GRADERS + 1, 17, 61), "17 rows of 61"),
+            (textured(GRADERS(), 64, 24), "64 rows of 24"),
+            (textured(GRADERS() + 1, 17, 61), "17 rows of 61"),
             (noise, "Noise"),
         )
     )
@@ -92,7 +92,7 @@ def other_pictures(candidate: Function) -> Verdict:
 @check(1, public=False)
 def brightness_and_contrast(candidate: Function) -> Verdict:
     """A darker picture of a hundredth of the contrast: its response is smaller by 10⁸."""
-    return judged(candidate, 0.01 * textured(GRADERS + 2, 40, 40) + 3.0, "Low contrast")
+    return judged(candidate, 0.01 * textured(GRADERS() + 2, 40, 40) + 3.0, "Low contrast")
 
 
 def products(image: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from workbench.exercise import Verdict, band, fail, number
+from workbench.exercise import HiddenSeed, Verdict, band, fail, number
 
-STUDENTS, GRADERS = 71, 8610  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 71, HiddenSeed(8610)  # seeds of what a student sees run, and of what only a grader does
 
 
 def entries(

@@ -68,7 +68,7 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_units(candidate: Function) -> Verdict:
     """An unknown counted in millimetres gets a step a thousand times as large, and the others the same."""
-    residuals, jacobian = problem(GRADERS)
+    residuals, jacobian = problem(GRADERS())
     return judged(candidate, residuals, jacobian / [1.0, 1000.0, 1.0], 0.2)
 
 
@@ -76,7 +76,9 @@ def other_units(candidate: Function) -> Verdict:
 def other_sizes(candidate: Function) -> Verdict:
     """Other numbers of unknowns have their steps, too."""
     sizes = ((5, 1, 0.0), (8, 2, 0.3), (40, 5, 2.0), (6, 6, 0.01))
-    return worst(judged(candidate, *problem(GRADERS + k, n, m), damping) for k, (n, m, damping) in enumerate(sizes, 1))
+    return worst(
+        judged(candidate, *problem(GRADERS() + k, n, m), damping) for k, (n, m, damping) in enumerate(sizes, 1)
+    )
 
 
 def normal(jacobian: np.ndarray) -> np.ndarray:

@@ -67,14 +67,14 @@ def residuals_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def all_on_one_side(candidate: Function) -> Verdict:
     """Points below the plane are weighed as those above."""
-    r = np.abs(some_residuals(GRADERS, 0.2))
+    r = np.abs(some_residuals(GRADERS(), 0.2))
     return worst((judged(candidate, -r, 0.2), judged(candidate, r, 0.2)))
 
 
 @check(2, public=False)
 def other_corners(candidate: Function) -> Verdict:
     """Other corners, and single points, have their weights too."""
-    cases = [(some_residuals(GRADERS + 1, 4.685, 30), 4.685), (np.array([-2.5]), 1.345), (np.array([0.0]), 0.1)]
+    cases = [(some_residuals(GRADERS() + 1, 4.685, 30), 4.685), (np.array([-2.5]), 1.345), (np.array([0.0]), 0.1)]
     return worst(judged(candidate, r, corner) for r, corner in cases)
 
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from workbench.exercise import Verdict, fail, full, partial
+from workbench.exercise import HiddenSeed, Verdict, fail, full, partial
 from workbench.numerals import brief
 
-STUDENTS, GRADERS = 17, 6043  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 17, HiddenSeed(6043)  # seeds of what a student sees run, and of what only a grader does
 
 
 def weighted(seed: int, count: int, chance: float = 0.5) -> np.ndarray:

@@ -86,20 +86,20 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def the_karate_club(candidate: Function) -> Verdict:
     """34 members with five features each."""
-    return worst(found(candidate, club(GRADERS + k)) for k in range(2))
+    return worst(found(candidate, club(GRADERS() + k)) for k in range(2))
 
 
 @check(2, public=False)
 def weighted_graphs(candidate: Function) -> Verdict:
     """Edges have weights, and degrees are their sums, the loop's 1 among them."""
     cases = ((6, 2, 5), (25, 4, 3), (40, 1, 1))
-    return worst(found(candidate, inputs(GRADERS + n, n, a, b), f"{n} nodes: ") for n, a, b in cases)
+    return worst(found(candidate, inputs(GRADERS() + n, n, a, b), f"{n} nodes: ") for n, a, b in cases)
 
 
 @check(1, public=False)
 def nodes_without_edges(candidate: Function) -> Verdict:
     """A node without edges keeps its own features, through W and ReLU."""
-    adjacency, x, w = inputs(GRADERS + 20, 9)
+    adjacency, x, w = inputs(GRADERS() + 20, 9)
     adjacency[:, [0, 4]] = adjacency[[0, 4]] = 0.0
     alone = np.zeros((3, 3))
     return worst((found(candidate, (adjacency, x, w), "Two lone nodes: "),

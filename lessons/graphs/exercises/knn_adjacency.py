@@ -88,23 +88,23 @@ def points_are_left_alone(candidate: Function) -> Verdict:
 def other_counts(candidate: Function) -> Verdict:
     """One neighbour to all but one, few points and many."""
     cases = ((2, 1), (10, 9), (30, 1), (60, 7))
-    return worst(found(candidate, cloud(GRADERS + n, n), k, f"{n} points, k = {k}: ") for n, k in cases)
+    return worst(found(candidate, cloud(GRADERS() + n, n), k, f"{n} points, k = {k}: ") for n, k in cases)
 
 
 @check(2, public=False)
 def moved_clouds(candidate: Function) -> Verdict:
     """Turned, moved a kilometre, enlarged, flat or in another order, the graph is the same."""
-    rng = np.random.default_rng(GRADERS)
-    p = cloud(GRADERS + 1, 50)
+    rng = np.random.default_rng(GRADERS())
+    p = cloud(GRADERS() + 1, 50)
     away = 3.0 * p @ exp_so3(rng.normal(size=3)).T + 1000.0 * rng.normal(size=3)
-    cases = ((away, "Moved: "), (rng.permutation(p), "Other order: "), (cloud(GRADERS + 2, 50, 2), "In the plane: "))
+    cases = ((away, "Moved: "), (rng.permutation(p), "Other order: "), (cloud(GRADERS() + 2, 50, 2), "In the plane: "))
     return worst(found(candidate, q, 5, what) for q, what in cases)
 
 
 @check(1, public=False)
 def two_at_one_place(candidate: Function) -> Verdict:
     """Of two points at one place each names the other, and not itself."""
-    return worst(found(candidate, with_a_pair(GRADERS + k), 1, "Two at one place: ") for k in range(3))
+    return worst(found(candidate, with_a_pair(GRADERS() + k), 1, "Two at one place: ") for k in range(3))
 
 
 def ranks(p: np.ndarray) -> np.ndarray:

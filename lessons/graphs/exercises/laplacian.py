@@ -60,9 +60,9 @@ def adjacency_is_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def a_constant_costs_nothing(candidate: Function) -> Verdict:
     """L 1 = 0, and u^T L u adds up the weighted squared differences of the edges."""
-    rng, verdicts = np.random.default_rng(GRADERS), []
+    rng, verdicts = np.random.default_rng(GRADERS()), []
     for k, count in enumerate((3, 12, 40)):
-        adjacency = weighted(GRADERS + k, count)
+        adjacency = weighted(GRADERS() + k, count)
         L, u = candidate(adjacency), rng.normal(size=count)
         right = float((np.triu(adjacency) * (u[:, None] - u) ** 2).sum())
         got = float(u @ L @ u)
@@ -76,13 +76,13 @@ def a_constant_costs_nothing(candidate: Function) -> Verdict:
 def graphs_of_all_sizes(candidate: Function) -> Verdict:
     """Graphs of 2 to 60 nodes, sparse and full, entry by entry."""
     sizes = ((2, 1.0), (9, 0.3), (25, 1.0), (60, 0.1))
-    return worst(found(candidate, weighted(GRADERS + 10 + n, n, chance), f"{n} nodes: ") for n, chance in sizes)
+    return worst(found(candidate, weighted(GRADERS() + 10 + n, n, chance), f"{n} nodes: ") for n, chance in sizes)
 
 
 @check(1, public=False)
 def nodes_without_edges(candidate: Function) -> Verdict:
     """A node without edges has a row of zeros, and a graph of one node is 0."""
-    lonely = weighted(GRADERS + 20, 7)
+    lonely = weighted(GRADERS() + 20, 7)
     lonely[:, [2, 5]] = lonely[[2, 5]] = 0.0
     return worst((found(candidate, lonely, "Two lone nodes: "), found(candidate, np.zeros((1, 1)), "One node: ")))
 

@@ -101,7 +101,7 @@ def clouds_are_left_alone(candidate: Function) -> Verdict:
 def uneven_clouds(candidate: Function) -> Verdict:
     """Few targets for many points, many for few, and a single one are all served."""
     sizes = ((7, 300), (300, 7), (1, 20), (90, 90))
-    return worst(nearest_found(candidate, *two_clouds(GRADERS + k, m, n)) for k, (m, n) in enumerate(sizes))
+    return worst(nearest_found(candidate, *two_clouds(GRADERS() + k, m, n)) for k, (m, n) in enumerate(sizes))
 
 
 @check(1, public=False)
@@ -109,8 +109,8 @@ def moved_clouds(candidate: Function) -> Verdict:
     """Moving both clouds a thousand kilometres away and turning them changes no partner."""
     verdicts = []
     for k in range(3):
-        p_target, p_source = two_clouds(GRADERS + 10 + k, 120, 100)
-        T = a_motion(np.random.default_rng(GRADERS + k), 100.0, 1e6)
+        p_target, p_source = two_clouds(GRADERS() + 10 + k, 120, 100)
+        T = a_motion(np.random.default_rng(GRADERS() + k), 100.0, 1e6)
         verdicts.append(
             nearest_found(candidate, apply(T, p_target), apply(T, p_source), "Far from the origin. " + MATCH_HINT)
         )
@@ -120,14 +120,14 @@ def moved_clouds(candidate: Function) -> Verdict:
 @check(1, public=False)
 def double_points(candidate: Function) -> Verdict:
     """Target points that occur twice do no harm."""
-    p_target, p_source = two_clouds(GRADERS + 20, 40, 60)
+    p_target, p_source = two_clouds(GRADERS() + 20, 40, 60)
     return nearest_found(candidate, np.vstack([p_target, p_target]), np.vstack([p_source, p_target]))
 
 
 @check(1, public=False)
 def no_target(candidate: Function) -> Verdict:
     """A target without points is refused."""
-    return refused(candidate, np.empty((0, 3)), two_clouds(GRADERS, 1, 5)[1], what="An empty target")
+    return refused(candidate, np.empty((0, 3)), two_clouds(GRADERS(), 1, 5)[1], what="An empty target")
 
 
 @mistake(

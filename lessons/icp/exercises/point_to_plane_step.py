@@ -129,7 +129,7 @@ def noisy_step(candidate: Function) -> Verdict:
     """With noise and normals of either sign, one step is the least-squares step."""
     verdicts = []
     for k in range(3):
-        rng = np.random.default_rng(GRADERS + k)
+        rng = np.random.default_rng(GRADERS() + k)
         p_true, n_target = planes(rng, 150)
         p_source = apply(a_motion(rng, 1.5, 0.02), p_true) + 0.01 * rng.normal(size=p_true.shape)
         p_target, signs = slid(rng, p_true, n_target), rng.choice([-1.0, 1.0], (150, 1))
@@ -140,13 +140,15 @@ def noisy_step(candidate: Function) -> Verdict:
 @check(2, public=False)
 def steps_arrive_elsewhere(candidate: Function) -> Verdict:
     """Six steps arrive from other starts too, also five metres from the origin."""
-    return worst([arrived(candidate, GRADERS + 10, 15.0, 0.1), arrived(candidate, GRADERS + 11, 8.0, 0.05, aside=5.0)])
+    return worst(
+        [arrived(candidate, GRADERS() + 10, 15.0, 0.1), arrived(candidate, GRADERS() + 11, 8.0, 0.05, aside=5.0)]
+    )
 
 
 @check(1, public=False)
 def sliding(candidate: Function) -> Verdict:
     """A single plane pulls points onto itself and does not slide or spin them."""
-    rng = np.random.default_rng(GRADERS + 20)
+    rng = np.random.default_rng(GRADERS() + 20)
     flat = rng.uniform(-1, 1, (40, 3)) * [1.0, 1.0, 0.0]
     flat -= flat.mean(0)
     n_target = np.tile([0.0, 0.0, 1.0], (40, 1))

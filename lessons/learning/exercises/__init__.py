@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from workbench.exercise import Verdict, fail, full, partial
+from workbench.exercise import HiddenSeed, Verdict, fail, full, partial
 from workbench.numerals import brief
 
-STUDENTS, GRADERS = 61, 9203  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 61, HiddenSeed(9203)  # seeds of what a student sees run, and of what only a grader does
 
 
 def entries_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "") -> Verdict:

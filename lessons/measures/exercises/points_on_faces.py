@@ -135,8 +135,8 @@ def what_comes_in_is_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def a_whole_surface(candidate: Function) -> Verdict:
     """On a mesh of faces of many sizes every part gets its share, face by face."""
-    p, faces = with_small_half(*blob(GRADERS))
-    q = candidate(p, faces, even(16, GRADERS))
+    p, faces = with_small_half(*blob(GRADERS()))
+    q = candidate(p, faces, even(16, GRADERS()))
     areas = face_areas(p, faces)
     middle = areas @ p[faces].mean(axis=1) / areas.sum()
     size = float(np.linalg.norm(np.ptp(p, axis=0)))
@@ -149,7 +149,7 @@ def a_whole_surface(candidate: Function) -> Verdict:
 def other_triangles(candidate: Function) -> Verdict:
     """Long and small triangles are filled evenly too."""
     return worst(
-        filled(candidate, triangle, GRADERS + k)
+        filled(candidate, triangle, GRADERS() + k)
         for k, triangle in enumerate(
             (np.array([[0.0, 0, 0], [10, 0, 0], [0, 0.1, 0]]), np.array([[5.0, 5, 5], [5, 5.01, 5], [5.01, 5, 5.01]]))
         )
@@ -159,8 +159,8 @@ def other_triangles(candidate: Function) -> Verdict:
 @check(1, public=False)
 def the_same_row_gives_the_same_point(candidate: Function) -> Verdict:
     """Rows do not know of each other: in another order they give the same points, and so they do again."""
-    p, faces = blob(GRADERS + 1)
-    u = even(7, GRADERS + 3)
+    p, faces = blob(GRADERS() + 1)
+    u = even(7, GRADERS() + 3)
     q, again = candidate(p, faces, u), candidate(p, faces, u[::-1].copy())
     off = float(np.linalg.norm(q - again[::-1], axis=1).max())
     hint = "Use the rows of u, in their order, and no numbers of your own."

@@ -89,7 +89,7 @@ def hits_are_left_alone(candidate: Function) -> Verdict:
 def other_boxes(candidate: Function) -> Verdict:
     """Small and large boxes, few and many hits: both numbers follow."""
     cases = ((200, 20, 0.03), (5000, 4800, 120.0), (10_000, 37, 1.0))
-    return worst(both(candidate, hits(n, count, GRADERS), box) for n, count, box in cases)
+    return worst(both(candidate, hits(n, count, GRADERS()), box) for n, count, box in cases)
 
 
 @check(1, public=False)

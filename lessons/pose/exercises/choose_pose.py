@@ -140,14 +140,14 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def some_points_behind(candidate: Function) -> Verdict:
     """A pose amid the points is refused too."""
-    return worst(judged(candidate, *half_behind(GRADERS + k), "All points have to be in front.") for k in range(2))
+    return worst(judged(candidate, *half_behind(GRADERS() + k), "All points have to be in front.") for k in range(2))
 
 
 @check(2, public=False)
 def of_other_points(candidate: Function) -> Verdict:
     """Other points, noisier, and a single pose."""
-    one, p_world, xy = several(GRADERS + 30)
-    verdicts = [judged(candidate, *several(GRADERS + 10 + k, 20, 3e-3)) for k in range(8)]
+    one, p_world, xy = several(GRADERS() + 30)
+    verdicts = [judged(candidate, *several(GRADERS() + 10 + k, 20, 3e-3)) for k in range(8)]
     return worst([*verdicts, judged(candidate, one[:1], p_world, xy)])
 
 
@@ -155,13 +155,13 @@ def of_other_points(candidate: Function) -> Verdict:
 def the_root_mean_square_decides(candidate: Function) -> Verdict:
     """It is the root mean square that is least, not the mean, the median, the sum of |dx| + |dy| or the largest."""
     hint = "Square the distances, both coordinates of all points, and take their mean."
-    return worst(judged(candidate, *told_apart(GRADERS + 50 + k), hint) for k in range(3))
+    return worst(judged(candidate, *told_apart(GRADERS() + 50 + k), hint) for k in range(3))
 
 
 @check(1, public=False)
 def of_small_things(candidate: Function) -> Verdict:
     """Points some centimetres before the camera are in front too: Z > 0 is asked, not some distance."""
-    Ts, p_world, xy = several(GRADERS + 60)
+    Ts, p_world, xy = several(GRADERS() + 60)
     near = Ts[np.argsort(np.abs(Ts - camera_search.choose_pose(Ts, p_world, xy)).sum(axis=(1, 2)))[::-1]]  # right: last
     near[:, :3, 3] *= 0.005
     return judged(candidate, near, 0.005 * p_world, xy, "Z > 0 is in front, however near.")
@@ -170,7 +170,7 @@ def of_small_things(candidate: Function) -> Verdict:
 @check(1, public=False)
 def none_in_front(candidate: Function) -> Verdict:
     """Where none has all points in front, it is the first."""
-    Ts, p_world, xy = with_twin(GRADERS + 40)
+    Ts, p_world, xy = with_twin(GRADERS() + 40)
     behind = np.stack([Ts[0], np.diag([-1.0, 1.0, -1.0, 1.0]) @ Ts[1]])
     return judged(candidate, behind[::-1].copy(), p_world, xy, "None is in front: return the first.")
 

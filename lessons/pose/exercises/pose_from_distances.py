@@ -88,13 +88,13 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_cameras(candidate: Function) -> Verdict:
     """Cameras at other places are found too."""
-    return judged(candidate, range(GRADERS, GRADERS + 20))
+    return judged(candidate, range(GRADERS(), GRADERS() + 20))
 
 
 @check(2, public=False)
 def far_from_the_origin(candidate: Function) -> Verdict:
     """Points a hundred kilometres from the origin are as good."""
-    return judged(candidate, range(GRADERS + 30, GRADERS + 34), aside=1e5)
+    return judged(candidate, range(GRADERS() + 30, GRADERS() + 34), aside=1e5)
 
 
 def kabsch(p: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

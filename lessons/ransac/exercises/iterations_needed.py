@@ -104,7 +104,7 @@ def no_outliers(candidate: Function) -> Verdict:
 @check(3, public=False)
 def the_smallest_that_is_enough(candidate: Function) -> Verdict:
     """N samples are all spoilt in at most the share of runs that the confidence leaves, N - 1 in more."""
-    rng = np.random.default_rng(GRADERS + 70)
+    rng = np.random.default_rng(GRADERS() + 70)
     exact = ((0.5, 1, 1 - 0.5**n) for n in (1, 2, 4, 8))  # n samples are just enough, and logarithms say so exactly
     hint = f"Just enough is enough. {NEEDED_HINT}"
     boundary = [needed_verdict(candidate, *case, hint) for case in exact]

@@ -154,7 +154,7 @@ def points_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def moved_and_turned(candidate: Function) -> Verdict:
     """Points that are turned and moved take their plane along, whichever of them comes first."""
-    rng, verdicts = np.random.default_rng(GRADERS), []
+    rng, verdicts = np.random.default_rng(GRADERS()), []
     for k in range(3):
         p, R, t = a_triangle(rng), exp_so3(rng.normal(size=3)), rng.uniform(-3.0, 3.0, 3)
         plane, moved = candidate(p), p @ R.T + t
@@ -170,7 +170,7 @@ def moved_and_turned(candidate: Function) -> Verdict:
 @check(2, public=False)
 def upright_and_through_the_origin(candidate: Function) -> Verdict:
     """A wall, which has no height over the floor, and planes through the origin are found."""
-    rng = np.random.default_rng(GRADERS + 10)
+    rng = np.random.default_rng(GRADERS() + 10)
     wall = np.array([[0.5, -1.0, 0.0], [2.0, 1.0, 0.0], [0.5, -1.0, 2.4]])
     through = a_triangle(rng)
     through[2] = 0.7 * through[0] - 0.4 * through[1]
@@ -188,7 +188,7 @@ def upright_and_through_the_origin(candidate: Function) -> Verdict:
 @check(2, public=False)
 def small_large_and_far(candidate: Function) -> Verdict:
     """Sides of a micrometre and of a kilometre, and triangles a kilometre away, have a plane too."""
-    rng = np.random.default_rng(GRADERS + 20)
+    rng = np.random.default_rng(GRADERS() + 20)
     verdicts = [found(candidate, a_triangle(rng, size), f"Sides of {size:g} m") for size in (1e-3, 1e-6, 1e3)]
     far = a_triangle(rng) + np.array([800.0, -600.0, 50.0])
     thin = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.5, 1e-4, 1.0]])
@@ -202,7 +202,7 @@ def small_large_and_far(candidate: Function) -> Verdict:
 @check(2, public=False)
 def nearly_on_a_line(candidate: Function) -> Verdict:
     """Points on one line but for rounding give four nan, near and a kilometre apart; thirty times the bound is a plane."""
-    rng, verdicts = np.random.default_rng(GRADERS + 30), []
+    rng, verdicts = np.random.default_rng(GRADERS() + 30), []
     for size in (1.0, 1e3, 1e-3):
         direction, start = rng.normal(size=(2, 3))
         p = size * (start + np.outer([0.1, 0.7, -0.9], direction))

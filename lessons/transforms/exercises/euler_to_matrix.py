@@ -91,7 +91,7 @@ def carried_axes(candidate: Function) -> Verdict:
 @check(2, public=False)
 def all_orders(candidate: Function) -> Verdict:
     """All 24 orders give the right rotation."""
-    verdicts = {order: _ordered(candidate, some_angles(GRADERS + k), order) for k, order in enumerate(EULER_ORDERS)}
+    verdicts = {order: _ordered(candidate, some_angles(GRADERS() + k), order) for k, order in enumerate(EULER_ORDERS)}
     right = [order for order, verdict in verdicts.items() if verdict.share == 1.0]
     if len(right) == len(verdicts):
         return full("24 of 24 orders are right.")
@@ -111,8 +111,8 @@ def gimbal_lock(candidate: Function) -> Verdict:
 @check(1, public=False)
 def unknown_orders(candidate: Function) -> Verdict:
     """Orders that are none of the 24 are refused, and the angles are left alone."""
-    kept = left_alone(candidate, _ordered(candidate, some_angles(GRADERS), "zyx"))
-    asked = (refused(candidate, some_angles(GRADERS), order, what=f'The order "{order}"') for order in ("xxy", "xYz"))
+    kept = left_alone(candidate, _ordered(candidate, some_angles(GRADERS()), "zyx"))
+    asked = (refused(candidate, some_angles(GRADERS()), order, what=f'The order "{order}"') for order in ("xxy", "xYz"))
     return worst([*asked, kept])
 
 
