@@ -133,7 +133,7 @@ def eight_are_enough(candidate: Function) -> Verdict:
 @check(3, public=False)
 def other_matches(candidate: Function) -> Verdict:
     """Other noisy matches give lines as near, and none of their F has rank three."""
-    verdicts = [judged(candidate, a_pair(GRADERS() + k), 0.9, 1.8) for k in (2, 3, 4)]
+    verdicts = [judged(candidate, a_pair(GRADERS() + k, 120), 0.9, 1.8) for k in (2, 3, 4)]
     return worst([*verdicts, ranked(candidate, a_pair(GRADERS() + 5))])
 
 

@@ -67,7 +67,7 @@ def a_constant_costs_nothing(candidate: Function) -> Verdict:
         right = float((np.triu(adjacency) * (u[:, None] - u) ** 2).sum())
         got = float(u @ L @ u)
         told = f"u^T L u is {got:.5g}, right is {right:.5g}. {HINT}"
-        off = max(abs(got - right) / right, float(np.abs(L.sum(axis=1)).max()))
+        off = max(abs(got - right) / max(right, 1.0), float(np.abs(L.sum(axis=1)).max()))
         verdicts.append(band(f"{count} nodes: error", off, "", good=1e-6, fair=1e-3, hint=told))
     return worst(verdicts)
 

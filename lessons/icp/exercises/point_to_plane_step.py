@@ -131,7 +131,7 @@ def noisy_step(candidate: Function) -> Verdict:
     for k in range(3):
         rng = np.random.default_rng(GRADERS() + k)
         p_true, n_target = planes(rng, 150)
-        p_source = apply(a_motion(rng, 1.5, 0.02), p_true) + 0.01 * rng.normal(size=p_true.shape)
+        p_source = apply(a_motion(rng, 0.5, 0.02), p_true) + 0.005 * rng.normal(size=p_true.shape)
         p_target, signs = slid(rng, p_true, n_target), rng.choice([-1.0, 1.0], (150, 1))
         verdicts.append(_stepped(candidate(p_target, p_source, signs * n_target), p_target, p_source, n_target))
     return worst(verdicts)
