@@ -191,7 +191,7 @@ def check(
     for report in reports:
         sys.stdout.write(terminal(report) + "\n")
         sys.stdout.flush()  # what follows takes a while
-        recorded = None if report.is_full else record_failing(report.exercise, file, lesson=own)
+        recorded = None if report.is_full or report.is_refused else record_failing(report.exercise, file, lesson=own)
         if recorded is not None:
             sys.stdout.write(f"  Watch where it goes wrong: {command_line('replay', recorded)}\n")
     for item in failed:

@@ -11,7 +11,13 @@ from workbench.exercise.reports import UNSAFE
 from workbench.numerals import counted
 
 Result = dict[str, Any]
-HOW = {"timeout": "hangs", "died": "crashes", "raised": "raises", "result": "returns no result"}
+HOW = {
+    "timeout": "hangs",
+    "died": "crashes",
+    "raised": "raises",
+    "result": "returns no result",
+    "forbidden": "is refused",
+}
 
 
 def is_full(result: Result, worth: Mapping[str, float] | None = None) -> bool:
@@ -117,6 +123,7 @@ def _trouble(result: Result) -> str:
     said = [item["error"] for item in result["ungraded"]]
     for report in result["reports"]:
         kinds = Counter(HOW[check["kind"]] for check in report["checks"] if check["kind"] in ("timeout", "died"))
+        said += list(dict.fromkeys(check["message"] for check in report["checks"] if check["kind"] == "forbidden"))
         said += [f"{report['exercise']} {how} in {_checks(count)}" for how, count in kinds.items()]
     return "; ".join([*said, *([result["note"]] if result["note"] else [])])
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from workbench.errors import one_line
 from workbench.exercise.candidate import Candidate
+from workbench.exercise.forbidden import forbidden_use
 from workbench.exercise.judging import changed
 from workbench.exercise.model import Check, Exercise, Function, Mistake, Verdict, fail
 from workbench.exercise.naming import concerned, recognised
@@ -20,7 +21,8 @@ class Outcome:
     Attributes:
         check: What was promised.
         verdict: How it was kept.
-        kind: Why there was no answer to judge: a `kind` of StudentError (`timeout`, `died`, `raised`, `result`), or nothing.
+        kind: Why there was no answer to judge: a `kind` of StudentError (`timeout`, `died`, `raised`, `result`), `forbidden`
+            where the file uses what the contract forbids, or nothing.
     """
 
     check: Check
@@ -75,6 +77,11 @@ class Report:
         return all(outcome.verdict.share == 1.0 for outcome in self.outcomes)
 
     @property
+    def is_refused(self) -> bool:
+        """Whether nothing was run, since the file uses what the contract forbids."""
+        return any(outcome.kind == "forbidden" for outcome in self.outcomes)
+
+    @property
     def said_once(self) -> str:
         """The sentence that all of several checks say, such as that nothing is written yet; nothing where they differ."""
         said = {outcome.verdict.message for outcome in self.outcomes}
@@ -106,7 +113,6 @@ def grade_file(
     seconds = exercise.contract.seconds
     room = {} if megabytes is None else {"megabytes": megabytes}
     with Student(given, exercise.name, seconds=seconds, wall=wall, budget=CallBudget(seconds), **room) as student:
-        student.start()
         return grade_function(student, exercise, hidden=hidden, file=student.submission.file, seed=seed)
 
 
@@ -122,6 +128,11 @@ def grade_function(
         file: How the report names it.
         seed: What the hidden checks are drawn from, 0 or more; None takes their usual seeds.
     """
+    if isinstance(function, Student):
+        said = forbidden_use(function.submission, exercise)
+        if said:
+            return _refused(said, exercise, hidden, file, function.wall, seed)
+        function.start()
     outcomes: list[Outcome] = []
     asked: dict[str, Candidate] = {}
     with drawn_from(seed):
@@ -144,6 +155,15 @@ def grade_function(
         "" if ours else function.printed(),
         None if ours else function.wall,
         seed,
+    )
+
+
+def _refused(said: str, exercise: Exercise, hidden: bool, file: str, wall: Wall, seed: int | None) -> Report:
+    """Return the report on a file that uses what is forbidden: nothing of it is run, and every check says why."""
+    run = [check for check in exercise.checks if check.public or hidden]
+    outcomes = tuple(Outcome(check, fail(said), "forbidden") for check in run)
+    return Report(
+        exercise, file, outcomes, tuple(one for one in exercise.checks if one not in run), wall=wall, seed=seed
     )
 
 

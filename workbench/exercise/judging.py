@@ -86,8 +86,8 @@ def refused(candidate: Function, *args: Any, what: str) -> Verdict:
     except StudentError as error:
         if "ValueError" in error.errors:
             return full(f"{what} is refused with a ValueError.")
-        if error.error in ("", "NotImplementedError"):
-            raise
+        if error.error in ("", "NotImplementedError") or "ImportError" in error.errors:
+            raise  # the function did not come to look at what it was given
         return partial(0.5, f"{what} raised {error.error}; the contract asks for a ValueError.")
     said = "nothing" if value is None else f"an answer ({_short(value)})"
     return fail(f"{what} gave {said}; the contract asks for `raise ValueError`.")

@@ -118,6 +118,7 @@ class Contract:
     seconds: float = 5.0
     either: Callable[[Any], Any] | None = None
     preset: str | None = None
+    forbid: tuple[str, ...] = ()
 
     def __call__(self, *args: Any) -> Any:
         """Return what our function returns."""
@@ -139,6 +140,7 @@ def contract(
     seconds: float = 5.0,
     either: Callable[[Any], Any] | None = None,
     preset: str | None = None,
+    forbid: tuple[str, ...] = (),
 ) -> Callable[[Function], Contract]:
     """Make the contract of an exercise of our function: it has the name of its file, which is that of the exercise.
 
@@ -150,9 +152,11 @@ def contract(
             makes the other of the one, or a list of the others.
         preset: The lesson's preset at which a student's own function is first watched, where the default run does not
             call it.
+        forbid: Modules, or what is in them, by whole paths such as "scipy.spatial", that solve the task in one call: who
+            uses them earns nothing.
     """
     return lambda function: Contract(
-        function=function, slot=slot, examples=examples, seconds=seconds, either=either, preset=preset
+        function=function, slot=slot, examples=examples, seconds=seconds, either=either, preset=preset, forbid=forbid
     )
 
 

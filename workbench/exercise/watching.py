@@ -93,7 +93,6 @@ class Watched:
         said: Report | str
         try:
             with self._new() as student:
-                student.start()
                 said = grade_function(student, self.exercise, hidden=False, file=self.path.name)
         except InputError as error:
             said = str(error)

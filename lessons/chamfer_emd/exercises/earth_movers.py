@@ -27,6 +27,7 @@ from workbench.exercise import Function, Verdict, alternative, check, contract, 
 
 @contract(
     slot="earth_movers",
+    forbid=("scipy.stats",),
     examples=(
         (f"earth_movers({PAIR}, np.array([[1.0, 0, 0.5], [0, 0, 0.5]]))", "0.5"),
         (f"earth_movers({PAIR}, np.array([[0.0, 0, 0]]))", "0.5"),

@@ -14,6 +14,7 @@ from workbench.geometry import metrics
 @contract(
     slot="mahalanobis",
     preset="whiten",
+    forbid=("scipy.spatial.distance",),
     examples=(
         (
             "mahalanobis(np.array([[1.0, -1], [1, 1]]), np.zeros(2), np.array([[1, 0.9], [0.9, 1]]))",

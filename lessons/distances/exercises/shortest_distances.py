@@ -19,6 +19,7 @@ Lengths = Float[np.ndarray, " e"]
 
 @contract(
     slot="shortest_distances",
+    forbid=("scipy.sparse.csgraph",),
     examples=(
         (
             "shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]), 4, 0)",

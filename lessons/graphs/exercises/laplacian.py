@@ -12,6 +12,7 @@ from workbench.geometry import graphs
 
 @contract(
     slot="laplacian",
+    forbid=("scipy.sparse.csgraph",),
     examples=(
         ("laplacian(np.array([[0.0, 1, 0], [1, 0, 1], [0, 1, 0]]))", "[[1, -1, 0], [-1, 2, -1], [0, -1, 1]]"),
         ("laplacian(np.array([[0.0, 2.5], [2.5, 0]]))", "[[2.5, -2.5], [-2.5, 2.5]]"),

@@ -26,6 +26,7 @@ from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
 @contract(
     slot="align",
+    forbid=("scipy.spatial.transform",),
     examples=(
         (
             "align_rigid(np.array([[2.0, 0, 0], [3, 0, 0], [2, 1, 0]]), np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]))",

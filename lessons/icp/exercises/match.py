@@ -27,6 +27,7 @@ from workbench.geometry.motions import apply
 
 @contract(
     slot="match",
+    forbid=("scipy.spatial",),
     examples=(
         ("match(np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0.9, 0, 0], [0.2, 0, 0], [5, 0, 0]]))", "[1, 0, 1]"),
         ("match(np.array([[0.0, 0, 0], [0, 0, 1]]), np.array([[0.0, 0, 0.7]]))", "[1]"),

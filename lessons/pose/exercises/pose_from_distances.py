@@ -25,6 +25,7 @@ from workbench.geometry.three_points import motions_from_lengths, unit_rays
 
 @contract(
     slot="pose_from_distances",
+    forbid=("scipy.spatial.transform",),
     examples=(
         (
             "pose_from_distances(np.eye(3), np.eye(3), np.ones(3))",

@@ -15,6 +15,7 @@ FLAT = "np.mgrid[0.0:4, 0.0:4, 0.0:1].reshape(3, 4, 4).transpose(1, 2, 0)"
 @contract(
     slot="bezier_patch",
     preset="cubic",
+    forbid=("scipy.interpolate",),
     examples=(
         (f"bezier_patch({FLAT}, np.array([[1.0, 0]]))", "[[3, 0, 0]]"),
         ("bezier_patch(np.ones((4, 4, 3)), np.array([[0.2, 0.7]]))", "[[1, 1, 1]]"),

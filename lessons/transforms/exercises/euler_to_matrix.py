@@ -27,6 +27,7 @@ from workbench.geometry.rotations import EULER_ORDERS, rotation_about
 
 @contract(
     slot="euler_to_matrix",
+    forbid=("scipy.spatial.transform",),
     examples=(
         ('euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "xyz")', "[[0, 0, 1], [1, 0, 0], [0, 1, 0]]"),
         ('euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "XYZ")', "[[0, -1, 0], [0, 0, -1], [1, 0, 0]]"),

@@ -30,6 +30,7 @@ from workbench.geometry.motions import exp_so3, skew
 @contract(
     slot="rotation_from_axis_angle",
     preset="one-axis",
+    forbid=("scipy.spatial.transform",),
     examples=(
         (
             "rotation_from_axis_angle(np.array([0.0, 0.0, 1.0]), np.pi / 2)",
