@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from workbench.exercise.candidate import Candidate
-from workbench.exercise.model import Function, Verdict, band, fail, full, number, partial
+from workbench.exercise.model import Function, Verdict, against, band, fail, full, number, partial
 from workbench.exercise.sandbox import StudentError
 
 SKEWED = 1e-5  # how far R^T R may be from the identity: rounding, also of single precision
@@ -148,8 +148,7 @@ def beside(got: Any, right: Any, hint: str, name: str = "") -> str:
         at, where = (row,), f"{name}[{row}]" if name else f"Row {row}"
     elif right.ndim == 0 or (right.ndim == 1 and right.size <= 4):
         at, where = (), name or "Yours"
-    yours, wanted = number(got[at]), number(right[at])
-    return f"{where} is {yours}, right is {wanted}. {hint}"
+    return f"{where} is {against(got[at], right[at])}. {hint}"
 
 
 def _short(value: Any) -> str:

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from types import ModuleType
 from typing import Any
 
+import numpy as np
+
 from workbench.errors import InputError
 from workbench.numerals import brief, fixed_or_power
 
@@ -72,6 +74,18 @@ def number(value: Any, digits: int = 4) -> str:
     if not math.isfinite(value):
         return f"{value:g}".replace("-", "−")
     return brief(value, digits) if abs(value) < 1e7 else fixed_or_power(value, 0)
+
+
+def against(got: Any, right: Any, digits: int = 4, unit: str = "") -> str:
+    """Write an answer and the right one, "0.64, right is −0.64", with as many more digits as it takes to tell them apart."""
+    behind = f" {unit}" if unit else ""
+    for more in range(digits, 18):
+        yours, wanted = number(got, more), number(right, more)
+        if yours != wanted:
+            return f"{yours}{behind}, right is {wanted}{behind}"
+    off = float(np.max(np.abs(np.subtract(got, right, dtype=float)), initial=0.0))
+    said = f"{number(got, digits)}{behind}, right is {number(right, digits)}{behind}"
+    return f"{said} (off by {off:.2g}{behind})" if 0 < off < math.inf else said
 
 
 @dataclass(frozen=True)

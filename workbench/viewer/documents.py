@@ -60,8 +60,10 @@ def lesson_page(lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched 
     exercises = _told(lesson, "exercises", lambda: _exercises(lesson, watched))
     own = watched is not None and watched.lesson is lesson
     course = [{"name": one.name, "title": one.title, "needs": one.needs} for one in in_order(lessons)]
-    places = {"opening" if own else "ending": exercises}
-    return lesson_document(lesson, article, home="live", root=ROOT, more={"COURSE": course}, **places)
+    opening, ending = (exercises, "") if own else ("", exercises)
+    return lesson_document(
+        lesson, article, home="live", root=ROOT, opening=opening, ending=ending, more={"COURSE": course}
+    )
 
 
 def in_order(lessons: Mapping[str, Lesson]) -> list[Lesson]:

@@ -9,6 +9,7 @@ from lessons.alignment.exercises import GRADERS, STUDENTS, a_lopsided_cloud, a_r
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -56,7 +57,7 @@ SCALE_HINT = "s = tr(D S) / variance of the source (Umeyama, eq. 42), with S = d
 def scale_verdict(candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = SCALE_HINT) -> Verdict:
     """Judge a scale in per cent of the least-squares one."""
     right, got = alignment.similarity_scale(p_target, p_source), candidate(p_target, p_source)
-    said = f"Scale {got:.5g}, right is {right:.5g}. {hint}"
+    said = f"Scale {against(got, right, 5)}. {hint}"
     return band("The scale is off by", 100 * abs(got / right - 1), "%", good=0.01, fair=0.2, hint=said)
 
 

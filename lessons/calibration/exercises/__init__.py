@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from workbench.exercise import HiddenSeed, Verdict, fail, full, number, partial
+from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import exp_so3, motion
 
@@ -29,5 +29,5 @@ def rows_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "") 
     if off.max() <= 1e-6:
         return full(f"{what}all {got.size} entries are right.")
     i, j = np.unravel_index(np.argmax(off), off.shape)
-    said = f"{what}entry [{i}, {j}] is {number(got[i, j], 5)}, right is {number(right[i, j], 5)}."
+    said = f"{what}entry [{i}, {j}] is {against(got[i, j], right[i, j], 5)}."
     return partial(0.5, f"{said} Close. {hint}") if off.max() <= 1e-4 else fail(f"{said} {hint}")

@@ -6,7 +6,18 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.calibration.exercises import GRADERS, STUDENTS
-from workbench.exercise import Function, Verdict, alternative, band, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    against,
+    alternative,
+    band,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry import calibration
 
 
@@ -37,7 +48,7 @@ def said(candidate: Function, residuals: np.ndarray, what: str = "The rms") -> V
     right = calibration.reprojection_rms(residuals)
     got = float(candidate(residuals))
     off = 100 * abs(got - right) / (right or 1.0)
-    told = f"Yours is {got:.4g} px, right is {right:.4g} px. {HINT}"
+    told = f"Yours is {against(got, right, unit='px')}. {HINT}"
     return band(f"{what} is off by", off, "%", good=1e-4, fair=0.01, hint=told)
 
 

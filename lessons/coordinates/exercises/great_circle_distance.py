@@ -115,7 +115,7 @@ def the_same_place(candidate: Function) -> Verdict:
     a, b = np.vstack([a, a]), np.vstack([a, b])
     got, right = candidate(a, b, EARTH), np.repeat([0.0, np.pi * EARTH], len(a) // 2)
     asked = [f"{numbers(p)} to {numbers(q)}" for p, q in zip(a, b, strict=True)]
-    hint = f"What goes into an arc sine or cosine may not be beyond 1 by rounding: clip it. {HINT}"
+    hint = f"Near half way round, and near the start, an arc sine or cosine loses digits: take arctan2. {HINT}"
     return row_by_row(asked, got, right, np.abs(got - right), hint, good=0.5, fair=5.0)
 
 

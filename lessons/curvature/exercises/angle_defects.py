@@ -21,6 +21,7 @@ from workbench.data import surfaces
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -52,7 +53,7 @@ def defects_verdict(candidate: Function, mesh: Mesh, hint: str) -> Verdict:
     off = np.degrees(np.abs(got - right))
     i, border = int(np.argmax(off)), on_boundary(faces, len(p))
     place = "on the border" if border[i] else "inside the mesh"
-    where = f"At vertex {i}, {place}, yours is {number(got[i])}, right is {number(right[i])}. {hint}"
+    where = f"At vertex {i}, {place}, yours is {against(got[i], right[i])}. {hint}"
     return band("Largest error", float(off[i]), "degrees", good=0.01, fair=1.0, hint=where)
 
 

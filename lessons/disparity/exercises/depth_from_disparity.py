@@ -9,6 +9,7 @@ from lessons.disparity.exercises import GRADERS, STUDENTS
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -60,7 +61,7 @@ def depth_verdict(got: np.ndarray, right: np.ndarray, what: str = "") -> Verdict
     """Judge depths by the largest relative error, per cent, and say where it is."""
     off = np.abs(got - right) / right
     i = np.unravel_index(np.argmax(np.where(np.isfinite(off), off, np.inf)), off.shape)
-    hint = f"Yours is {number(got[i])} m, right is {number(right[i])} m. {DEPTH_HINT}"
+    hint = f"Yours is {against(got[i], right[i], unit='m')}. {DEPTH_HINT}"
     return band(
         f"{what}largest error" if what else "Largest error", 100 * float(off[i]), "%", good=0.01, fair=5, hint=hint
     )

@@ -12,6 +12,7 @@ from workbench.algorithms import cost_volume
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     check,
     contract,
@@ -84,7 +85,7 @@ def cells_verdict(
     if not wrong.any():
         return full(f"{what}{judged.sum()} of {judged.sum()} costs are right.")
     d, y, x = (int(i) for i in np.argwhere(wrong)[0])
-    first = f"cost[{d}, {y}, {x}] is {number(got[d, y, x])}, right is {number(right[d, y, x])}"
+    first = f"cost[{d}, {y}, {x}] is {against(got[d, y, x], right[d, y, x])}"
     said = f"{what}{wrong.sum()} of {judged.sum()} costs are wrong; {first}. {hint}"
     return partial(0.5, said) if wrong.sum() <= 0.05 * judged.sum() else fail(said)
 

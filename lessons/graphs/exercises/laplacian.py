@@ -6,7 +6,18 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.graphs.exercises import GRADERS, STUDENTS, matrix_verdict, weighted
-from workbench.exercise import Function, Verdict, alternative, band, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    against,
+    alternative,
+    band,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry import graphs
 
 
@@ -67,7 +78,7 @@ def a_constant_costs_nothing(candidate: Function) -> Verdict:
         L, u = candidate(adjacency), rng.normal(size=count)
         right = float((np.triu(adjacency) * (u[:, None] - u) ** 2).sum())
         got = float(u @ L @ u)
-        told = f"u^T L u is {got:.5g}, right is {right:.5g}. {HINT}"
+        told = f"u^T L u is {against(got, right, 5)}. {HINT}"
         off = max(abs(got - right) / max(right, 1.0), float(np.abs(L.sum(axis=1)).max()))
         verdicts.append(band(f"{count} nodes: error", off, "", good=1e-6, fair=1e-3, hint=told))
     return worst(verdicts)

@@ -11,6 +11,7 @@ from lessons.pinhole.exercises import GRADERS, STUDENTS
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     beside,
@@ -76,7 +77,7 @@ def in_pixels(uv: np.ndarray, right: np.ndarray, hint: str) -> Verdict:
     seen, given, unknown = np.isfinite(right).all(axis=1), np.isfinite(uv).all(axis=1), np.isnan(uv).all(axis=1)
     if (lost := np.flatnonzero(seen & ~given)).size:
         k = lost[0]
-        told = f"Row {k} is {number(uv[k])}, right is {number(right[k])}. {hint}"
+        told = f"Row {k} is {against(uv[k], right[k])}. {hint}"
         return fail(f"{lost.size} of {seen.sum()} points in front of the camera got no pixel. {told}")
     if (false := np.flatnonzero(~seen & ~unknown)).size:
         said = f"{false.size} of {(~seen).sum()} points at or behind the camera got a row that is not NaN."

@@ -12,6 +12,7 @@ from workbench.algorithms import ransac
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -61,7 +62,7 @@ def needed_verdict(candidate: Function, w: float, s: int, confidence: float, hin
     case = f"{100 * w:g} % inliers, {s} in a sample, {100 * confidence:g} % confidence"
     if got == right:
         return full(f"{case}: {right:.12g} {'sample' if right == 1.0 else 'samples'}.")
-    said = f"{case}: yours is {number(got, 12)}, right is {number(right, 12)}."
+    said = f"{case}: yours is {against(got, right, 12)}."
     if got < 1.0:
         return fail(f"{said} Nobody can do with less than one sample. {hint}")
     if got < right < np.inf:
@@ -135,7 +136,7 @@ def rarely_clean(candidate: Function) -> Verdict:
         if error.kind != "result":
             raise
         return fail(f"{error}; right is {number(right)}. {hint}")
-    what = f"1 % inliers, 9 in a sample: yours is {number(got)}, right is {number(right)}; off by"
+    what = f"1 % inliers, 9 in a sample: yours is {against(got, right)}; off by"
     return band(what, 100 * abs(got - right) / right, "%", good=1e-4, fair=1.0, hint=hint)
 
 

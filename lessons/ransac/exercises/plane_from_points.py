@@ -12,6 +12,7 @@ from lessons.ransac.exercises import GRADERS, STUDENTS
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -79,15 +80,15 @@ def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) 
         what: How the message begins.
     """
     if not np.isfinite(got).all():
-        return fail(f"{what}: yours is {number(got)}, right is {number(right)}. {NAN_HINT}")
+        return fail(f"{what}: yours is {against(got, right)}. {NAN_HINT}")
     length, size = float(np.linalg.norm(got[:3])), float(np.ptp(p, axis=0).max())
     if abs(length - 1.0) > NO_UNIT:
-        said = f"The length of your normal is {number(length)}, right is 1: distances come out as many times as large."
+        said = f"The length of your normal is {against(length, 1.0)}: distances come out as many times as large."
         return fail(f"{what}: {said}")
     degrees = float(np.degrees(np.arctan2(np.linalg.norm(np.cross(got[:3], right[:3])), abs(got[:3] @ right[:3]))))
     away = float(np.abs(p @ got[:3] + got[3]).max())
     side = np.where(got[:3] @ right[:3] < 0, -right, right)
-    told = f"Yours is {number(got)}, right is {number(side)} or its negative."
+    told = f"Yours is {against(got, side)} or its negative."
     turned = band(
         f"{what}: normal off by", round(degrees, 9), "degrees", good=0.01, fair=1.0, hint=f"{told} {NORMAL_HINT}"
     )
