@@ -6,7 +6,7 @@ at once. Every InputError becomes one line on stderr and exit code 2.
 
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -63,17 +63,19 @@ def show(
     """Open one lesson in the browser, at these params; one given by its path is loaded again when its files are saved."""
     from workbench.viewer.serving import serve as serve_page
 
-    _try_first_step(run.lesson, run.params)
-    if step is None and run.preset is not None:
-        step = run.lesson.preset(run.preset).step
     watched = edited = None
     if with_ is not None:
         from workbench.exercise.sandbox import best
         from workbench.exercise.watching import Watched
 
         watched = Watched(run.lesson, with_)
+        first = None if run.preset is not None else watched.first_preset(run.params)
+        run = run if first is None else replace(run, params=first.params, preset=first.name)
         if not best().holds:
             _complain(f"{with_} runs without a sandbox ({best().why}): show only what you trust")
+    _try_first_step(run.lesson, run.params)
+    if step is None and run.preset is not None:
+        step = run.lesson.preset(run.preset).step
     if run.path is not None:
         from workbench.authoring.reloading import Edited
 
@@ -189,7 +191,7 @@ def check(
     for report in reports:
         sys.stdout.write(terminal(report) + "\n")
         sys.stdout.flush()  # what follows takes a while
-        recorded = None if report.is_full else record_failing(report.exercise, file, lesson=own)
+        recorded = None if report.is_full or report.is_refused else record_failing(report.exercise, file, lesson=own)
         if recorded is not None:
             sys.stdout.write(f"  Watch where it goes wrong: {command_line('replay', recorded)}\n")
     for item in failed:
@@ -212,6 +214,9 @@ def grade(
     assignment: Annotated[
         Path | None, Option("What a handout's assignment.json says its exercises are worth.", "FILE.json")
     ] = None,
+    seed: Annotated[
+        int | None, Option("A number of yours, 0 or more, that the hidden checks are drawn from.", "N")
+    ] = None,
     sandbox: Sandbox = "auto",
 ) -> int:
     """Grade a folder of submissions; goes on where it was interrupted."""
@@ -221,9 +226,10 @@ def grade(
     if lesson is not None:
         lesson_given(lesson)  # what is wrong with it is told once, before the first submission
     worth = None if assignment is None else read_file(assignment).worth
-    asked = Asked(
-        (only,) if only else (), Path(lesson).resolve() if lesson is not None and is_path(lesson) else None, sandbox
-    )
+    if seed is not None and seed < 0:
+        raise InputError(f"--seed {seed}: a seed is 0 or more")
+    place = Path(lesson).resolve() if lesson is not None and is_path(lesson) else None
+    asked = Asked((only,) if only else (), place, sandbox, seed)
     return grade_folder(
         folder,
         out or folder / "graded",

@@ -1,6 +1,7 @@
 """Experiments, each the picture of one misconception, and what to predict before looking."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -94,6 +95,11 @@ PRESETS: tuple[Preset[Params], ...] = (
         "minus-q", "q and −q", "Both are the end's rotation. Slerp to the wrong one still arrives, but turns 300° where"
         " 60° would do: check the sign of q₀ · q₁ first.",
         Params(half="move between two poses", angles=NO_TURN, angles_end=(0.0, 0.0, 60.0), method="slerp to -q"), 15,
+    ),
+    Preset(
+        "one-axis", "The shortest turn, by slerp", "One axis leads from the first pose to the second, and the body turns"
+        " about it at constant speed. The next experiment goes between the same two poses.",
+        replace(WOBBLE, method="slerp + lerp"), 15,
     ),
     Preset(
         "wobble", "Euler angles wobble", "Three angles at constant speed, yet the body leaves the shortest turn and changes"

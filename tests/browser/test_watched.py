@@ -3,6 +3,8 @@
 import pytest
 
 from workbench import links
+from workbench.exercise.finding import exercises
+from workbench.exercise.starter import write_starter
 from workbench.exercise.watching import Watched
 from workbench.lesson import catalog
 from workbench.viewer.server import Server
@@ -82,6 +84,24 @@ def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
         assert me.page.locator("#exercise .report").count() == 0
         me.page.close()  # a page whose server is gone says so in its console
         late.page.close()
+    finally:
+        server.stop()
+
+
+def test_a_run_that_does_not_call_the_function_says_so(chromium, visit, tmp_path):
+    lesson = catalog()["icp"]
+    watched = Watched(lesson, write_starter(exercises()["point_to_plane_step"], tmp_path))
+    server = Server(links.Place(watched.lesson, lesson.params(), None), watched=watched)
+    try:
+        me = visit(at=server)
+        mine = me.page.locator("#exercise")
+        me.page.locator(".report .count").wait_for()
+        mine.get_by_text("This run never calls point_to_plane_step").wait_for()
+        assert not mine.get_by_text("drives this lesson").is_visible()
+        mine.locator("a[data-run]").click()
+        mine.get_by_text("drives this lesson").wait_for()
+        assert not mine.get_by_text("This run never calls").is_visible()
+        assert "fit=point-to-plane" in me.page.url or "preset=plane" in me.page.url
     finally:
         server.stop()
 

@@ -4,7 +4,6 @@ They take other ways than the tables of `solutions/`: calls of other libraries, 
 algorithms. Each earns full marks, or a check asks for more than its contract says.
 """
 
-import cmath
 import heapq
 import itertools
 import math
@@ -13,26 +12,7 @@ from fractions import Fraction
 
 import numpy as np
 from scipy import linalg, ndimage, optimize, sparse, spatial, special
-from scipy.sparse import csgraph
 from scipy.spatial.transform import Rotation
-
-
-def align_rigid__horn_quaternion(p_target, p_source):
-    if len(p_target) == 0:
-        raise ValueError("no pairs")
-    a, b = p_source - p_source.mean(0), p_target - p_target.mean(0)
-    S = a.T @ b
-    d = np.array([S[1, 2] - S[2, 1], S[2, 0] - S[0, 2], S[0, 1] - S[1, 0]])
-    N = np.zeros((4, 4))
-    N[0, 0] = np.trace(S)
-    N[0, 1:] = N[1:, 0] = d
-    N[1:, 1:] = S + S.T - np.trace(S) * np.eye(3)
-    w, x, y, z = np.linalg.eigh(N)[1][:, -1]
-    R = Rotation.from_quat([x, y, z, w]).as_matrix()
-    T = np.eye(4)
-    T[:3, :3] = R
-    T[:3, 3] = p_target.mean(0) - R @ p_source.mean(0)
-    return T
 
 
 def align_rigid__nested_lists(p_target, p_source):
@@ -287,15 +267,6 @@ def essential_to_poses__cofactors(E):
             U, _, Vt = linalg.svd(cofactors - sign * cross @ E)
             out.append(np.block([[U @ Vt, s[:, None]], [np.zeros((1, 3)), 1]]))
     return np.array(out)
-
-
-def euler_to_matrix__scipy(angles, order):
-    letters = order.lower() if isinstance(order, str) else ""
-    if len(letters) != 3 or set(letters) - set("xyz") or order not in (letters, letters.upper()):
-        raise ValueError("no order")
-    if letters[0] == letters[1] or letters[1] == letters[2]:
-        raise ValueError("twice in a row")
-    return Rotation.from_euler(order, angles).as_matrix()
 
 
 def euler_to_matrix__matrix_exponential(angles, order):
@@ -638,13 +609,6 @@ def rotation_from_axis_angle__expm(axis, angle):
     return linalg.expm(np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]))
 
 
-def rotation_from_axis_angle__complex_half_turn(axis, angle):
-    if not np.any(axis):
-        raise ValueError("zero axis")
-    half = cmath.exp(0.5j * angle)
-    return Rotation.from_quat(np.append(half.imag * axis / np.linalg.norm(axis), half.real)).as_matrix()
-
-
 def rotation_from_six__qr(y):
     out = []
     for row in y:
@@ -666,11 +630,6 @@ def sad_cost_volume__convolved(left, right, max_disparity, window):
             slice_ = ndimage.convolve1d(slice_, np.ones(window), axis, mode="nearest")
         cost[d, :, d:] = slice_
     return cost
-
-
-def shortest_distances__csgraph(edges, lengths, count, source):
-    graph = sparse.coo_array((lengths, (edges[:, 0], edges[:, 1])), (count, count))
-    return csgraph.bellman_ford(graph.tocsr(), directed=False, indices=source)
 
 
 def shortest_distances__bellman_ford(edges, lengths, count, source):

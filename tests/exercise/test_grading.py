@@ -14,7 +14,8 @@ from workbench.exercise import reports
 from workbench.exercise.candidate import Candidate, held_to_contract
 from workbench.exercise.driven import driven, first_difference, gap
 from workbench.exercise.grading import grade_function
-from workbench.exercise.model import Exercise, Verdict, band, check, contract, full
+from workbench.exercise.judging import beside
+from workbench.exercise.model import Exercise, Verdict, against, band, check, contract, full
 from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError, Wall
 from workbench.exercise.starter import starter
@@ -262,3 +263,18 @@ def test_an_exercise_needs_checks_with_names():
 
 def test_errors_are_input_errors():
     assert issubclass(StudentError, InputError)
+
+
+@pytest.mark.parametrize(
+    ("got", "right", "said"),
+    [
+        (0.64, -0.64, "0.64, right is −0.64"),
+        (1.00001, 1.0, "1.00001, right is 1"),
+        (np.array([1.0, 2.0000001]), np.array([1.0, 2.0]), "(1, 2.0000001), right is (1, 2)"),
+        (1e-19, 0.0, "0, right is 0 (off by 1e-19)"),
+        (np.nan, 1.0, "nan, right is 1"),
+    ],
+)
+def test_numbers_that_differ_are_written_so_that_they_differ(got, right, said):
+    assert against(got, right) == said
+    assert f"{said}. Look." in beside(got, right, "Look.")

@@ -1,9 +1,15 @@
 """A student's file drives a lesson: what is said of it while it is edited, and when its function is called."""
 
+import dataclasses
+
 import pytest
 
-from workbench.exercise.driven import driven, first_difference
+from workbench.cli import main
+from workbench.errors import InputError
+from workbench.exercise import finding
+from workbench.exercise.driven import DIFFERENCE, calls_it, driven, first_difference
 from workbench.exercise.finding import exercises
+from workbench.exercise.starter import write_starter
 from workbench.exercise.watching import GONE_AFTER, Watched
 from workbench.lesson import catalog
 from workbench.session import Session
@@ -117,3 +123,70 @@ def test_rounding_that_decides_between_equal_costs_is_no_first_difference(functi
     while len(timeline) < 10 and timeline.extend():
         pass
     assert (first_difference(timeline.known()) is None) == (function in SUMS.alternatives)
+
+
+# the run that is opened calls the function -----------------------------------------------------------------------------
+
+
+@pytest.fixture
+def opened(monkeypatch):
+    """Carries out `show`, and returns the lesson, the params and the step that the page begins at."""
+    seen = []
+    monkeypatch.setattr("workbench.viewer.serving.serve", lambda *place, **options: seen.append((place, options)))
+
+    def carry_out(*words: object):
+        assert main(["show", *map(str, words)]) == 0
+        place, options = seen.pop()
+        if options["watched"] is not None:
+            options["watched"].close()
+        return place
+
+    return carry_out
+
+
+@pytest.mark.parametrize("exercise", exercises().values(), ids=lambda one: one.name)
+def test_the_run_that_is_opened_calls_the_function(exercise, opened, tmp_path):
+    _, params, step = opened(exercise.lesson, "--with", write_starter(exercise, tmp_path))
+    lesson, calls = catalog()[exercise.lesson], []
+
+    def counting(*args):
+        calls.append(args)
+        return exercise.reference(*args)
+
+    run = lesson.run(params, **{exercise.contract.slot: counting})
+    assert next((True for _ in run if calls), False)
+    preset = exercise.contract.preset
+    assert step == (None if preset is None else lesson.preset(preset).step)
+    if preset is not None:  # or else the default run would do
+        calls.clear()
+        for _ in lesson.run(lesson.params(), **{exercise.contract.slot: counting}):
+            assert not calls
+
+
+@pytest.mark.parametrize("words", [("--preset", "home"), ("--start-angle", "50")])
+def test_who_chooses_a_run_gets_that_one(opened, tmp_path, words):
+    file = write_starter(exercises()["point_to_plane_step"], tmp_path)
+    assert opened("icp", "--with", file, *words)[1:] == opened("icp", *words)[1:]
+
+
+def test_an_unknown_preset_is_refused_in_one_line(monkeypatch):
+    lesson = catalog()["icp"]
+    wrong = dataclasses.replace(exercises()["match"].contract, preset="hoem")
+    monkeypatch.setattr("lessons.icp.exercises.match.match", wrong)
+    with pytest.raises(InputError, match=r"^exercise match: lesson icp has no preset 'hoem'; did you mean home"):
+        finding._exercises_in(lesson)
+
+
+def test_a_run_that_does_not_call_the_function_says_so():
+    exercise = exercises()["point_to_plane_step"]
+    lesson = catalog()["icp"]
+    paired = driven(lesson, exercise, exercise.reference)
+    idle, calling = Timeline(paired, lesson.params()), Timeline(paired, lesson.preset("plane").params)
+    idle.extend()
+    assert calls_it(idle) is None  # nobody knows yet
+    assert calls_it(idle.complete()) is False
+    assert DIFFERENCE not in idle.series()  # nothing is compared
+    while len(calling) < 3:
+        calling.extend()
+    assert calls_it(calling) is True
+    assert DIFFERENCE in calling.series()

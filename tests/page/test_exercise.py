@@ -7,10 +7,11 @@ from dataclasses import replace
 import pytest
 
 from tests import fake
-from workbench.exercise.finding import exercises_of
+from workbench.exercise.finding import exercises, exercises_of
 from workbench.exercise.grading import grade_function
 from workbench.exercise.reports import counted, terminal
-from workbench.exercise.starter import commands, starter
+from workbench.exercise.starter import commands, starter, write_starter
+from workbench.exercise.watching import Watched
 from workbench.lesson import catalog
 from workbench.page.exercise import report_data, watched_html
 from workbench.viewer.documents import lesson_page
@@ -47,10 +48,33 @@ def test_what_the_checks_found_is_said_in_the_words_of_the_terminal(exercise):
         assert bool(data["mistake"]) == (report.mistake is not None)
 
 
+@pytest.mark.parametrize("name", ["point_to_plane_step", "match"])
+def test_a_watched_file_is_told_of_the_run_that_calls_it(name):
+    exercise, lesson = exercises()[name], catalog()["icp"]
+    page = watched_html(exercise, "mine.py", lesson, lambda run: f"?run={run}")
+    calling, idle = page.partition('data-called="false"')[::2]
+    assert "drives this lesson" in calling
+    assert "drives this lesson" not in idle
+    assert page.count(" hidden>") == 2  # neither is said before the run is known
+    run = exercise.contract.preset or "default"
+    title = "Point-to-plane, from 35° away" if name == "point_to_plane_step" else "The run this lesson opens with"
+    assert f'<a class="run" href="?run={run}" data-run="{run}">' in idle
+    assert title in idle
+
+
+def test_what_is_found_of_a_watched_file_stands_before_the_text(tmp_path):
+    lesson = catalog()["icp"]
+    watched = Watched(lesson, write_starter(exercises()["match"], tmp_path))
+    page = lesson_page(watched.lesson, catalog(), watched)
+    watched.close()
+    assert page.index('class="report"') < page.index('class="wb"')
+    assert page.count('id="exercise"') == 1
+
+
 def test_what_a_student_wrote_cannot_end_up_as_html():
     (exercise, *_) = exercises_of(catalog()["icp"])
     evil = replace(exercise, task="<script>alert(1)</script>")
-    page = watched_html(evil, "<img src=x>.py")
+    page = watched_html(evil, "<img src=x>.py", catalog()["icp"], lambda run: f"?{run}")
     assert "<script>" not in page
     assert "<img" not in page
     assert report_data("the file is being checked") == {"said": "the file is being checked", "ran": ""}

@@ -306,6 +306,12 @@ def _pace(run: Run, k: int, m: re.Match[str]) -> bool:
     return off > 10 and steps.max() > 1.5 * steps.min()
 
 
+def _steady(run: Run, k: int, m: re.Match[str]) -> bool:
+    off = max(turn_between(at_best(run, j), state.T_world_body) for j, state in enumerate(run.states))
+    steps = turned(run, len(run.states) - 1)
+    return off < SMALL and steps.max() < (1 + SMALL) * steps.min() and met(run)
+
+
 LINES = {
     "order": (Claim("a rotation turns about the world's origin, so it swings along", _order),),
     "gimbal": (
@@ -349,6 +355,7 @@ LINES = {
             turned(run, k).sum(), 300) and close(turn_between(*poses(run.params)), 60)),
         Claim("the wrong one", lambda run, k, m: turned(run, k).sum() > turn_between(*poses(run.params)) + 1),
     ),
+    "one-axis": (Claim("the body turns about it at constant speed", _steady),),
     "wobble": (Claim("the body leaves the shortest turn and changes its pace", _pace),),
     "average": (Claim("Two headings, 20° apart", lambda run, k, m: bool(
         close(turn_between(*poses(run.params)), 20) and turned(run, k).sum() > 180)),),

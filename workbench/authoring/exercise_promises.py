@@ -28,6 +28,8 @@ SAYS_BOTH = re.compile(
 )
 """What the message of a check that failed has: what came and what is right, or what went wrong."""
 WIDEST = 125
+LONGEST = 200
+"""After how many steps a run that has not called a function is taken for one that never does."""
 OF_EXERCISES: list[Callable[[Subject, Exercise], Found]] = []
 
 
@@ -70,6 +72,21 @@ def the_function_drives_the_lesson(subject: Subject, exercise: Exercise) -> Foun
     slot = exercise.contract.slot
     where = f"{who(exercise)}no run of lesson {subject.lesson.name} calls its keyword {slot!r} in the first steps"
     yield None if driven else f"{where}: not the default, no preset, at no choice"
+
+
+@promise
+def the_run_that_is_opened_calls_the_function(subject: Subject, exercise: Exercise) -> Found:
+    """The run at which a student's function is watched first calls it."""
+    subject.tell(f"exercise {exercise.name} in the run that is opened")
+    lesson, preset = subject.lesson, exercise.contract.preset
+    params = lesson.params() if preset is None else lesson.preset(preset).params
+    run = "the default run" if preset is None else f"preset {preset!r}"
+    never = f"{who(exercise)}{run}, where a student's function is watched first, does not call it in {LONGEST} steps"
+    yield (
+        None
+        if _drives(lesson, exercise, params, LONGEST)
+        else f"{never}; `preset=` of the contract names one that does"
+    )
 
 
 @promise
@@ -205,9 +222,9 @@ def _variants(lesson: Lesson) -> Iterator[Any]:
     yield from (preset.params for preset in lesson.presets)
 
 
-def _drives(lesson: Lesson, exercise: Exercise, params: Any) -> bool:
+def _drives(lesson: Lesson, exercise: Exercise, params: Any, steps: int = 12) -> bool:
     try:
-        for _ in islice(lesson.run(params, **{exercise.contract.slot: _called}), 12):
+        for _ in islice(lesson.run(params, **{exercise.contract.slot: _called}), steps):
             pass
     except _CalledError:
         return True

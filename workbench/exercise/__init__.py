@@ -21,6 +21,7 @@ from workbench.exercise.model import (
     Function,
     Mistake,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -31,14 +32,17 @@ from workbench.exercise.model import (
     number,
     partial,
 )
+from workbench.exercise.seeds import HiddenSeed
 
 __all__ = [
     "Check",
     "Contract",
     "Exercise",
     "Function",
+    "HiddenSeed",
     "Mistake",
     "Verdict",
+    "against",
     "alternative",
     "band",
     "beside",

@@ -11,7 +11,13 @@ from workbench.exercise.reports import UNSAFE
 from workbench.numerals import counted
 
 Result = dict[str, Any]
-HOW = {"timeout": "hangs", "died": "crashes", "raised": "raises", "result": "returns no result"}
+HOW = {
+    "timeout": "hangs",
+    "died": "crashes",
+    "raised": "raises",
+    "result": "returns no result",
+    "forbidden": "is refused",
+}
 
 
 def is_full(result: Result, worth: Mapping[str, float] | None = None) -> bool:
@@ -89,6 +95,9 @@ def summary(results: Sequence[Result], worth: Mapping[str, float] | None = None)
     lines = [f"# {counted(len(results), 'submission')}", ""]
     perfectly = f"{perfect} with full marks{_of_what(results, worth)}"
     lines.append(f"{len(graded)} graded, {perfectly}, {len(results) - len(graded)} could not be graded.")
+    seeds = dict.fromkeys(result["seed"] for result in results if result["seed"] is not None)
+    if seeds:
+        lines += ["", f"Hidden checks are drawn from seed {', '.join(map(str, seeds))}."]
     if any(result["sandbox"] == "none" for result in results):
         lines += ["", f"**{UNSAFE}**"]
     parts = Counter(part for result in results for part in result["handed"]) if worth is None else Counter()
@@ -114,6 +123,7 @@ def _trouble(result: Result) -> str:
     said = [item["error"] for item in result["ungraded"]]
     for report in result["reports"]:
         kinds = Counter(HOW[check["kind"]] for check in report["checks"] if check["kind"] in ("timeout", "died"))
+        said += list(dict.fromkeys(check["message"] for check in report["checks"] if check["kind"] == "forbidden"))
         said += [f"{report['exercise']} {how} in {_checks(count)}" for how, count in kinds.items()]
     return "; ".join([*said, *([result["note"]] if result["note"] else [])])
 

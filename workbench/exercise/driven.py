@@ -16,7 +16,7 @@ from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError
 from workbench.lesson import Lesson
 from workbench.scene import Caption, Mesh, Points, Primitive, Scalar, Scene, Segments, caption_of, ghost
-from workbench.timeline import Step
+from workbench.timeline import Step, Timeline
 
 TOLERANCE = 1e-6  # of the larger of 1 and the size of what is compared
 DIFFERENCE = "exercise/difference"
@@ -33,6 +33,7 @@ class Pair:
         line: The student's own line where it went wrong, 0 where it did not or the line is not known.
         difference: How far the two scenes are apart.
         first: Whether this is the first step at which they differ.
+        called: Whether the run has called the student's function, up to this step.
         scene: The student's scene; ours where there is none.
         ghost: What of ours stands elsewhere, faint; empty where the two agree.
     """
@@ -43,21 +44,23 @@ class Pair:
     line: int
     difference: float
     first: bool
+    called: bool
     scene: Scene
     ghost: Scene
 
 
 class _Beside:
-    """A student's function as a run calls it; remembers whether it ever answered otherwise than ours.
+    """A student's function as a run calls it; remembers whether it was called, and whether it answered otherwise than ours.
 
     Where it never did, the two runs part by rounding at most, however far: equal costs are told apart by it.
     """
 
     def __init__(self, function: Function, exercise: Exercise):
         self._candidate, self._contract = Candidate(function, exercise.reference, remember=False), exercise.contract
-        self.differed = False
+        self.called = self.differed = False
 
     def __call__(self, *args: Any) -> Any:
+        self.called = True
         value = self._candidate(*args)
         right = self._candidate.expected
         alike = any(values_alike(value, form) for form in (right, *self._contract.others(right)))
@@ -82,12 +85,13 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
                 return
             except Exception as error:
                 trouble, line = _trouble(error, exercise)
-                yield Pair(state_ours, None, trouble, line, float("nan"), not differed, scene_ours, {})
+                yield Pair(state_ours, None, trouble, line, float("nan"), not differed, beside.called, scene_ours, {})
                 return
             difference = gap(scene_ours, scene)
             differs = beside.differed and not difference <= TOLERANCE
             behind = ghost(scene_ours, scene) if differs else {}
-            yield Pair(state_ours, state, "", 0, difference, differs and not differed, scene, behind)
+            first = differs and not differed
+            yield Pair(state_ours, state, "", 0, difference, first, beside.called, scene, behind)
             differed = differed or differs
 
     def draw(pair: Pair) -> Scene:
@@ -99,7 +103,7 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             scene["caption"] = Caption(
                 f"Here your run first differs from the reference (its ghost is faint). {said}", "wrong"
             )
-        return scene | {DIFFERENCE: _difference(pair.difference)}
+        return scene | ({DIFFERENCE: _difference(pair.difference)} if pair.called else {})
 
     return replace(lesson, run=run, draw=draw, questions=(), tries=None)
 
@@ -151,6 +155,14 @@ def _in_world(primitive: Points | Mesh | Segments) -> np.ndarray:
     p = primitive.ends if isinstance(primitive, Segments) else primitive.p
     T = primitive.T_world_object
     return p if T is None else p @ T[:3, :3].T + T[:3, 3]
+
+
+def calls_it(timeline: Timeline) -> bool | None:
+    """Return whether a student's run calls the function; None where it is none, or that is not known yet."""
+    steps = timeline.known()
+    if not steps or not isinstance(steps[-1].state, Pair):
+        return None
+    return True if steps[-1].state.called else False if timeline.finished else None
 
 
 def first_difference(steps: Iterable[Step]) -> int | None:

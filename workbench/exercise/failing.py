@@ -64,7 +64,8 @@ def failing_run(exercise: Exercise, student: Student, lesson: Lesson | None = No
     lesson = catalog()[exercise.lesson] if lesson is None else lesson
     end = time.monotonic() + SECONDS
     paired = driven(lesson, exercise, student)
-    for params in (lesson.params(), *(preset.params for preset in lesson.presets)):
+    first = [] if exercise.contract.preset is None else [lesson.preset(exercise.contract.preset).params]
+    for params in (*first, lesson.params(), *(preset.params for preset in lesson.presets)):
         timeline = Timeline(paired, params)
         at = None
         while time.monotonic() < end and (at is None or len(timeline) <= at + AFTER) and timeline.extend():

@@ -86,6 +86,11 @@ def _exercises_in(lesson: Lesson) -> tuple[Exercise, ...]:
                 f"exercise {exercise.name}: run of lesson {lesson.name} has no keyword {exercise.contract.slot!r}; it has: "
                 f"{', '.join(slots[1:]) or 'none'}"
             )
+        if exercise.contract.preset is not None:
+            try:
+                lesson.preset(exercise.contract.preset)
+            except InputError as error:
+                raise InputError(f"exercise {exercise.name}: {error}") from None
     return tuple(sorted(found, key=lambda exercise: (slots.index(exercise.contract.slot), exercise.name)))
 
 

@@ -5,10 +5,12 @@ from pathlib import Path
 
 from workbench.errors import one_line
 from workbench.exercise.candidate import Candidate
+from workbench.exercise.forbidden import forbidden_use
 from workbench.exercise.judging import changed
 from workbench.exercise.model import Check, Exercise, Function, Mistake, Verdict, fail
 from workbench.exercise.naming import concerned, recognised
 from workbench.exercise.sandbox import CallBudget, Student, StudentError, Wall
+from workbench.exercise.seeds import drawn_from
 from workbench.exercise.submission import Submission
 
 
@@ -19,7 +21,8 @@ class Outcome:
     Attributes:
         check: What was promised.
         verdict: How it was kept.
-        kind: Why there was no answer to judge: a `kind` of StudentError (`timeout`, `died`, `raised`, `result`), or nothing.
+        kind: Why there was no answer to judge: a `kind` of StudentError (`timeout`, `died`, `raised`, `result`), `forbidden`
+            where the file uses what the contract forbids, or nothing.
     """
 
     check: Check
@@ -45,6 +48,7 @@ class Report:
         concerned: The names of the checks in which it makes that mistake.
         printed: The beginning of what the student's code printed.
         wall: What shut the student's code in; nothing where it was ours.
+        seed: The teacher's number that the hidden checks were drawn from, None where it was the usual one.
     """
 
     exercise: Exercise
@@ -55,6 +59,7 @@ class Report:
     concerned: frozenset[str] = frozenset()
     printed: str = field(default="", repr=False)
     wall: Wall | None = None
+    seed: int | None = None
 
     @property
     def points(self) -> float:
@@ -72,6 +77,11 @@ class Report:
         return all(outcome.verdict.share == 1.0 for outcome in self.outcomes)
 
     @property
+    def is_refused(self) -> bool:
+        """Whether nothing was run, since the file uses what the contract forbids."""
+        return any(outcome.kind == "forbidden" for outcome in self.outcomes)
+
+    @property
     def said_once(self) -> str:
         """The sentence that all of several checks say, such as that nothing is written yet; nothing where they differ."""
         said = {outcome.verdict.message for outcome in self.outcomes}
@@ -85,6 +95,7 @@ def grade_file(
     hidden: bool = True,
     wall: Wall | None = None,
     megabytes: int | None = None,
+    seed: int | None = None,
 ) -> Report:
     """Grade a student's file in a process of its own.
 
@@ -94,6 +105,7 @@ def grade_file(
         hidden: Whether hidden checks are run too.
         wall: What shuts the process in; the best of this machine by default.
         megabytes: Address space of the process; MEGABYTES by default.
+        seed: What the hidden checks are drawn from, 0 or more; None takes their usual seeds.
 
     Raises:
         InputError: If the file cannot be read or does not load; the message names the line.
@@ -101,11 +113,12 @@ def grade_file(
     seconds = exercise.contract.seconds
     room = {} if megabytes is None else {"megabytes": megabytes}
     with Student(given, exercise.name, seconds=seconds, wall=wall, budget=CallBudget(seconds), **room) as student:
-        student.start()
-        return grade_function(student, exercise, hidden=hidden, file=student.submission.file)
+        return grade_function(student, exercise, hidden=hidden, file=student.submission.file, seed=seed)
 
 
-def grade_function(function: Function, exercise: Exercise, *, hidden: bool = True, file: str = "") -> Report:
+def grade_function(
+    function: Function, exercise: Exercise, *, hidden: bool = True, file: str = "", seed: int | None = None
+) -> Report:
     """Grade a callable: a student's function in its process, or one of ours.
 
     Args:
@@ -113,13 +126,20 @@ def grade_function(function: Function, exercise: Exercise, *, hidden: bool = Tru
         exercise: What is asked of it.
         hidden: Whether hidden checks are run too.
         file: How the report names it.
+        seed: What the hidden checks are drawn from, 0 or more; None takes their usual seeds.
     """
+    if isinstance(function, Student):
+        said = forbidden_use(function.submission, exercise)
+        if said:
+            return _refused(said, exercise, hidden, file, function.wall, seed)
+        function.start()
     outcomes: list[Outcome] = []
     asked: dict[str, Candidate] = {}
-    for check in exercise.checks:
-        if check.public or hidden:
-            asked[check.name] = Candidate(function, exercise.reference)
-            outcomes.append(_judged(check, asked[check.name]))
+    with drawn_from(seed):
+        for check in exercise.checks:
+            if check.public or hidden:
+                asked[check.name] = Candidate(function, exercise.reference)
+                outcomes.append(_judged(check, asked[check.name]))
     outcomes = _inputs_looked_at(outcomes, asked)
     failing = {outcome.check.name for outcome in outcomes if outcome.verdict.share < 1.0}
     calls = {name: candidate.calls for name, candidate in asked.items()}
@@ -134,6 +154,16 @@ def grade_function(function: Function, exercise: Exercise, *, hidden: bool = Tru
         frozenset() if mistake is None else concerned(mistake, calls, failing, exercise),
         "" if ours else function.printed(),
         None if ours else function.wall,
+        seed,
+    )
+
+
+def _refused(said: str, exercise: Exercise, hidden: bool, file: str, wall: Wall, seed: int | None) -> Report:
+    """Return the report on a file that uses what is forbidden: nothing of it is run, and every check says why."""
+    run = [check for check in exercise.checks if check.public or hidden]
+    outcomes = tuple(Outcome(check, fail(said), "forbidden") for check in run)
+    return Report(
+        exercise, file, outcomes, tuple(one for one in exercise.checks if one not in run), wall=wall, seed=seed
     )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from workbench.exercise.candidate import Candidate
-from workbench.exercise.model import Function, Verdict, band, fail, full, number, partial
+from workbench.exercise.model import Function, Verdict, against, band, fail, full, number, partial
 from workbench.exercise.sandbox import StudentError
 
 SKEWED = 1e-5  # how far R^T R may be from the identity: rounding, also of single precision
@@ -86,8 +86,8 @@ def refused(candidate: Function, *args: Any, what: str) -> Verdict:
     except StudentError as error:
         if "ValueError" in error.errors:
             return full(f"{what} is refused with a ValueError.")
-        if error.error in ("", "NotImplementedError"):
-            raise
+        if error.error in ("", "NotImplementedError") or "ImportError" in error.errors:
+            raise  # the function did not come to look at what it was given
         return partial(0.5, f"{what} raised {error.error}; the contract asks for a ValueError.")
     said = "nothing" if value is None else f"an answer ({_short(value)})"
     return fail(f"{what} gave {said}; the contract asks for `raise ValueError`.")
@@ -148,8 +148,7 @@ def beside(got: Any, right: Any, hint: str, name: str = "") -> str:
         at, where = (row,), f"{name}[{row}]" if name else f"Row {row}"
     elif right.ndim == 0 or (right.ndim == 1 and right.size <= 4):
         at, where = (), name or "Yours"
-    yours, wanted = number(got[at]), number(right[at])
-    return f"{where} is {yours}, right is {wanted}. {hint}"
+    return f"{where} is {against(got[at], right[at])}. {hint}"
 
 
 def _short(value: Any) -> str:

@@ -37,11 +37,13 @@ class Asked:
         only: The exercises that are graded; empty for those that each file is handed in for.
         lesson: The path of a lesson that the catalogue does not have; the processes that grade load it by that.
         sandbox: The name of the wall that shuts submissions in.
+        seed: A teacher's number that the hidden checks are drawn from; None takes their usual seeds.
     """
 
     only: tuple[str, ...] = ()
     lesson: Path | None = None
     sandbox: str = "auto"
+    seed: int | None = None
 
     def exercises(self) -> tuple[Exercise, ...]:
         """Return the exercises that are asked for; none where that is for each file to say.
@@ -75,7 +77,7 @@ class Asked:
         else:
             asked = self.exercises() or finding.exercises().values()
             folders = [Path(inspect.getfile(exercise.reference)).parent for exercise in asked]
-        return f"{self.only} {self.sandbox} {_grader()} {''.join(map(_text, dict.fromkeys(folders)))}"
+        return f"{self.only} {self.sandbox} {self.seed} {_grader()} {''.join(map(_text, dict.fromkeys(folders)))}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +133,7 @@ def grade_student(handed: Handed, asked: Asked) -> Result:
         found = chosen(handed, asked)
         result["ungraded"] += found.troubles
         for part in found.graded:
-            graded = marked(part, wall)
+            graded = marked(part, wall, seed=asked.seed)
             if isinstance(graded, Report):
                 result["reports"].append(as_dict(graded))
             else:
@@ -147,16 +149,18 @@ def grade_student(handed: Handed, asked: Asked) -> Result:
     return summed(result)
 
 
-def marked(part: Part, wall: Wall, megabytes: int | None = None) -> Report | dict[str, Any]:
+def marked(part: Part, wall: Wall, megabytes: int | None = None, seed: int | None = None) -> Report | dict[str, Any]:
     """Return the report on a file, or as what `ungraded` makes of it that it cannot be graded.
 
     Args:
         part: The file, and the exercise.
         wall: What shuts the student's process in.
         megabytes: Address space of that process, where it is not what it has everywhere.
+        seed: What the hidden checks are drawn from; None takes their usual seeds.
     """
     try:
-        return replace(grade_file(part.given, part.exercise, wall=wall, megabytes=megabytes), file=part.file)
+        report = grade_file(part.given, part.exercise, wall=wall, megabytes=megabytes, seed=seed)
+        return replace(report, file=part.file)
     except InputError as error:
         return ungraded(part.file, part.exercise, str(error))
 
@@ -182,6 +186,7 @@ def empty(handed: Handed, asked: Asked) -> Result:
         "student": handed.student,
         "digest": digest(handed, asked),
         "sandbox": asked.sandbox,
+        "seed": asked.seed,
         "note": handed.note,
         "handed": [],
         "reports": [],

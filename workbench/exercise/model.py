@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from types import ModuleType
 from typing import Any
 
+import numpy as np
+
 from workbench.errors import InputError
 from workbench.numerals import brief, fixed_or_power
 
@@ -74,6 +76,18 @@ def number(value: Any, digits: int = 4) -> str:
     return brief(value, digits) if abs(value) < 1e7 else fixed_or_power(value, 0)
 
 
+def against(got: Any, right: Any, digits: int = 4, unit: str = "") -> str:
+    """Write an answer and the right one, "0.64, right is −0.64", with as many more digits as it takes to tell them apart."""
+    behind = f" {unit}" if unit else ""
+    for more in range(digits, 18):
+        yours, wanted = number(got, more), number(right, more)
+        if yours != wanted:
+            return f"{yours}{behind}, right is {wanted}{behind}"
+    off = float(np.max(np.abs(np.subtract(got, right, dtype=float)), initial=0.0))
+    said = f"{number(got, digits)}{behind}, right is {number(right, digits)}{behind}"
+    return f"{said} (off by {off:.2g}{behind})" if 0 < off < math.inf else said
+
+
 @dataclass(frozen=True)
 class Check:
     """One promise about the student's function.
@@ -117,6 +131,8 @@ class Contract:
     examples: tuple[tuple[str, str], ...] = ()
     seconds: float = 5.0
     either: Callable[[Any], Any] | None = None
+    preset: str | None = None
+    forbid: tuple[str, ...] = ()
 
     def __call__(self, *args: Any) -> Any:
         """Return what our function returns."""
@@ -137,6 +153,8 @@ def contract(
     examples: tuple[tuple[str, str], ...] = (),
     seconds: float = 5.0,
     either: Callable[[Any], Any] | None = None,
+    preset: str | None = None,
+    forbid: tuple[str, ...] = (),
 ) -> Callable[[Function], Contract]:
     """Make the contract of an exercise of our function: it has the name of its file, which is that of the exercise.
 
@@ -146,8 +164,14 @@ def contract(
         seconds: How long one call may take.
         either: Where the contract leaves open which of some answers is given (a plane's normal may point to either side):
             makes the other of the one, or a list of the others.
+        preset: The lesson's preset at which a student's own function is first watched, where the default run does not
+            call it.
+        forbid: Modules, or what is in them, by whole paths such as "scipy.spatial", that solve the task in one call: who
+            uses them earns nothing.
     """
-    return lambda function: Contract(function=function, slot=slot, examples=examples, seconds=seconds, either=either)
+    return lambda function: Contract(
+        function=function, slot=slot, examples=examples, seconds=seconds, either=either, preset=preset, forbid=forbid
+    )
 
 
 @dataclass(frozen=True, eq=False)

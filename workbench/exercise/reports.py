@@ -50,7 +50,8 @@ def counted(report: Report) -> str:
             parts.append(f"{word} {sum(o.verdict.share == 1.0 for o in run)}/{len(run)}")
         if skipped:
             parts.append(f"{word} {len(skipped)} not run here")
-    return " · ".join([*parts, f"{report.points:g} of {report.possible:g} points"])
+    drawn = [] if report.seed is None else [f"seed {report.seed}"]
+    return " · ".join([*parts, f"{report.points:g} of {report.possible:g} points", *drawn])
 
 
 def shown(printed: str) -> list[str]:
@@ -95,6 +96,7 @@ def as_dict(report: Report) -> dict[str, Any]:
         },
         "printed": shown(report.printed),
         "sandbox": None if report.wall is None else report.wall.name,
+        "seed": report.seed,
     }
 
 

@@ -63,10 +63,11 @@ def {exercise.name}({arguments}) -> {returned}:
 def allowed(exercise: Exercise, megabytes: int = MEGABYTES) -> str:
     """Return what a student's function may use, in sentences."""
     room = f"{megabytes} MB" if megabytes % 1024 else f"{megabytes >> 10} GB"
-    seconds = exercise.contract.seconds
+    seconds, forbid = exercise.contract.seconds, exercise.contract.forbid
+    but = f" It may not use {' or '.join(forbid)}, which solves the task: who does earns nothing." if forbid else ""
     return (
-        f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside this file. One call may "
-        f"take {seconds:g} s and {room}, all calls together {CALLS * seconds:g} s. It may print: the first "
+        f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside this file.{but} One call "
+        f"may take {seconds:g} s and {room}, all calls together {CALLS * seconds:g} s. It may print: the first "
         f"{OUTPUT_BYTES >> 10} KB are kept. It reaches no network, no other program and no file that is not its own. The "
         "first line above says what this file is handed in for: leave it there."
     )

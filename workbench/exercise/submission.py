@@ -5,6 +5,7 @@ import stat
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from workbench.errors import InputError
 from workbench.exercise.reading import Reader
@@ -12,6 +13,25 @@ from workbench.exercise.reading import Reader
 MOST_BYTES = 1 << 20
 MOST_MODULES = 20
 SUFFIXES = (".py", ".ipynb")
+
+
+@dataclass(frozen=True)
+class Part:
+    """A statement of a file.
+
+    Attributes:
+        binds: The names that it gives a value.
+        reads: The names that it reads.
+        defines: Whether it is the definition of a function or a class.
+        runs: Whether it does something as the file is loaded, beyond that or an import.
+        uses: The modules, and what is in them, that it uses: whole paths, each with its line.
+    """
+
+    binds: frozenset[str]
+    reads: frozenset[str]
+    defines: bool
+    runs: bool
+    uses: tuple[tuple[str, int], ...]
 
 
 @dataclass(frozen=True)
@@ -25,6 +45,8 @@ class Submission:
         said: The exercises that it says it is for, as a starter's first line does.
         defines: The names that it gives a value.
         broken: Why it is not Python, with the line; nothing where it is.
+        parts: Its statements.
+        beside: Those of the modules, by name.
     """
 
     file: str
@@ -33,6 +55,8 @@ class Submission:
     said: tuple[str, ...] = ()
     defines: frozenset[str] = frozenset()
     broken: str = ""
+    parts: tuple[Part, ...] = ()
+    beside: dict[str, tuple[Part, ...]] = field(default_factory=dict)
 
 
 def read_submission(path: Path) -> Submission:
@@ -64,13 +88,14 @@ def submission(file: str, data: bytes, beside: Callable[[str], bytes | None], re
     """
     found = reader.read(file, data)
     modules: dict[str, str] = {}
+    parts: dict[str, tuple[Part, ...]] = {}
     waiting = list(found.get("imports", []))
     while waiting and len(modules) < MOST_MODULES:
         name = waiting.pop(0)
         content_beside = None if name in modules else beside(f"{name}.py")
         if content_beside is not None:
             module = reader.read(f"{name}.py", content_beside)
-            modules[name] = module["source"]
+            modules[name], parts[name] = module["source"], _parts(module)
             waiting += module.get("imports", [])
     return Submission(
         file=file,
@@ -79,6 +104,21 @@ def submission(file: str, data: bytes, beside: Callable[[str], bytes | None], re
         said=tuple(found["said"]),
         defines=frozenset(found.get("defines", [])),
         broken=found.get("broken", ""),
+        parts=_parts(found),
+        beside=parts,
+    )
+
+
+def _parts(found: dict[str, Any]) -> tuple[Part, ...]:
+    return tuple(
+        Part(
+            frozenset(one["binds"]),
+            frozenset(one["reads"]),
+            one["defines"],
+            one["runs"],
+            tuple((str(path), int(line)) for path, line in one["uses"]),
+        )
+        for one in found.get("parts", [])
     )
 
 

@@ -2,6 +2,7 @@
 
 import os
 from pathlib import Path
+from typing import Any
 
 from workbench.errors import InputError
 from workbench.exercise.driven import driven
@@ -9,7 +10,7 @@ from workbench.exercise.finding import exercises_in
 from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox import Student
-from workbench.lesson import Lesson
+from workbench.lesson import Lesson, Preset
 
 RUNNING = "The checks are running …"
 GONE_AFTER = 4
@@ -44,6 +45,11 @@ class Watched:
     def source(self) -> str:
         """The file's text as it drives the lesson."""
         return self._student.source
+
+    def first_preset(self, params: Any) -> Preset | None:
+        """Return the preset that calls the function, where the run that was asked for is the default one, which does not."""
+        name = self.exercise.contract.preset
+        return None if name is None or params != self.original.params() else self.original.preset(name)
 
     def printed(self) -> str:
         """Return the beginning of what the function printed in the runs that it drives."""
@@ -87,7 +93,6 @@ class Watched:
         said: Report | str
         try:
             with self._new() as student:
-                student.start()
                 said = grade_function(student, self.exercise, hidden=False, file=self.path.name)
         except InputError as error:
             said = str(error)

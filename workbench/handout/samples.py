@@ -8,9 +8,12 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from workbench.exercise.forbidden import forbidden_use
 from workbench.exercise.model import Exercise, Function
+from workbench.exercise.reading import Reader
 from workbench.exercise.sandbox.python import ALLOWED
 from workbench.exercise.starter import starter
+from workbench.exercise.submission import submission
 
 OURS = ("workbench", "lessons")
 
@@ -24,10 +27,18 @@ def right(exercise: Exercise) -> str:
     troubles = []
     for function in (*exercise.alternatives, exercise.reference):
         try:
-            return _head(exercise) + _written(function, exercise.name)
+            text = _head(exercise) + _written(function, exercise.name)
+            if not _is_forbidden(text, exercise):
+                return text
+            troubles.append(f"{function.__name__} uses what the exercise forbids")
         except LookupError as error:
             troubles.append(str(error))
     raise LookupError(f"{exercise.name}: {'; '.join(troubles)}")
+
+
+def _is_forbidden(text: str, exercise: Exercise) -> bool:
+    with Reader() as reader:
+        return forbidden_use(submission("sample.py", text.encode(), lambda name: None, reader), exercise) != ""
 
 
 def empty(exercise: Exercise) -> str:

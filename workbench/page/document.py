@@ -43,6 +43,7 @@ def lesson_document(
     home: str,
     root: str | None,
     head: str = "",
+    opening: str = "",
     ending: str = "",
     more: Mapping[str, Any] | None = None,
     alone: tuple[str, str] | None = None,
@@ -56,6 +57,7 @@ def lesson_document(
         home: `live`, `site` or `notebook`.
         root: The relative address of the folder with the page's own files; None puts them all into the document.
         head: More HTML for the head.
+        opening: What stands before the text, as HTML.
         ending: What stands behind the text and its experiments, as HTML.
         more: What else the scripts need: name of a constant -> plain data.
         alone: Of a page that shows one run and no article, its title and the address of the lesson's page, if it has one.
@@ -65,7 +67,7 @@ def lesson_document(
     scripts = (*(LIVE if home == "live" else RECORDED), *SCRIPTS)
     constants = {"LESSON": data} | dict(more or {})
     heading = f"{lesson.title}: {alone[0]}" if alone else lesson.title
-    text = _alone(heading, alone[1]) if alone else _article(article, home, data, ending)
+    text = _alone(heading, alone[1]) if alone else _article(article, home, data, opening, ending)
     return (
         f"{document_head(heading, lesson.summary, root, head, math=root is not None or not alone)}"
         f'<body{" class=alone" if alone else ""} data-home="{home}" data-lesson="{escape(lesson.name)}">'
@@ -105,7 +107,7 @@ def bare(file: Path) -> str:
     return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
 
 
-def _article(article: str, home: str, data: dict[str, Any], ending: str) -> str:
+def _article(article: str, home: str, data: dict[str, Any], opening: str, ending: str) -> str:
     questions = "".join(_question(question) for question in data["questions"])
     presets = "".join(
         f'<li><button type="button" data-run="{escape(preset["name"])}" aria-pressed="false">{escape(preset["title"])}'
@@ -115,7 +117,7 @@ def _article(article: str, home: str, data: dict[str, Any], ending: str) -> str:
     chosen = f'<section class="s-runs"><h2>Experiments</h2><ul class="runs">{presets}</ul></section>' if presets else ""
     return (
         f'<article id="article">{_top("Geometry workbench", _course(home))}'
-        f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}'
+        f'{opening}<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}'
         f'{ending}<section class="s-run" id="this-run" hidden><h2>This run</h2></section>'
         '<details id="text"><summary>Text of this run</summary><p></p><ol start="0"></ol></details>'
         f'<nav id="around" aria-label="Lessons before and after" data-address="{_lesson(home)}"></nav></article>'

@@ -1,6 +1,6 @@
 """A lesson's exercises on its page: the task and the contract as HTML, and what the checks found as plain data."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from html import escape
 from typing import Any
 
@@ -8,6 +8,7 @@ from workbench.exercise.grading import Report
 from workbench.exercise.model import Exercise
 from workbench.exercise.reports import MARKS, counted, shown
 from workbench.exercise.starter import commands, starter
+from workbench.lesson import Lesson
 
 
 def exercises_html(exercises: Iterable[Exercise]) -> str:
@@ -16,12 +17,28 @@ def exercises_html(exercises: Iterable[Exercise]) -> str:
     return f'<section class="s-exercise" id="exercise"><h2>Exercise</h2>{tasks}</section>' if tasks else ""
 
 
-def watched_html(exercise: Exercise, file: str) -> str:
-    """Return the section of the exercise whose function, in a student's file, drives the lesson."""
+def watched_html(exercise: Exercise, file: str, lesson: Lesson, address: Callable[[str], str]) -> str:
+    """Return the section of the exercise whose function is watched, in a student's file.
+
+    It has one sentence for runs that call the function and one for those that do not; the page shows the one that is true.
+
+    Args:
+        exercise: What the file is for.
+        file: Its name.
+        lesson: The lesson that it drives.
+        address: The address of a run of the lesson: of a preset by its name, or of `default`.
+    """
+    run = exercise.contract.preset or "default"
+    title = "The run this lesson opens with" if run == "default" else f"The experiment “{lesson.preset(run).title}”"
+    there = f'<a class="run" href="{escape(address(run))}" data-run="{escape(run)}">{escape(title)}</a>'
+    name = escape(exercise.name)
     return (
-        f'<section class="s-exercise" id="exercise"><h2>Your {escape(exercise.name)}</h2>'
-        f"<p><code>{escape(file)}</code> drives this lesson; save it, and the run is new. Where the two differ, the run of "
-        'the reference is the faint ghost.</p><p><button type="button" id="difference" disabled>Go to the first difference'
+        f'<section class="s-exercise" id="exercise"><h2>Your {name}</h2>'
+        f'<p data-called="true" hidden><code>{escape(file)}</code> drives this lesson; save it, and the run is new. Where '
+        "the two differ, the run of the reference is the faint ghost.</p>"
+        f'<p class="mistake" data-called="false" hidden>This run never calls <code>{name}</code>, so it looks the same '
+        f"whatever the function does. {there} calls it.</p>"
+        '<p><button type="button" id="difference" disabled>Go to the first difference'
         '</button></p><div class="report" role="status"></div>'
         f"{_task(exercise, alone=True)}</section>"
     )

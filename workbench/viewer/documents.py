@@ -58,8 +58,12 @@ def lesson_page(lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched 
     """Return the document of a lesson, with what drives it where a student's file does."""
     article = _told(lesson, "page", lambda: article_html(lesson, lambda run, step: address(lesson, run, step), "live"))
     exercises = _told(lesson, "exercises", lambda: _exercises(lesson, watched))
+    own = watched is not None and watched.lesson is lesson
     course = [{"name": one.name, "title": one.title, "needs": one.needs} for one in in_order(lessons)]
-    return lesson_document(lesson, article, home="live", root=ROOT, ending=exercises, more={"COURSE": course})
+    opening, ending = (exercises, "") if own else ("", exercises)
+    return lesson_document(
+        lesson, article, home="live", root=ROOT, opening=opening, ending=ending, more={"COURSE": course}
+    )
 
 
 def in_order(lessons: Mapping[str, Lesson]) -> list[Lesson]:
@@ -80,7 +84,7 @@ def start_address(start: links.Place, query: str) -> str:
 
 def _exercises(lesson: Lesson, watched: Watched | None) -> str:
     if watched is not None and watched.lesson is lesson:
-        return watched_html(watched.exercise, watched.path.name)
+        return watched_html(watched.exercise, watched.path.name, lesson, lambda run: address(lesson, run, None))
     return exercises_html(exercises_of(lesson))
 
 

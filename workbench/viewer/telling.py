@@ -6,7 +6,7 @@ from typing import Any
 
 from workbench import links
 from workbench.errors import AuthorError
-from workbench.exercise.driven import Pair, first_difference
+from workbench.exercise.driven import Pair, calls_it, first_difference
 from workbench.exercise.watching import Watched
 from workbench.flags import show_command
 from workbench.page.charts import series_of
@@ -80,6 +80,7 @@ class Telling:
     def _run_told(self, steps: Steps, look: Look, pinned: Any, watched: Watched | None) -> dict[str, Any] | None:
         """Return what is new of the run since it was last told, None when nothing is."""
         params, lesson = look.params, look.lesson
+        is_watched = watched is not None and watched.lesson is lesson
         said = {
             "name": "default" if params == lesson.params() else getattr(lesson.preset_of(params), "name", ""),
             "params": values_of(params),
@@ -88,9 +89,8 @@ class Telling:
             "end": steps.end(),
             "files": files_of(look.own),
             "aside": look.own is not params,
-            "mark": first_difference(look.timeline.known())
-            if watched is not None and watched.lesson is lesson
-            else None,
+            "mark": first_difference(look.timeline.known()) if is_watched else None,
+            "called": calls_it(look.timeline) if is_watched else None,
             "command": show_command(lesson, params),
             "query": links.write(links.Place(lesson, params)),
         }

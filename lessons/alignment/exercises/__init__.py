@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from workbench.exercise import HiddenSeed
 from workbench.geometry.motions import exp_so3
 
-STUDENTS, GRADERS = 53, 7310  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 53, HiddenSeed(7310)  # seeds of what a student sees run, and of what only a grader does
 
 
 def a_rotation(rng: np.random.Generator) -> np.ndarray:

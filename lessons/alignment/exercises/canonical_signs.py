@@ -104,7 +104,7 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def mirror_images(candidate: Function) -> Verdict:
     """Clouds whose three tails are left-handed get right-handed frames: axis 3 has no say of its own."""
-    return several(candidate, GRADERS, 6, mirrored=True)
+    return several(candidate, GRADERS(), 6, mirrored=True)
 
 
 @check(2, public=False)
@@ -112,7 +112,7 @@ def far_and_small(candidate: Function) -> Verdict:
     """Clouds far from the origin, and tiny ones, get the signs of their tails."""
     verdicts = []
     for k, (size, away) in enumerate(((1.0, 5e3), (1e-3, 0.0), (1.0, -5e3), (1e3, 20.0))):
-        rng = np.random.default_rng(GRADERS + 20 + k)
+        rng = np.random.default_rng(GRADERS() + 20 + k)
         p = size * a_lopsided_cloud(rng, 300, mirrored=bool(k % 2)) + away
         axes = of_any_signs(rng, p)
         verdicts.append(signs_verdict(candidate(axes, p), axes, p, f"Far away, or small. {SIGNS_HINT}"))
@@ -124,7 +124,7 @@ def few_outvote_many(candidate: Function) -> Verdict:
     """A few far points outvote the many on the other side, and on the same side agree with them."""
     verdicts = []
     for k in range(4):
-        rng = np.random.default_rng(GRADERS + 40 + k)
+        rng = np.random.default_rng(GRADERS() + 40 + k)
         levels = rng.choice([0.4, -1.0, 2.2], (400, 3), p=[0.6, 0.35, 0.05]) + 0.05 * rng.normal(size=(400, 3))
         p = levels * [0.6, 0.35, 0.2] @ a_rotation(rng).T + 0.3
         axes = of_any_signs(rng, p)
@@ -135,7 +135,7 @@ def few_outvote_many(candidate: Function) -> Verdict:
 @check(1, public=False)
 def against_the_farthest_point(candidate: Function) -> Verdict:
     """One point far away does not outvote a tail of many; where the third moment is 0 an axis stays as it is."""
-    rng = np.random.default_rng(GRADERS + 60)
+    rng = np.random.default_rng(GRADERS() + 60)
     along = np.concatenate([np.tile([[-0.7], [0.2]], (1, 3)).repeat([60, 240], axis=0), np.full((30, 3), 1.4)])
     along = np.concatenate([along + 0.02 * rng.normal(size=along.shape), np.full((1, 3), -2.0)]) * [0.6, 0.35, 0.2]
     p = along @ a_rotation(rng).T

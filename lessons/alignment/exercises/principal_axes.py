@@ -122,7 +122,7 @@ def other_lumps(candidate: Function) -> Verdict:
     """Clouds of other shapes, sizes and places get their axes."""
     verdicts = []
     for k, size in enumerate((1e-3, 0.1, 1.0, 100.0)):
-        p = size * a_cloud(np.random.default_rng(GRADERS + k), 30 + 200 * k)
+        p = size * a_cloud(np.random.default_rng(GRADERS() + k), 30 + 200 * k)
         verdicts.append(axes_verdict(candidate(p), p, f"A cloud {size:g} times as large. {AXES_HINT}"))
     return worst(verdicts)
 
@@ -130,14 +130,14 @@ def other_lumps(candidate: Function) -> Verdict:
 @check(1, public=False)
 def far_away(candidate: Function) -> Verdict:
     """A cloud a thousand kilometres away has the same axes."""
-    p = a_cloud(np.random.default_rng(GRADERS + 10), 300) + np.array([1e6, -2e6, 3e6])
+    p = a_cloud(np.random.default_rng(GRADERS() + 10), 300) + np.array([1e6, -2e6, 3e6])
     return axes_verdict(candidate(p), p, "Far from the origin. Subtract the centroid before you multiply.")
 
 
 @check(1, public=False)
 def flat_and_thin(candidate: Function) -> Verdict:
     """A flat cloud, points on one line, few and equal ones get right-handed frames that fit; no point is refused."""
-    rng = np.random.default_rng(GRADERS + 20)
+    rng = np.random.default_rng(GRADERS() + 20)
     flat = rng.normal(size=(50, 3)) * [0.5, 0.2, 0.0] @ a_rotation(rng).T + 1.0
     line = np.outer(np.linspace(-1, 1, 9), [0.6, 0.0, 0.8]) + 0.3
     cases = [("A flat cloud", flat, 3), ("Points on a line", line, 1), ("A single point", line[:1], 0)]

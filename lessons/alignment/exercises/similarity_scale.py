@@ -9,6 +9,7 @@ from lessons.alignment.exercises import GRADERS, STUDENTS, a_lopsided_cloud, a_r
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -23,6 +24,7 @@ from workbench.geometry import alignment
 
 @contract(
     slot="similarity_scale",
+    preset="scale",
     examples=(
         ("similarity_scale(np.array([[0.0, 0, 0], [3, 0, 0], [0, 6, 0]]), np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0]]))",
          "3"),
@@ -55,7 +57,7 @@ SCALE_HINT = "s = tr(D S) / variance of the source (Umeyama, eq. 42), with S = d
 def scale_verdict(candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = SCALE_HINT) -> Verdict:
     """Judge a scale in per cent of the least-squares one."""
     right, got = alignment.similarity_scale(p_target, p_source), candidate(p_target, p_source)
-    said = f"Scale {got:.5g}, right is {right:.5g}. {hint}"
+    said = f"Scale {against(got, right, 5)}. {hint}"
     return band("The scale is off by", 100 * abs(got / right - 1), "%", good=0.01, fair=0.2, hint=said)
 
 
@@ -98,9 +100,9 @@ def mirror_images(candidate: Function) -> Verdict:
     """Where one scan is a mirror image, and where flat scans have noise, no reflection is counted in."""
     verdicts = []
     for k in range(6):
-        p_target, p_source = pairs(GRADERS + k, 1.0 + 0.2 * k, 0.02, mirror=bool(k % 2))
+        p_target, p_source = pairs(GRADERS() + k, 1.0 + 0.2 * k, 0.02, mirror=bool(k % 2))
         if k % 2 == 0:
-            rng = np.random.default_rng(GRADERS + 50 + k)
+            rng = np.random.default_rng(GRADERS() + 50 + k)
             p_source = (p_source - p_source.mean(axis=0)) * [1.0, 1.0, 0.0]
             p_target = (1.0 + 0.2 * k) * p_source @ a_rotation(rng).T + 0.05 * rng.normal(size=p_source.shape)
             p_source = p_source + 0.05 * rng.normal(size=p_source.shape)
@@ -111,7 +113,7 @@ def mirror_images(candidate: Function) -> Verdict:
 @check(1, public=False)
 def far_away(candidate: Function) -> Verdict:
     """Clouds ten kilometres from the origin have the same scale."""
-    p_target, p_source = pairs(GRADERS + 20, 1.7, 0.03)
+    p_target, p_source = pairs(GRADERS() + 20, 1.7, 0.03)
     there, here = np.array([1e4, -3e3, 2e3]), np.array([-4e3, -9e3, 0.0])
     return scale_verdict(candidate, p_target + there, p_source + here, f"Far away. {SCALE_HINT}")
 
@@ -121,16 +123,16 @@ def small_and_large(candidate: Function) -> Verdict:
     """Objects of centimetres and of kilometres have their scale too, and what is a hundredth or a hundred times as large."""
     verdicts = []
     for k, size in enumerate((0.01, 1000.0)):
-        p_target, p_source = pairs(GRADERS + 40 + k, 0.8, 0.05)
+        p_target, p_source = pairs(GRADERS() + 40 + k, 0.8, 0.05)
         verdicts.append(scale_verdict(candidate, size * p_target, size * p_source, f"Small, or large. {SCALE_HINT}"))
-        verdicts.append(scale_verdict(candidate, *pairs(GRADERS + 44 + k, (0.01, 100.0)[k]), f"Scaled. {SCALE_HINT}"))
+        verdicts.append(scale_verdict(candidate, *pairs(GRADERS() + 44 + k, (0.01, 100.0)[k]), f"Scaled. {SCALE_HINT}"))
     return worst(verdicts)
 
 
 @check(1, public=False)
 def no_scale_to_see(candidate: Function) -> Verdict:
     """Source points that coincide, and a single pair, give 1; two pairs have a scale; no pairs are refused."""
-    p_target, p_source = pairs(GRADERS + 30, 1.2)
+    p_target, p_source = pairs(GRADERS() + 30, 1.2)
     verdicts = [refused(candidate, np.empty((0, 3)), np.empty((0, 3)), what="A call without pairs")]
     for what, q in (("Source points that coincide", np.full(p_target.shape, 0.5)), ("A single pair", p_source[:1])):
         verdicts.append(scale_verdict(candidate, p_target[: len(q)], q, f"{what}. {SCALE_HINT}"))

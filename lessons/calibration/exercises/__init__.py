@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from workbench.exercise import Verdict, fail, full, number, partial
+from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import exp_so3, motion
 
-STUDENTS, GRADERS = 41, 8527  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 41, HiddenSeed(8527)  # seeds of what a student sees run, and of what only a grader does
 CAMERA = intrinsics(536.0, 342.0, 236.0, fy=541.0)
 
 
@@ -29,5 +29,5 @@ def rows_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "") 
     if off.max() <= 1e-6:
         return full(f"{what}all {got.size} entries are right.")
     i, j = np.unravel_index(np.argmax(off), off.shape)
-    said = f"{what}entry [{i}, {j}] is {number(got[i, j], 5)}, right is {number(right[i, j], 5)}."
+    said = f"{what}entry [{i}, {j}] is {against(got[i, j], right[i, j], 5)}."
     return partial(0.5, f"{said} Close. {hint}") if off.max() <= 1e-4 else fail(f"{said} {hint}")

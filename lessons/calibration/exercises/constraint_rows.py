@@ -74,14 +74,14 @@ def homography_is_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_homographies(candidate: Function) -> Verdict:
     """For other homographies, of any scale and sign, all entries are right: not scaled."""
-    cases = [H for _, H in views(GRADERS, 4)]
+    cases = [H for _, H in views(GRADERS(), 4)]
     return worst(found(candidate, H) for H in (*cases, 1e-5 * cases[0], -1e5 * cases[1]))
 
 
 @check(2, public=False)
 def rows_of_other_views(candidate: Function) -> Verdict:
     """For other pictures of a board all entries are right, so that the camera comes out."""
-    return worst(found(candidate, scaled(H)) for _, H in views(GRADERS + 1, 3))
+    return worst(found(candidate, scaled(H)) for _, H in views(GRADERS() + 1, 3))
 
 
 def _v(a: np.ndarray, b: np.ndarray) -> np.ndarray:

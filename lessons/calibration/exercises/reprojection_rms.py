@@ -6,7 +6,18 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.calibration.exercises import GRADERS, STUDENTS
-from workbench.exercise import Function, Verdict, alternative, band, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    against,
+    alternative,
+    band,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry import calibration
 
 
@@ -37,7 +48,7 @@ def said(candidate: Function, residuals: np.ndarray, what: str = "The rms") -> V
     right = calibration.reprojection_rms(residuals)
     got = float(candidate(residuals))
     off = 100 * abs(got - right) / (right or 1.0)
-    told = f"Yours is {got:.4g} px, right is {right:.4g} px. {HINT}"
+    told = f"Yours is {against(got, right, unit='px')}. {HINT}"
     return band(f"{what} is off by", off, "%", good=1e-4, fair=0.01, hint=told)
 
 
@@ -68,14 +79,14 @@ def residuals_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def shifted(candidate: Function) -> Verdict:
     """Residuals that all point one way count in full, be they large or very small."""
-    cases = [some(GRADERS, n, shift=2.0) for n in (3, 60)]
+    cases = [some(GRADERS(), n, shift=2.0) for n in (3, 60)]
     return worst(said(candidate, residuals) for residuals in (*cases, 1e-6 * cases[0], 300 * cases[1]))
 
 
 @check(2, public=False)
 def one_that_is_far_off(candidate: Function) -> Verdict:
     """One corner far off among good ones counts with its square."""
-    residuals = some(GRADERS + 1, 54)
+    residuals = some(GRADERS() + 1, 54)
     residuals[7] += [30.0, -20.0]
     return said(candidate, residuals)
 

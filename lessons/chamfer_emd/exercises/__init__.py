@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from workbench.exercise import Function, Verdict, fail, full, number, partial, refused, worst
+from workbench.exercise import Function, HiddenSeed, Verdict, against, fail, full, number, partial, refused, worst
 from workbench.geometry.motions import apply, exp_so3, motion
 
-STUDENTS, GRADERS = 53, 7718  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 53, HiddenSeed(7718)  # seeds of what a student sees run, and of what only a grader does
 
 
 Cloud = np.ndarray
@@ -24,7 +24,7 @@ def value_verdict(got: float, right: float, unit: str, hint: str, what: str = ""
     off = 100 * abs(got - right) / right
     if off <= 0.01:
         return full(f"{what}{number(got)} {unit}, right within 0.01 %.")
-    said = f"{yours} is {number(got, 5)} {unit}, right is {number(right, 5)} {unit}: {number(off, 3)} % off"
+    said = f"{yours} is {against(got, right, 5, unit=unit)}: {number(off, 3)} % off"
     if off <= 1:
         return partial(0.5, f"{said}, close; full marks need 0.01 %. {hint}")
     return fail(f"{said}. {hint}")

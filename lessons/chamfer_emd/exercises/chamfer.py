@@ -90,7 +90,7 @@ def uneven_clouds(candidate: Function) -> Verdict:
     """A side with few points weighs as much as one with many: 5 and 200 points, 1 and 30, 1 and 1."""
     sizes = ((5, 200), (200, 5), (1, 30), (1, 1))
     return worst(
-        chamfer_found(candidate, *two_clouds(GRADERS + 30 + k, n, m), f"{n} and {m} points: ")
+        chamfer_found(candidate, *two_clouds(GRADERS() + 30 + k, n, m), f"{n} and {m} points: ")
         for k, (n, m) in enumerate(sizes)
     )
 
@@ -98,8 +98,8 @@ def uneven_clouds(candidate: Function) -> Verdict:
 @check(2, public=False)
 def the_same_points(candidate: Function) -> Verdict:
     """Equal points are 0 apart, in any order, some of them twice; a missing half is not 0; what is twice counts twice."""
-    p, _ = two_clouds(GRADERS + 40, 50, 1)
-    more, half = reordered(GRADERS, np.vstack([p, p[:20]])), p[p[:, 0] < 0]
+    p, _ = two_clouds(GRADERS() + 40, 50, 1)
+    more, half = reordered(GRADERS(), np.vstack([p, p[:20]])), p[p[:, 0] < 0]
     return worst(
         (
             chamfer_found(candidate, p, more, "Equal points: "),
@@ -115,10 +115,10 @@ def the_same_points(candidate: Function) -> Verdict:
 @check(2, public=False)
 def moved_clouds(candidate: Function) -> Verdict:
     """In another order of rows, turned, and a thousand kilometres away, the distance is the same."""
-    p_a, p_b = two_clouds(GRADERS + 50, 60, 60)
+    p_a, p_b = two_clouds(GRADERS() + 50, 60, 60)
     right = shape_distances.chamfer(p_a, p_b)
-    mixed = candidate(reordered(GRADERS, p_a), reordered(GRADERS + 1, p_b))
-    away = candidate(*moved_together(GRADERS, p_a, p_b, 1e6))
+    mixed = candidate(reordered(GRADERS(), p_a), reordered(GRADERS() + 1, p_b))
+    away = candidate(*moved_together(GRADERS(), p_a, p_b, 1e6))
     return worst(
         (
             value_verdict(mixed, right, "m²", CHAMFER_HINT, "Other order: "),

@@ -90,14 +90,15 @@ def side_of_uneven_clouds(candidate: Function) -> Verdict:
     """Few points that look at many, many at few, and a single one each are all measured."""
     sizes = ((5, 200), (200, 5), (1, 30), (30, 1), (1, 1))
     return worst(
-        side_found(candidate, *two_clouds(GRADERS + k, n, m), f"{n} points to {m}: ") for k, (n, m) in enumerate(sizes)
+        side_found(candidate, *two_clouds(GRADERS() + k, n, m), f"{n} points to {m}: ")
+        for k, (n, m) in enumerate(sizes)
     )
 
 
 @check(2, public=False)
 def side_grows_with_the_square(candidate: Function) -> Verdict:
     """Three times the size is nine times the distance; points of a that are twice count twice, those of b once."""
-    p_a, p_b = two_clouds(GRADERS + 10, 50, 40)
+    p_a, p_b = two_clouds(GRADERS() + 10, 50, 40)
     right = shape_distances.one_sided(p_a, p_b)
     three = value_verdict(candidate(3 * p_a, 3 * p_b), 9 * right, "m²", SIDE_HINT, "Three times the size: ")
     twice = value_verdict(candidate(np.vstack([p_a, p_a]), p_b), right, "m²", SIDE_HINT, "Points of a twice: ")
@@ -109,10 +110,10 @@ def side_grows_with_the_square(candidate: Function) -> Verdict:
 @check(2, public=False)
 def side_of_moved_clouds(candidate: Function) -> Verdict:
     """In another order of rows, turned, and a thousand kilometres away, the distance is the same."""
-    p_a, p_b = two_clouds(GRADERS + 20, 60, 60)
+    p_a, p_b = two_clouds(GRADERS() + 20, 60, 60)
     right = shape_distances.one_sided(p_a, p_b)
-    mixed = candidate(reordered(GRADERS, p_a), reordered(GRADERS + 1, p_b))
-    away = candidate(*moved_together(GRADERS, p_a, p_b, 1e6))
+    mixed = candidate(reordered(GRADERS(), p_a), reordered(GRADERS() + 1, p_b))
+    away = candidate(*moved_together(GRADERS(), p_a, p_b, 1e6))
     return worst(
         (
             value_verdict(mixed, right, "m²", SIDE_HINT, "Other order: "),

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from workbench.exercise import Verdict, fail, full, partial
+from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.numerals import brief
 
-STUDENTS, GRADERS = 61, 8410  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 61, HiddenSeed(8410)  # seeds of what a student sees run, and of what only a grader does
 
 
 def numbers(values: np.ndarray) -> str:
@@ -20,6 +20,12 @@ def one(value: float) -> str:
     if not np.isfinite(value):
         return f"{value:g}".replace("-", "−")
     return f"{brief(1e9 * value)} billionths" if 0 < abs(value) < 1e-4 else brief(value, 5)
+
+
+def told(got: np.ndarray, right: np.ndarray) -> str:
+    """Write an answer and the right one, with more digits where these few would not tell them apart."""
+    yours, wanted = numbers(got), numbers(right)
+    return against(np.atleast_1d(got), np.atleast_1d(right), 5) if yours == wanted else f"{yours}, right is {wanted}"
 
 
 def row_by_row(
@@ -37,7 +43,7 @@ def row_by_row(
         fair: Up to where half of them are.
     """
     worst = int(np.argmax(np.where(np.isfinite(off), off, np.inf)))
-    said = f"{asked[worst]}: your answer is {numbers(got[worst])}, right is {numbers(right[worst])}."
+    said = f"{asked[worst]}: your answer is {told(got[worst], right[worst])}."
     if off[worst] <= good:
         return full(f"All {len(off)} are right. The last: {asked[-1]}.")
     return partial(0.5, f"Close. {said} {hint}") if off[worst] <= fair else fail(f"{said} {hint}")

@@ -12,6 +12,7 @@ from workbench.geometry import projective
 
 @contract(
     slot="meet",
+    preset="infinity",
     examples=(
         ("meet(np.array([[1.0, 0, -2]]), np.array([[0.0, 1, -3]]))", "[[2, 3, 1]]"),
         ("meet(np.array([[0.0, 1, 0]]), np.array([[0.0, 1, -1]]))", "[[-1, 0, 0]]"),
@@ -95,8 +96,8 @@ def nearly_parallel(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_lines(candidate: Function) -> Verdict:
     """Other lines meet too, and so do single ones, and lines of very small or very large numbers."""
-    one = lines(GRADERS + 1, 1)
-    a, b = lines(GRADERS, 12)
+    one = lines(GRADERS() + 1, 1)
+    a, b = lines(GRADERS(), 12)
     found = judged(candidate, *one)
     if found.share < 1.0:
         return found

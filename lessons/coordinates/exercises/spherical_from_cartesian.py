@@ -95,7 +95,7 @@ def near(candidate: Function, polar: np.ndarray, r: float, azimuth: float = 0.0)
 def other_points_all_round(candidate: Function) -> Verdict:
     """Other points, near and far, have their coordinates too."""
     return judged(
-        candidate, np.concatenate([all_round(GRADERS + k, radius=r) for k, r in enumerate((1e-2, 1e4, 1e-6))])
+        candidate, np.concatenate([all_round(GRADERS() + k, radius=r) for k, r in enumerate((1e-2, 1e4, 1e-6))])
     )
 
 
@@ -114,7 +114,7 @@ def nearer_the_axis(candidate: Function) -> Verdict:
 @check(1, public=False)
 def a_single_point(candidate: Function) -> Verdict:
     """A single point is one row."""
-    return judged(candidate, all_round(GRADERS + 2, 3)[2:])
+    return judged(candidate, all_round(GRADERS() + 2, 3)[2:])
 
 
 @check(1, public=False)

@@ -4,11 +4,11 @@ import numpy as np
 
 from workbench.data import surfaces
 from workbench.data.surfaces import Surface
-from workbench.exercise import Verdict, band, fail, number, partial
+from workbench.exercise import HiddenSeed, Verdict, against, band, fail, partial
 from workbench.geometry.meshes import face_areas, on_boundary
 from workbench.geometry.motions import exp_so3
 
-STUDENTS, GRADERS = 21, 8123  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 21, HiddenSeed(8123)  # seeds of what a student sees run, and of what only a grader does
 
 
 Mesh = tuple[np.ndarray, np.ndarray]
@@ -59,11 +59,11 @@ def curvature_verdict(
     if lost.size:
         i = lost[0]
         said = f"{what}{lost.size} of {inside.sum()} vertices inside the border have no finite value. At vertex {i} yours is"
-        return fail(f"{said} {number(got[i].squeeze())}, right is {number(right[i].squeeze())}. {hint}")
+        return fail(f"{said} {against(got[i].squeeze(), right[i].squeeze())}. {hint}")
     away = np.zeros(len(got))
     away[inside] = np.linalg.norm(got[inside] - right[inside], axis=1)
     i, off = int(np.argmax(away)), away.max()
-    told = f"At vertex {i} yours is {number(got[i].squeeze())}, right is {number(right[i].squeeze())}. {hint}"
+    told = f"At vertex {i} yours is {against(got[i].squeeze(), right[i].squeeze())}. {hint}"
     size = size or float(np.linalg.norm(right[inside], axis=1).max())
     verdict = band(
         f"{what}largest error" if what else "Largest error",

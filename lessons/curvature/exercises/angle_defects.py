@@ -21,6 +21,7 @@ from workbench.data import surfaces
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -52,7 +53,7 @@ def defects_verdict(candidate: Function, mesh: Mesh, hint: str) -> Verdict:
     off = np.degrees(np.abs(got - right))
     i, border = int(np.argmax(off)), on_boundary(faces, len(p))
     place = "on the border" if border[i] else "inside the mesh"
-    where = f"At vertex {i}, {place}, yours is {number(got[i])}, right is {number(right[i])}. {hint}"
+    where = f"At vertex {i}, {place}, yours is {against(got[i], right[i])}. {hint}"
     return band("Largest error", float(off[i]), "degrees", good=0.01, fair=1.0, hint=where)
 
 
@@ -111,8 +112,8 @@ def gauss_bonnet(candidate: Function) -> Verdict:
     """All defects add up to 2 pi (V - E + F): on a sphere, a torus, a tube, a sheet, whatever the mesh."""
     verdicts = []
     for k, name in enumerate(("sphere", "torus", "cylinder", "saddle")):
-        mesh = irregular(name, GRADERS + k)
-        p = surfaces.with_noise(mesh, 0.02, np.random.default_rng(GRADERS + k)).p
+        mesh = irregular(name, GRADERS() + k)
+        p = surfaces.with_noise(mesh, 0.02, np.random.default_rng(GRADERS() + k)).p
         chi = euler_characteristic(mesh.faces)
         total = float(np.degrees(candidate(p, mesh.faces).sum()))
         what = f"On a {name} with noise your sum is {number(total, 6)} degrees, right is {360 * chi}: error"
@@ -124,9 +125,9 @@ def gauss_bonnet(candidate: Function) -> Verdict:
 @check(2, public=False)
 def defects_go_with_the_mesh(candidate: Function) -> Verdict:
     """Moved, enlarged, made as small as a grain, turned inside out or numbered anew, every vertex keeps its defect."""
-    rng = np.random.default_rng(GRADERS)
-    mesh = irregular("catenoid", GRADERS, 120)
-    p = 3.0 * mesh.p @ some_rotation(GRADERS).T + rng.normal(size=3)
+    rng = np.random.default_rng(GRADERS())
+    mesh = irregular("catenoid", GRADERS(), 120)
+    p = 3.0 * mesh.p @ some_rotation(GRADERS()).T + rng.normal(size=3)
     cases = [(mesh.p, mesh.faces), (p, mesh.faces), (p, mesh.faces[:, ::-1].copy()), renumbered(p, mesh.faces, rng)]
     return worst(defects_verdict(candidate, case, DEFECT_HINT) for case in (*cases, (1e-3 * mesh.p, mesh.faces)))
 
@@ -144,12 +145,12 @@ def flat_faces_and_lone_vertices(candidate: Function) -> Verdict:
     ball = surfaces.sphere(42)
     verdicts = []
     for k in range(16):  # which cosines rounding takes beyond 1 depends on how the mesh is turned
-        p, faces = with_a_flat_face(ball.p @ some_rotation(GRADERS + k).T, ball.faces)
+        p, faces = with_a_flat_face(ball.p @ some_rotation(GRADERS() + k).T, ball.faces)
         verdicts.append(defects_verdict(candidate, (np.concatenate([p, [[3.0, 0.0, 0.0]]]), faces), FLAT_HINT))
     first = np.concatenate([[[3.0, 0, 0]], ball.p[:7], [[0, 3.0, 0]], ball.p[7:], [[0, 0, 3.0], [1, 3.0, 0]]])
     shifted = ball.faces + np.where(ball.faces < 7, 1, 2)  # four vertices without faces, wherever they stand
     verdicts.append(defects_verdict(candidate, (first, shifted), DEFECT_HINT))
-    verdicts.append(defects_verdict(candidate, with_a_flat_face(*box(GRADERS)), FLAT_HINT))
+    verdicts.append(defects_verdict(candidate, with_a_flat_face(*box(GRADERS())), FLAT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*ALONG_THE_DIAGONAL), FLAT_HINT))
     return worst(verdicts)
 

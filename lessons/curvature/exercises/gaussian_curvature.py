@@ -92,7 +92,7 @@ def obtuse_faces(candidate: Function) -> Verdict:
     hint = "Half of an obtuse face belongs to its obtuse corner, a quarter to each of the others."
     verdicts = []
     for k, name in enumerate(("torus", "catenoid")):
-        mesh = irregular(name, GRADERS + k)
+        mesh = irregular(name, GRADERS() + k)
         right = curvature.gaussian_curvature(mesh.p, mesh.faces)
         got = candidate(mesh.p, mesh.faces)
         verdicts.append(curvature_verdict(got, right, hint, good=0.1, fair=5, what=f"{name.capitalize()}: "))
@@ -102,9 +102,9 @@ def obtuse_faces(candidate: Function) -> Verdict:
 @check(2, public=False)
 def size_and_side(candidate: Function) -> Verdict:
     """Twice the size gives a quarter of K, a hundredth 10,000 times K; a motion or another outside change nothing."""
-    mesh = irregular("saddle", GRADERS)
+    mesh = irregular("saddle", GRADERS())
     right = curvature.gaussian_curvature(mesh.p, mesh.faces)
-    p = mesh.p @ some_rotation(GRADERS).T + np.array([5.0, -2.0, 1.0])
+    p = mesh.p @ some_rotation(GRADERS()).T + np.array([5.0, -2.0, 1.0])
     cases = (
         ("Moved: ", (p, mesh.faces), right),
         ("Twice as large: ", (2 * p, mesh.faces), right / 4),
@@ -123,7 +123,7 @@ def face_without_area(candidate: Function) -> Verdict:
     ball = surfaces.sphere(42)
     hint = "It is obtuse: its parts are a half and two quarters of nothing. Clip cosines, or take arctan2."
     verdicts = []
-    for mesh in (with_a_flat_face(ball.p, ball.faces), with_a_flat_face(*box(GRADERS))):
+    for mesh in (with_a_flat_face(ball.p, ball.faces), with_a_flat_face(*box(GRADERS()))):
         right = curvature.gaussian_curvature(*mesh)
         verdicts.append(curvature_verdict(candidate(*mesh), right, hint, good=0.1, fair=5))
     return worst(verdicts)

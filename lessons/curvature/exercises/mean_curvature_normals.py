@@ -95,7 +95,7 @@ def mesh_of_H_is_left_alone(candidate: Function) -> Verdict:
 def irregular_faces(candidate: Function) -> Verdict:
     """On irregular meshes with obtuse faces the cotangents and areas are right."""
     return worst(
-        _pulled(candidate, irregular(name, GRADERS + k), what=f"{name.capitalize()}: ")
+        _pulled(candidate, irregular(name, GRADERS() + k), what=f"{name.capitalize()}: ")
         for k, name in enumerate(("torus", "saddle"))
     )
 
@@ -103,7 +103,7 @@ def irregular_faces(candidate: Function) -> Verdict:
 @check(2, public=False)
 def plane_and_soap_film(candidate: Function) -> Verdict:
     """They vanish on a plane however it is cut, and on a catenoid, whose two curvatures cancel."""
-    sheet, film = irregular("plane", GRADERS, 100), surfaces.catenoid(300)
+    sheet, film = irregular("plane", GRADERS(), 100), surfaces.catenoid(300)
     hint = f"Flat or balanced means 0. {NORMAL_HINT}"
     return worst(
         curvature_verdict(
@@ -122,8 +122,8 @@ def plane_and_soap_film(candidate: Function) -> Verdict:
 @check(2, public=False)
 def turns_with_the_mesh(candidate: Function) -> Verdict:
     """They turn with the mesh, halve on one of twice the size, and stay where its outside is called inside."""
-    mesh = irregular("torus", GRADERS + 5, 100)
-    right, R = curvature.mean_curvature_normals(mesh.p, mesh.faces), some_rotation(GRADERS + 5)
+    mesh = irregular("torus", GRADERS() + 5, 100)
+    right, R = curvature.mean_curvature_normals(mesh.p, mesh.faces), some_rotation(GRADERS() + 5)
     p = mesh.p @ R.T + np.array([1.0, -4.0, 2.0])
     cases = (
         ("Turned: ", (p, mesh.faces), right @ R.T),

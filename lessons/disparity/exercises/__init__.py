@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from workbench.exercise import Verdict, fail, full, number, partial
+from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = 31, 9241  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 31, HiddenSeed(9241)  # seeds of what a student sees run, and of what only a grader does
 
 
 Pair = tuple[np.ndarray, np.ndarray]
@@ -37,7 +37,7 @@ def cells_verdict(
     if not wrong.any():
         return full(f"{what}{judged.sum()} of {judged.sum()} costs are right.")
     d, y, x = (int(i) for i in np.argwhere(wrong)[0])
-    first = f"cost[{d}, {y}, {x}] is {number(got[d, y, x])}, right is {number(right[d, y, x])}"
+    first = f"cost[{d}, {y}, {x}] is {against(got[d, y, x], right[d, y, x])}"
     said = f"{what}{wrong.sum()} of {judged.sum()} costs are wrong; {first}. {hint}"
     return partial(0.5, said) if wrong.sum() <= 0.05 * judged.sum() else fail(said)
 

@@ -9,6 +9,7 @@ from lessons.disparity.exercises import GRADERS, STUDENTS
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -60,7 +61,7 @@ def depth_verdict(got: np.ndarray, right: np.ndarray, what: str = "") -> Verdict
     """Judge depths by the largest relative error, per cent, and say where it is."""
     off = np.abs(got - right) / right
     i = np.unravel_index(np.argmax(np.where(np.isfinite(off), off, np.inf)), off.shape)
-    hint = f"Yours is {number(got[i])} m, right is {number(right[i])} m. {DEPTH_HINT}"
+    hint = f"Yours is {against(got[i], right[i], unit='m')}. {DEPTH_HINT}"
     return band(
         f"{what}largest error" if what else "Largest error", 100 * float(off[i]), "%", good=0.01, fair=5, hint=hint
     )
@@ -90,7 +91,7 @@ def disparities_are_left_alone(candidate: Function) -> Verdict:
 @check(3, public=False)
 def two_cameras(candidate: Function) -> Verdict:
     """Points seen by two cameras come back to the depths at which they are."""
-    rng = np.random.default_rng(GRADERS)
+    rng = np.random.default_rng(GRADERS())
     verdicts = []
     for f, baseline in ((350.0, 0.06), (1200.0, 0.54)):
         x, Z = rng.uniform(-1, 1, 40), rng.uniform(0.8, 40.0, 40)
@@ -102,7 +103,7 @@ def two_cameras(candidate: Function) -> Verdict:
 @check(1, public=False)
 def smaller_pictures(candidate: Function) -> Verdict:
     """In pictures shrunk four times, f and d shrink, and the depth is the same; no disparities give no depths."""
-    d = np.random.default_rng(GRADERS + 1).uniform(3.0, 80.0, (3, 4, 2))
+    d = np.random.default_rng(GRADERS() + 1).uniform(3.0, 80.0, (3, 4, 2))
     if candidate(np.empty(0), 900.0, 0.15).size:
         return fail("No disparities came in, and depths came out; right are 0 of them.")
     return worst(depth_verdict(candidate(d / k, 900.0 / k, 0.15), 135.0 / d, f"1/{k} size: ") for k in (1, 4))

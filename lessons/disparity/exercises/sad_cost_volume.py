@@ -109,7 +109,7 @@ def pictures_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def mirrored(candidate: Function) -> Verdict:
     """Mirrored and exchanged, the same pairs of pixels have the same costs; one shift, and all that fit, are tried."""
-    left, right = textures(GRADERS, 10, 17)
+    left, right = textures(GRADERS(), 10, 17)
     cost = candidate(left, right, 5, 3)
     turned = candidate(right[:, ::-1].copy(), left[:, ::-1].copy(), 5, 3)
     back = np.full_like(cost, np.inf)
@@ -126,7 +126,7 @@ def mirrored(candidate: Function) -> Verdict:
 @check(1, public=False)
 def brighter_pictures(candidate: Function) -> Verdict:
     """Twice the contrast doubles all costs, and the same light added to both changes none."""
-    left, right = textures(GRADERS + 1, 9, 15)
+    left, right = textures(GRADERS() + 1, 9, 15)
     wanted = sad_cost_volume(left, right, 4, 3)
     where = inner(wanted, 3)
     double = cells_verdict(candidate(2 * left, 2 * right, 4, 3), 2 * wanted, where, "Twice the contrast: ")
@@ -137,7 +137,7 @@ def brighter_pictures(candidate: Function) -> Verdict:
 @check(2, public=False)
 def windows_over_the_border(candidate: Function) -> Verdict:
     """A window that reaches over the border of its slice repeats the border's cells, also one larger than the picture."""
-    left, right = textures(GRADERS + 2)
+    left, right = textures(GRADERS() + 2)
     wanted = sad_cost_volume(left, right, 4, 5)
     hint = "Take the differences of the columns that both have, pad these by repeating their border, then sum."
     verdicts = [cells_verdict(candidate(left, right, 4, 5), wanted, ~inner(wanted, 5), hint=hint)]
@@ -150,7 +150,7 @@ def windows_over_the_border(candidate: Function) -> Verdict:
 @check(1, public=False)
 def byte_pictures(candidate: Function) -> Verdict:
     """Pictures of bytes (uint8) give the same costs as floats."""
-    left, right = (np.rint(np.clip(picture, 0, 255)).astype(np.uint8) for picture in textures(GRADERS + 3))
+    left, right = (np.rint(np.clip(picture, 0, 255)).astype(np.uint8) for picture in textures(GRADERS() + 3))
     wanted = sad_cost_volume(left, right, 5, 3)
     hint = "In uint8, 3 - 5 is 254: convert to float before you subtract."
     return cells_verdict(candidate(left, right, 5, 3), wanted, hint=hint)
@@ -159,7 +159,7 @@ def byte_pictures(candidate: Function) -> Verdict:
 @check(1, public=False)
 def what_makes_no_sense(candidate: Function) -> Verdict:
     """Pictures of two sizes, windows that are even or not positive, and shifts beyond the width are refused."""
-    left, right = textures(GRADERS + 4, 8, 12)
+    left, right = textures(GRADERS() + 4, 8, 12)
     return worst(
         (
             refused(candidate, left, right[:, 1:].copy(), 3, 3, what="A right picture that is one column narrower"),

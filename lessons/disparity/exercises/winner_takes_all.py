@@ -79,7 +79,7 @@ def costs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def two_boards(candidate: Function) -> Verdict:
     """On the costs of two pictures of a near and a far board, both are found."""
-    boards = [textures(GRADERS + k, 8, 28, shift) for k, shift in enumerate((3, 9))]
+    boards = [textures(GRADERS() + k, 8, 28, shift) for k, shift in enumerate((3, 9))]
     left, right = (np.concatenate(halves) for halves in zip(*boards, strict=True))
     got = candidate(cost_volume.sad_cost_volume(left, right, 12, 3))[:, 9:]
     off = np.abs(got - np.repeat([[3], [9]], 8, axis=0)) > 1
@@ -92,7 +92,7 @@ def two_boards(candidate: Function) -> Verdict:
 @check(2, public=False)
 def infinite_costs(candidate: Function) -> Verdict:
     """An infinite cost never wins, not over 10¹², but where all are: there it is 0, in a single slice too."""
-    cost, _ = valleys(GRADERS + 1, (8, 6, 10))
+    cost, _ = valleys(GRADERS() + 1, (8, 6, 10))
     d, _, x = np.indices(cost.shape)
     cost[x < d] = np.inf
     cost[:, 2, 3:5] = np.inf
@@ -104,7 +104,7 @@ def infinite_costs(candidate: Function) -> Verdict:
 @check(2, public=False)
 def only_the_order_counts(candidate: Function) -> Verdict:
     """Scaled, shifted or turned round along d, the same costs win."""
-    cost, d = valleys(GRADERS + 2, (7, 8, 5))
+    cost, d = valleys(GRADERS() + 2, (7, 8, 5))
     last = len(cost) - 1
     return worst(
         (
@@ -118,10 +118,10 @@ def only_the_order_counts(candidate: Function) -> Verdict:
 @check(1, public=False)
 def whole_numbers_and_one_slice(candidate: Function) -> Verdict:
     """Whole numbers up to 65,535, negative ones, equal ones, and a volume of a single slice, are fine."""
-    cost = np.random.default_rng(GRADERS + 3).integers(250, 2**16, (20, 6, 4)).astype(np.uint16)
+    cost = np.random.default_rng(GRADERS() + 3).integers(250, 2**16, (20, 6, 4)).astype(np.uint16)
     single = map_verdict(candidate(cost[:1].astype(float)), np.zeros((6, 4), int), "A single slice: ")
-    signed = np.random.default_rng(GRADERS + 4).integers(-9, 9, (6, 5, 7))
-    few = np.random.default_rng(GRADERS + 5).integers(0, 3, (9, 6, 5)).astype(np.uint8)
+    signed = np.random.default_rng(GRADERS() + 4).integers(-9, 9, (6, 5, 7))
+    few = np.random.default_rng(GRADERS() + 5).integers(0, 3, (9, 6, 5)).astype(np.uint8)
     cases = ((cost, "Whole numbers: "), (signed, "Whole numbers of either sign: "), (few, "Equal whole numbers: "))
     return worst([*(map_verdict(candidate(c), np.argmin(c, axis=0), what) for c, what in cases), single])
 

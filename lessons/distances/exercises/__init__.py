@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from workbench.exercise import Verdict, fail, full, partial
-from workbench.numerals import brief
+from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = 23, 7019  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 23, HiddenSeed(7019)  # seeds of what a student sees run, and of what only a grader does
 
 
 def values_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "", *, fair: float = 1e-3) -> Verdict:
@@ -26,9 +25,5 @@ def values_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = ""
         return full(f"{what}all {got.size} values are right.")
     i = int(np.argmax(off))
     wrong = int((off > 1e-6).sum())
-    said = f"{what}{wrong} of {got.size} values are wrong: [{i}] is {_said(got[i])}, right is {_said(right[i])}."
+    said = f"{what}{wrong} of {got.size} values are wrong: [{i}] is {against(got[i], right[i])}."
     return partial(0.5, f"{said} Close. {hint}") if off.max() <= fair else fail(f"{said} {hint}")
-
-
-def _said(value: float) -> str:
-    return brief(float(value), 5) if np.isfinite(value) else str(float(value))

@@ -14,6 +14,7 @@ Values = Float[np.ndarray, " n"]
 
 @contract(
     slot="eikonal_update",
+    preset="marching",
     examples=(
         ("eikonal_update(np.array([1.0, 0.0]), np.array([1.0, 2.0]), 1.0)", "[1.7071, 1]"),
         ("eikonal_update(np.array([0.3, np.inf]), np.array([np.inf, 0.5]), 0.1)", "[0.4, 0.6]"),
@@ -71,7 +72,7 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def neighbours_out_of_reach(candidate: Function) -> Verdict:
     """Where one axis has no neighbour, inf, the front comes along the other."""
-    a, b, h = nodes(GRADERS, 8, 0.25, 1.5)
+    a, b, h = nodes(GRADERS(), 8, 0.25, 1.5)
     a[[1, 4]], b[[2, 7]] = np.inf, np.inf
     return found(candidate, a, b, h)
 
@@ -80,7 +81,7 @@ def neighbours_out_of_reach(candidate: Function) -> Verdict:
 def any_spacing(candidate: Function) -> Verdict:
     """Grids of 1 mm to 30 m, whichever neighbour is nearer."""
     return worst(
-        found(candidate, *nodes(GRADERS + k, 40, h, 1.8), f"Spacing {h:g} m: ")
+        found(candidate, *nodes(GRADERS() + k, 40, h, 1.8), f"Spacing {h:g} m: ")
         for k, h in enumerate((0.001, 0.1, 30.0))
     )
 

@@ -13,6 +13,8 @@ from workbench.geometry import metrics
 
 @contract(
     slot="mahalanobis",
+    preset="whiten",
+    forbid=("scipy.spatial.distance",),
     examples=(
         (
             "mahalanobis(np.array([[1.0, -1], [1, 1]]), np.zeros(2), np.array([[1, 0.9], [0.9, 1]]))",
@@ -75,13 +77,13 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_dimensions(candidate: Function) -> Verdict:
     """In 1, 3 and 7 dimensions."""
-    return worst(found(candidate, scattered(GRADERS + d, 9, d), f"{d} dimensions: ") for d in (1, 3, 7))
+    return worst(found(candidate, scattered(GRADERS() + d, 9, d), f"{d} dimensions: ") for d in (1, 3, 7))
 
 
 @check(2, public=False)
 def units_do_not_matter(candidate: Function) -> Verdict:
     """One axis in millimetres changes no distance, nor do all in kilometres."""
-    p, mean, C = scattered(GRADERS + 20, 8, 2)
+    p, mean, C = scattered(GRADERS() + 20, 8, 2)
     units = np.array([1.0, 1000.0])
     one = found(candidate, (p * units, mean * units, C * np.outer(units, units)))
     return worst((one, found(candidate, (1e-3 * p, 1e-3 * mean, 1e-6 * C), "In kilometres: ")))
@@ -90,7 +92,7 @@ def units_do_not_matter(candidate: Function) -> Verdict:
 @check(1, public=False)
 def one_point_and_many(candidate: Function) -> Verdict:
     """One point, two points in two dimensions, and 3,000."""
-    return worst(found(candidate, scattered(GRADERS + 30 + n, n, 2), f"{n:,} points: ") for n in (1, 2, 3000))
+    return worst(found(candidate, scattered(GRADERS() + 30 + n, n, 2), f"{n:,} points: ") for n in (1, 2, 3000))
 
 
 @mistake("You returned the squared distance. Take the root: only then it is a metric, and counts standard deviations.")

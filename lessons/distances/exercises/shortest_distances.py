@@ -19,6 +19,7 @@ Lengths = Float[np.ndarray, " e"]
 
 @contract(
     slot="shortest_distances",
+    forbid=("scipy.sparse.csgraph",),
     examples=(
         (
             "shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]), 4, 0)",
@@ -88,13 +89,13 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def random_networks(candidate: Function) -> Verdict:
     """Networks of 8 to 200 nodes, from any source."""
-    return worst(found(candidate, network(GRADERS + n, n, 4), f"{n} nodes: ") for n in (8, 40, 200))
+    return worst(found(candidate, network(GRADERS() + n, n, 4), f"{n} nodes: ") for n in (8, 40, 200))
 
 
 @check(2, public=False)
 def out_of_reach(candidate: Function) -> Verdict:
     """Nodes in another piece, and nodes without edges, are infinitely far."""
-    edges, lengths, count, _ = network(GRADERS + 300, 15, 3)
+    edges, lengths, count, _ = network(GRADERS() + 300, 15, 3)
     both = np.concatenate([edges, edges + count]), np.concatenate([lengths, lengths])
     return found(candidate, (*both, 2 * count + 2, count + 1))
 
@@ -104,7 +105,7 @@ def the_smallest_graphs(candidate: Function) -> Verdict:
     """A node alone, two nodes, nodes without an edge, a source without one; short and long edges."""
     alone = (np.empty((0, 2), int), np.empty(0), 1, 0)
     edge = np.array([[1, 0]])
-    edges, lengths, count, _ = network(GRADERS + 310, 12, 3)
+    edges, lengths, count, _ = network(GRADERS() + 310, 12, 3)
     short = 1e3 * candidate(edges, 1e-7 * lengths, count, 5)
     right = 1e3 * geodesics.shortest_distances(edges, 1e-7 * lengths, count, 5)
     return worst(

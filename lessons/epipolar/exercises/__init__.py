@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from workbench.exercise import HiddenSeed
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import apply, exp_so3, motion
 
-STUDENTS, GRADERS = 67, 9127  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 67, HiddenSeed(9127)  # seeds of what a student sees run, and of what only a grader does
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

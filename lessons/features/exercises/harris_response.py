@@ -13,6 +13,7 @@ from workbench.geometry import keypoints
 
 @contract(
     slot="harris_response",
+    preset="patches",
     examples=(
         ("harris_response(np.zeros((3, 4)))", "[[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]]"),
         ("harris_response(np.outer(np.arange(9.0), np.ones(9)))[4, 4]", "-0.0354"),
@@ -77,14 +78,14 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_pictures(candidate: Function) -> Verdict:
     """High, wide and very small pictures, one of noise alone, and one of 16 bits."""
-    noise = np.random.default_rng(GRADERS + 3).normal(128.0, 20.0, (30, 30))
+    noise = np.random.default_rng(GRADERS() + 3).normal(128.0, 20.0, (30, 30))
     return worst(
         judged(candidate, image, what)
         for image, what in (
-            (textured(GRADERS, 64, 24), "64 rows of 24"),
-            (textured(GRADERS + 1, 17, 61), "17 rows of 61"),
+            (textured(GRADERS(), 64, 24), "64 rows of 24"),
+            (textured(GRADERS() + 1, 17, 61), "17 rows of 61"),
             (noise, "Noise"),
-            (textured(GRADERS + 4, 6, 5), "6 rows of 5"),
+            (textured(GRADERS() + 4, 6, 5), "6 rows of 5"),
             (257.0 * noise - 9000.0, "Levels of 16 bits"),
         )
     )
@@ -93,7 +94,7 @@ def other_pictures(candidate: Function) -> Verdict:
 @check(1, public=False)
 def brightness_and_contrast(candidate: Function) -> Verdict:
     """A darker picture of a hundredth of the contrast: its response is smaller by 10⁸; of a ten-thousandth, by 10¹⁶."""
-    picture = textured(GRADERS + 2, 40, 40)
+    picture = textured(GRADERS() + 2, 40, 40)
     return worst([judged(candidate, c * picture + 3.0, f"Contrast times {c:g}") for c in (1e-2, 1e-4)])
 
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from workbench.exercise import Verdict, band, fail, number
+from workbench.exercise import HiddenSeed, Verdict, against, band, fail
 
-STUDENTS, GRADERS = 71, 8610  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 71, HiddenSeed(8610)  # seeds of what a student sees run, and of what only a grader does
 
 
 def entries(
@@ -24,7 +24,7 @@ def entries(
     off = np.abs(got - right)
     at = np.unravel_index(int(np.argmax(np.where(np.isfinite(off), off, np.inf))), off.shape)
     where = ", ".join(str(int(k)) for k in at)
-    said = f"Entry [{where}] is {number(float(got[at]), 4)}, right is {number(float(right[at]), 4)}."
+    said = f"Entry [{where}] is {against(float(got[at]), float(right[at]), 4)}."
     if not np.isfinite(off[at]):
         return fail(f"{what}: {said} {hint}")
     return band(f"{what}: off by a share of", float(off[at]) / size, "", good=good, fair=fair, hint=f"{said} {hint}")

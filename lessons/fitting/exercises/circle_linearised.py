@@ -82,7 +82,7 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def iterated_it_finds_the_circle(candidate: Function) -> Verdict:
     """Six steps of Gauss-Newton with it end at the circle with the least squared distances."""
-    rng = np.random.default_rng(GRADERS)
+    rng = np.random.default_rng(GRADERS())
     turn = rng.uniform(0.0, 4.0, 50)
     p = np.column_stack([np.cos(turn), np.sin(turn)]) + 0.03 * rng.normal(size=(50, 2)) + [3.0, -2.0]
     circle, right = np.array([3.2, -1.9, 0.8]), np.array([3.2, -1.9, 0.8])
@@ -97,8 +97,8 @@ def iterated_it_finds_the_circle(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_circles(candidate: Function) -> Verdict:
     """Large, small and far circles, and single points, have theirs."""
-    verdicts = [judged(candidate, *some_points(GRADERS + 1, 1)), judged(candidate, *some_points(GRADERS + 2, 40))]
-    circle, p = some_points(GRADERS + 3)
+    verdicts = [judged(candidate, *some_points(GRADERS() + 1, 1)), judged(candidate, *some_points(GRADERS() + 2, 40))]
+    circle, p = some_points(GRADERS() + 3)
     verdicts += [judged(candidate, 100.0 * circle, 100.0 * p), judged(candidate, 0.01 * circle, 0.01 * p)]
     return worst(verdicts)
 

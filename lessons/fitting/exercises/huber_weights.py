@@ -12,6 +12,7 @@ from workbench.exercise import Function, Verdict, alternative, check, contract, 
 
 @contract(
     slot="huber_weights",
+    preset="drift",
     examples=(
         ("huber_weights(array([-5., -0.5, 0., 2.]), 1.0)", "[0.2, 1, 1, 0.5]"),
         ("huber_weights(array([1., 3.]), 1.5)", "[1, 0.5]"),
@@ -66,16 +67,16 @@ def residuals_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def all_on_one_side(candidate: Function) -> Verdict:
     """Points below the plane are weighed as those above."""
-    r = np.abs(some_residuals(GRADERS, 0.2))
+    r = np.abs(some_residuals(GRADERS(), 0.2))
     return worst((judged(candidate, -r, 0.2), judged(candidate, r, 0.2)))
 
 
 @check(2, public=False)
 def other_corners(candidate: Function) -> Verdict:
     """Other corners, single points, points at a corner, on the plane and very far off it have their weights too."""
-    cases = [(some_residuals(GRADERS + 1, 4.685, 30), 4.685), (np.array([-2.5]), 1.345), (np.array([0.0]), 0.1)]
+    cases = [(some_residuals(GRADERS() + 1, 4.685, 30), 4.685), (np.array([-2.5]), 1.345), (np.array([0.0]), 0.1)]
     cases += [(np.array([-0.5, 0.5, 1e-9, -1e-9, 0.0]), 0.5), (np.array([4e3, -9e2, 0.0]), 0.2), (np.zeros(4), 0.3)]
-    cases.append((some_residuals(GRADERS + 2, 1e-5), 1e-5))
+    cases.append((some_residuals(GRADERS() + 2, 1e-5), 1e-5))
     return worst(judged(candidate, r, corner) for r, corner in cases)
 
 

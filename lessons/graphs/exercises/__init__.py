@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from workbench.exercise import Verdict, fail, full, partial
-from workbench.numerals import brief
+from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = 17, 6043  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 17, HiddenSeed(6043)  # seeds of what a student sees run, and of what only a grader does
 
 
 def weighted(seed: int, count: int, chance: float = 0.5) -> np.ndarray:
@@ -29,7 +28,6 @@ def matrix_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = ""
     if not off.size or off.max() <= 1e-6:
         return full(f"{what}all {got.size} entries are right.")
     i, j = (int(at) for at in np.unravel_index(int(np.argmax(off)), off.shape))
-    yours = brief(float(got[i, j]), 4) if np.isfinite(got[i, j]) else str(got[i, j])
     wrong = int((off > 1e-6).sum())
-    said = f"{what}{wrong} of {got.size} entries are wrong: [{i}, {j}] is {yours}, right is {brief(float(right[i, j]), 4)}."
+    said = f"{what}{wrong} of {got.size} entries are wrong: [{i}, {j}] is {against(got[i, j], right[i, j])}."
     return partial(0.5, f"{said} Close. {hint}") if off.max() <= fair else fail(f"{said} {hint}")

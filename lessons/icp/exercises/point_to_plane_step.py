@@ -25,6 +25,7 @@ from workbench.geometry.motions import apply, exp_so3, motion, skew
 
 @contract(
     slot="step",
+    preset="plane",
     examples=(
         (
             "point_to_plane_step(np.array([[9.0, 0, 0]]), np.array([[0.0, 0, 0]]), np.array([[0.0, 0, 1]]))",
@@ -128,9 +129,9 @@ def noisy_step(candidate: Function) -> Verdict:
     """With noise and normals of either sign, one step is the least-squares step."""
     verdicts = []
     for k in range(3):
-        rng = np.random.default_rng(GRADERS + k)
+        rng = np.random.default_rng(GRADERS() + k)
         p_true, n_target = planes(rng, 150)
-        p_source = apply(a_motion(rng, 1.5, 0.02), p_true) + 0.01 * rng.normal(size=p_true.shape)
+        p_source = apply(a_motion(rng, 0.5, 0.02), p_true) + 0.005 * rng.normal(size=p_true.shape)
         p_target, signs = slid(rng, p_true, n_target), rng.choice([-1.0, 1.0], (150, 1))
         verdicts.append(_stepped(candidate(p_target, p_source, signs * n_target), p_target, p_source, n_target))
     return worst(verdicts)
@@ -139,13 +140,15 @@ def noisy_step(candidate: Function) -> Verdict:
 @check(2, public=False)
 def steps_arrive_elsewhere(candidate: Function) -> Verdict:
     """Six steps arrive from other starts too, also five metres from the origin."""
-    return worst([arrived(candidate, GRADERS + 10, 15.0, 0.1), arrived(candidate, GRADERS + 11, 8.0, 0.05, aside=5.0)])
+    return worst(
+        [arrived(candidate, GRADERS() + 10, 15.0, 0.1), arrived(candidate, GRADERS() + 11, 8.0, 0.05, aside=5.0)]
+    )
 
 
 @check(1, public=False)
 def sliding(candidate: Function) -> Verdict:
     """One plane, or two, pull points onto themselves and do not slide or spin them; one pair is enough for that."""
-    rng = np.random.default_rng(GRADERS + 20)
+    rng = np.random.default_rng(GRADERS() + 20)
     flat = rng.uniform(-1, 1, (40, 3)) * [1.0, 1.0, 0.0]
     flat -= flat.mean(0)
     n_target = np.tile([0.0, 0.0, 1.0], (40, 1))

@@ -15,6 +15,7 @@ HINT = "2/n (p_i − its nearest q), plus 2/m (p_i − q_j) for every q_j whose 
 
 @contract(
     slot="chamfer_gradient",
+    preset="smeared",
     examples=(
         ("chamfer_gradient(array([[0., 0., 0.]]), array([[1., 0., 0.]]))", "[[-4, 0, 0]]"),
         (
@@ -83,20 +84,20 @@ def clouds_are_left_alone(candidate: Function) -> Verdict:
 def of_any_size(candidate: Function) -> Verdict:
     """1 and 30 points, 30 and 1, 200 and 150, one and one."""
     sizes = ((1, 30), (30, 1), (200, 150), (1, 1))
-    return worst(found(candidate, *clouds(GRADERS + n, n, m), f"{n} and {m} points: ") for n, m in sizes)
+    return worst(found(candidate, *clouds(GRADERS() + n, n, m), f"{n} and {m} points: ") for n, m in sizes)
 
 
 @check(1, public=False)
 def far_from_the_origin(candidate: Function) -> Verdict:
     """A kilometre away the gradient is the same."""
-    p, q = clouds(GRADERS, 15, 20)
+    p, q = clouds(GRADERS(), 15, 20)
     return found(candidate, p + 1000.0, q + 1000.0)
 
 
 @check(1, public=False)
 def nothing_where_they_are_equal(candidate: Function) -> Verdict:
     """Of a cloud to itself, in another order, the gradient is 0 everywhere."""
-    p, _ = clouds(GRADERS + 3, 25, 1)
+    p, _ = clouds(GRADERS() + 3, 25, 1)
     got = candidate(p, p[::-1].copy())
     return entries_verdict(1 + got, np.ones_like(p), HINT, "Plus 1: ")
 

@@ -14,6 +14,7 @@ HINT = "w_i = T_i (1 − exp(−density_i · spacing)); T_i is what passes all s
 
 @contract(
     slot="ray_weights",
+    preset="two",
     examples=(
         ("ray_weights(array([[0., 1., 1.]]) * np.log(2), 1.0)", "[[0, 0.5, 0.25]]"),
         ("ray_weights(array([[1000., 1.]]), 0.5)", "[[1, 0]]"),
@@ -71,7 +72,7 @@ def densities_are_left_alone(candidate: Function) -> Verdict:
 def few_and_many(candidate: Function) -> Verdict:
     """One ray with one sample, one with 50, and 30 rays with 12."""
     return worst(
-        found(candidate, media(GRADERS + r, r, s), 0.15, f"{r} by {s}: ")
+        found(candidate, media(GRADERS() + r, r, s), 0.15, f"{r} by {s}: ")
         for r, s in ((1, 1), (1, 50), (30, 12), (7, 7))
     )
 
@@ -79,7 +80,7 @@ def few_and_many(candidate: Function) -> Verdict:
 @check(2, public=False)
 def thick_and_thin(candidate: Function) -> Verdict:
     """A wall, fog, nothing at all, and other spacings."""
-    density = media(GRADERS, 4, 15)
+    density = media(GRADERS(), 4, 15)
     cases = (
         (density * 1e4, 0.1, "A wall: "),
         (density * 1e-3, 0.1, "Fog: "),

@@ -3,10 +3,10 @@
 import numpy as np
 
 from workbench.data import solids, surfaces
-from workbench.exercise import Verdict, fail, full, partial
+from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.geometry.motions import exp_so3
 
-STUDENTS, GRADERS = 31, 9241  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 31, HiddenSeed(9241)  # seeds of what a student sees run, and of what only a grader does
 
 Mesh = tuple[np.ndarray, np.ndarray]
 
@@ -28,7 +28,7 @@ def relative_verdict(
         fair: The same for half of them.
         size: What the error is related to; the right answer where it is not given.
     """
-    said = f"{what}: {got:.5g}, right is {right:.5g}"
+    said = f"{what}: {against(got, right, 5)}"
     off = 100 * abs(got - right) / (size or abs(right))
     if off <= good:
         return full(f"{said}.")

@@ -28,6 +28,7 @@ CORNERS = "np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0]]), np.array([[0, 1, 2]])"
 
 @contract(
     slot="points_on_faces",
+    preset="alike",
     examples=(
         (f"points_on_faces({CORNERS}, np.full((2, 3), 0.4)).shape", "(2, 3)"),
         (f"points_on_faces({CORNERS}, np.full((1, 3), 0.4))[:, 2]", "[0]"),
@@ -134,15 +135,15 @@ def what_comes_in_is_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def a_whole_surface(candidate: Function) -> Verdict:
     """On a mesh of faces of many sizes every part gets its share, face by face, and on one a thousandth as large."""
-    p, faces = with_small_half(*blob(GRADERS))
-    q = candidate(p, faces, even(16, GRADERS))
+    p, faces = with_small_half(*blob(GRADERS()))
+    q = candidate(p, faces, even(16, GRADERS()))
     areas = face_areas(p, faces)
     middle = areas @ p[faces].mean(axis=1) / areas.sum()
     size = float(np.linalg.norm(np.ptp(p, axis=0)))
     off = 100 * float(np.linalg.norm(q.mean(axis=0) - middle)) / size
     what = "Mean of the points off the surface's middle, % of the diagonal"
     large = relative_verdict(what, off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
-    off = float(np.linalg.norm(1000 * candidate(0.001 * p, faces, even(16, GRADERS)).mean(axis=0) - middle)) / size
+    off = float(np.linalg.norm(1000 * candidate(0.001 * p, faces, even(16, GRADERS())).mean(axis=0) - middle)) / size
     small = relative_verdict(f"{what}, of a small one", 100 * off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
     return worst((large, small))
 
@@ -151,7 +152,7 @@ def a_whole_surface(candidate: Function) -> Verdict:
 def other_triangles(candidate: Function) -> Verdict:
     """Long and small triangles are filled evenly too."""
     return worst(
-        filled(candidate, triangle, GRADERS + k)
+        filled(candidate, triangle, GRADERS() + k)
         for k, triangle in enumerate(
             (np.array([[0.0, 0, 0], [10, 0, 0], [0, 0.1, 0]]), np.array([[5.0, 5, 5], [5, 5.01, 5], [5.01, 5, 5.01]]))
         )
@@ -161,8 +162,8 @@ def other_triangles(candidate: Function) -> Verdict:
 @check(1, public=False)
 def the_same_row_gives_the_same_point(candidate: Function) -> Verdict:
     """Rows do not know of each other: in another order they give the same points, and so they do again."""
-    p, faces = blob(GRADERS + 1)
-    u = even(7, GRADERS + 3)
+    p, faces = blob(GRADERS() + 1)
+    u = even(7, GRADERS() + 3)
     q, again = candidate(p, faces, u), candidate(p, faces, u[::-1].copy())
     off = float(np.linalg.norm(q - again[::-1], axis=1).max())
     hint = "Use the rows of u, in their order, and no numbers of your own."

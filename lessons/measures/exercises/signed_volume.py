@@ -85,7 +85,7 @@ def mesh_of_the_volume_is_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def inside_out(candidate: Function) -> Verdict:
     """Turned inside out, a mesh has its volume with a minus sign, also one of a few centimetres."""
-    p, faces = blob(GRADERS, (0.3, 0.2, -0.1))
+    p, faces = blob(GRADERS(), (0.3, 0.2, -0.1))
     hint = "The sign of the sum tells which side is called outside: keep it."
     turned = faces[:, ::-1].copy()
     large = volume_verdict(candidate, (p, turned), "A bent ring inside out", hint)
@@ -95,7 +95,7 @@ def inside_out(candidate: Function) -> Verdict:
 @check(2, public=False)
 def open_meshes(candidate: Function) -> Verdict:
     """An open mesh gives the sum about the origin of coordinates."""
-    mesh = without_a_side(*blob(GRADERS + 1, (0.5, 1.0, 0.4)))
+    mesh = without_a_side(*blob(GRADERS() + 1, (0.5, 1.0, 0.4)))
     hint = "The tip of all tetrahedra is (0, 0, 0), not the middle of the vertices, and no hole is closed."
     return worst(
         (

@@ -12,6 +12,7 @@ from workbench.geometry import sampling
 
 @contract(
     slot="volume_by_chance",
+    preset="throws",
     examples=(
         ("volume_by_chance(np.array([True, False, True, True]), 8.0)", "(6.0, 1.73205)"),
         ("volume_by_chance(np.array([False, False]), 8.0)", "(0.0, 0.0)"),
@@ -88,7 +89,7 @@ def hits_are_left_alone(candidate: Function) -> Verdict:
 def other_boxes(candidate: Function) -> Verdict:
     """Small and large boxes, few and many hits: both numbers follow."""
     cases = ((200, 20, 0.03), (5000, 4800, 120.0), (10_000, 37, 1.0))
-    return worst(both(candidate, hits(n, count, GRADERS), box) for n, count, box in cases)
+    return worst(both(candidate, hits(n, count, GRADERS()), box) for n, count, box in cases)
 
 
 @check(1, public=False)

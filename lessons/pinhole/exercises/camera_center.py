@@ -92,7 +92,7 @@ def camera_is_left_alone(candidate: Function) -> Verdict:
 def moves_with_the_world(candidate: Function) -> Verdict:
     """Where the world is moved, the centre moves along."""
     verdicts = []
-    for eye, T_camera_world in some_cameras(GRADERS):
+    for eye, T_camera_world in some_cameras(GRADERS()):
         Q = motion(exp_so3(np.array([-0.9, 0.5, 1.3])), np.array([2.0, 7.0, -1.0]))
         verdicts += [
             placed(candidate(T_camera_world), eye),

@@ -11,6 +11,7 @@ from lessons.pinhole.exercises import GRADERS, STUDENTS
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     beside,
@@ -76,7 +77,7 @@ def in_pixels(uv: np.ndarray, right: np.ndarray, hint: str) -> Verdict:
     seen, given, unknown = np.isfinite(right).all(axis=1), np.isfinite(uv).all(axis=1), np.isnan(uv).all(axis=1)
     if (lost := np.flatnonzero(seen & ~given)).size:
         k = lost[0]
-        told = f"Row {k} is {number(uv[k])}, right is {number(right[k])}. {hint}"
+        told = f"Row {k} is {against(uv[k], right[k])}. {hint}"
         return fail(f"{lost.size} of {seen.sum()} points in front of the camera got no pixel. {told}")
     if (false := np.flatnonzero(~seen & ~unknown)).size:
         said = f"{false.size} of {(~seen).sum()} points at or behind the camera got a row that is not NaN."
@@ -119,7 +120,7 @@ def scene_is_left_alone(candidate: Function) -> Verdict:
 def whole_k(candidate: Function) -> Verdict:
     """All of K counts: two focal lengths, skew, and a principal point outside the picture, as after a crop."""
     verdicts = []
-    for p_world, T_camera_world, _ in some_scenes(GRADERS):
+    for p_world, T_camera_world, _ in some_scenes(GRADERS()):
         K = cameras.crop_intrinsics(cameras.intrinsics(600.0, 320.0, 240.0, fy=450.0, skew=35.0), 400.0, -90.0)
         right = cameras.project(p_world, T_camera_world, K)
         verdicts.append(in_pixels(candidate(p_world, T_camera_world, K), right, PROJECT_HINT))
@@ -130,7 +131,7 @@ def whole_k(candidate: Function) -> Verdict:
 def moves_together(candidate: Function) -> Verdict:
     """Moving world and camera together changes no pixel, nor does doubling all lengths."""
     verdicts = []
-    for p_world, T_camera_world, K in some_scenes(GRADERS + 1):
+    for p_world, T_camera_world, K in some_scenes(GRADERS() + 1):
         right = cameras.project(p_world, T_camera_world, K)
         Q = motion(exp_so3(np.array([0.4, -1.1, 0.8])), np.array([3.0, -2.0, 5.0]))
         twice = motion(T_camera_world[:3, :3], 2.0 * T_camera_world[:3, 3])
@@ -145,7 +146,7 @@ def moves_together(candidate: Function) -> Verdict:
 @check(1, public=False)
 def camera_amid_points(candidate: Function) -> Verdict:
     """A camera amid its points, no point, a single one, all behind it, and one a hundredth of a millimetre before it."""
-    (p_world, T_camera_world, K), *_ = some_scenes(GRADERS + 2, size=200)
+    (p_world, T_camera_world, K), *_ = some_scenes(GRADERS() + 2, size=200)
     amid = motion(T_camera_world[:3, :3], np.array([0.1, -0.2, 0.3]))
     behind = motion(np.eye(3), np.array([0.0, 0.0, -50.0]))
     beside_it = np.array([[1.0, 1.0, 0.0], [-2.0, 0.5, 0.0], [0.3, -0.1, 1e-3], [1e-6, -2e-6, 1e-5]])

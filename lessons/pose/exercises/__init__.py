@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from workbench.exercise import HiddenSeed
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
-STUDENTS, GRADERS = 47, 5310  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 47, HiddenSeed(5310)  # seeds of what a student sees run, and of what only a grader does
 
 
 def a_view(rng: np.random.Generator, n: int, *, aside: float = 0.0, flat: bool = False) -> tuple[np.ndarray, ...]:

@@ -140,15 +140,15 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def some_points_behind(candidate: Function) -> Verdict:
     """A pose amid the points is refused too."""
-    return worst(judged(candidate, *half_behind(GRADERS + k), "All points have to be in front.") for k in range(2))
+    return worst(judged(candidate, *half_behind(GRADERS() + k), "All points have to be in front.") for k in range(2))
 
 
 @check(2, public=False)
 def of_other_points(candidate: Function) -> Verdict:
     """Other points, noisier, a single pose, many poses, and a single point."""
-    one, p_world, xy = several(GRADERS + 30)
-    verdicts = [judged(candidate, *several(GRADERS + 10 + k, 20, 3e-3)) for k in range(8)]
-    many, p, seen_at = told_apart(GRADERS + 31)
+    one, p_world, xy = several(GRADERS() + 30)
+    verdicts = [judged(candidate, *several(GRADERS() + 10 + k, 20, 3e-3)) for k in range(8)]
+    many, p, seen_at = told_apart(GRADERS() + 31)
     nearest = camera_search.choose_pose(many, p, seen_at)
     last = np.concatenate([many[np.abs(many - nearest).max(axis=(1, 2)) > 0], many + np.eye(4, k=3), nearest[None]])
     others = ((one[:1], p_world, xy), (last, p, seen_at), (last, p[:1], seen_at[:1]))
@@ -159,13 +159,13 @@ def of_other_points(candidate: Function) -> Verdict:
 def the_root_mean_square_decides(candidate: Function) -> Verdict:
     """It is the root mean square that is least, not the mean, the median, the sum of |dx| + |dy| or the largest."""
     hint = "Square the distances, both coordinates of all points, and take their mean."
-    return worst(judged(candidate, *told_apart(GRADERS + 50 + k), hint) for k in range(3))
+    return worst(judged(candidate, *told_apart(GRADERS() + 50 + k), hint) for k in range(3))
 
 
 @check(1, public=False)
 def of_small_things(candidate: Function) -> Verdict:
     """Points some millimetres before the camera are in front too, and those beside it, at Z = 0, are not."""
-    Ts, p_world, xy = several(GRADERS + 60)
+    Ts, p_world, xy = several(GRADERS() + 60)
     near = Ts[np.argsort(np.abs(Ts - camera_search.choose_pose(Ts, p_world, xy)).sum(axis=(1, 2)))[::-1]]  # right: last
     verdicts = []
     for size in (5e-3, 1e-4):
@@ -183,9 +183,9 @@ def of_small_things(candidate: Function) -> Verdict:
 @check(1, public=False)
 def none_in_front(candidate: Function) -> Verdict:
     """Where none has all points in front, it is the first, however many there are and whatever the others see."""
-    Ts, p_world, xy = with_twin(GRADERS + 40)
+    Ts, p_world, xy = with_twin(GRADERS() + 40)
     behind = np.stack([Ts[0], np.diag([-1.0, 1.0, -1.0, 1.0]) @ Ts[1]])
-    amid = half_behind(GRADERS + 41)
+    amid = half_behind(GRADERS() + 41)
     none = np.diag([-1.0, 1.0, -1.0, 1.0]) @ amid[0][1]  # it sees all points turned round, behind it
     more = np.stack([none, amid[0][0], none + np.eye(4, k=3)])  # none, most and none of the points in front
     hint = "None is in front: return the first."

@@ -25,6 +25,7 @@ from workbench.geometry.three_points import motions_from_lengths, unit_rays
 
 @contract(
     slot="pose_from_distances",
+    forbid=("scipy.spatial.transform",),
     examples=(
         (
             "pose_from_distances(np.eye(3), np.eye(3), np.ones(3))",
@@ -88,7 +89,7 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_cameras(candidate: Function) -> Verdict:
     """Cameras at other places are found too, half a turn away, with wide views, equal distances and small triangles."""
-    verdicts = [judged(candidate, range(GRADERS, GRADERS + 20))]
+    verdicts = [judged(candidate, range(GRADERS(), GRADERS() + 20))]
     wide = unit_rays(np.array([[9.0, 0.5], [-6.0, 7.0], [0.2, -8.0]]))
     ends = (wide * [[2.0], [3.0], [2.5]], 4.0 * wide, 0.004 * wide, wide * [[2.0], [3.0], [-2.5]])
     for k, q in enumerate(ends):
@@ -103,7 +104,7 @@ def other_cameras(candidate: Function) -> Verdict:
 @check(2, public=False)
 def far_from_the_origin(candidate: Function) -> Verdict:
     """Points a hundred kilometres from the origin are as good."""
-    return judged(candidate, range(GRADERS + 30, GRADERS + 34), aside=1e5)
+    return judged(candidate, range(GRADERS() + 30, GRADERS() + 34), aside=1e5)
 
 
 def kabsch(p: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -104,7 +104,7 @@ def cloud_is_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def turned_over(candidate: Function) -> Verdict:
     """The same plane with its normal turned over, and the points in another order, give the same count."""
-    rng = np.random.default_rng(GRADERS + 40)
+    rng = np.random.default_rng(GRADERS() + 40)
     plane, p, signed = a_layer(rng)
     right, other = int((np.abs(signed) <= 0.07).sum()), p[rng.permutation(len(p))]
     return worst(
@@ -119,7 +119,7 @@ def turned_over(candidate: Function) -> Verdict:
 @check(2, public=False)
 def cloud_and_plane_moved(candidate: Function) -> Verdict:
     """A cloud and its plane that are turned, moved and scaled together keep their count."""
-    rng, verdicts = np.random.default_rng(GRADERS + 50), []
+    rng, verdicts = np.random.default_rng(GRADERS() + 50), []
     for scale in (1.0, 12.0, 0.05):
         plane, p, signed = a_layer(rng)
         R, t = exp_so3(rng.normal(size=3)), rng.uniform(-4.0, 4.0, 3)
@@ -144,7 +144,7 @@ def just_on_the_limit(candidate: Function) -> Verdict:
 @check(1, public=False)
 def nothing_to_count(candidate: Function) -> Verdict:
     """No points, a plane of four nan, and a point with a nan count 0."""
-    plane, p, signed = a_layer(np.random.default_rng(GRADERS + 60), 20)
+    plane, p, signed = a_layer(np.random.default_rng(GRADERS() + 60), 20)
     right = int((np.abs(signed[1:]) <= 0.3).sum())
     near = p[0] - signed[0] * plane[:3]
     hint = f"{COUNT_HINT} That is never true of nan."

@@ -12,6 +12,7 @@ from workbench.algorithms import ransac
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -61,7 +62,7 @@ def needed_verdict(candidate: Function, w: float, s: int, confidence: float, hin
     case = f"{100 * w:g} % inliers, {s} in a sample, {100 * confidence:g} % confidence"
     if got == right:
         return full(f"{case}: {right:.12g} {'sample' if right == 1.0 else 'samples'}.")
-    said = f"{case}: yours is {number(got, 12)}, right is {number(right, 12)}."
+    said = f"{case}: yours is {against(got, right, 12)}."
     if got < 1.0:
         return fail(f"{said} Nobody can do with less than one sample. {hint}")
     if got < right < np.inf:
@@ -104,7 +105,7 @@ def no_outliers(candidate: Function) -> Verdict:
 @check(3, public=False)
 def the_smallest_that_is_enough(candidate: Function) -> Verdict:
     """N samples are all spoilt in at most the share of runs that the confidence leaves, N - 1 in more."""
-    rng = np.random.default_rng(GRADERS + 70)
+    rng = np.random.default_rng(GRADERS() + 70)
     exact = [(0.5, 1, 1 - 0.5**n) for n in (1, 2, 4, 8)]  # n samples are just enough, and logarithms say so exactly
     exact += [(0.9, 1, 0.5), (0.99, 2, 0.9999), (0.999, 8, 0.999), (0.3, 3, 0.05), (0.002, 1, 0.99), (0.6, 4, 0.999999)]
     hint = f"Just enough is enough. {NEEDED_HINT}"
@@ -136,7 +137,7 @@ def rarely_clean(candidate: Function) -> Verdict:
         if error.kind != "result":
             raise
         return fail(f"{error}; right is {number(right)}. {hint}")
-    what = f"1 % inliers, 9 in a sample: yours is {number(got)}, right is {number(right)}; off by"
+    what = f"1 % inliers, 9 in a sample: yours is {against(got, right)}; off by"
     return band(what, 100 * abs(got - right) / right, "%", good=1e-4, fair=1.0, hint=hint)
 
 

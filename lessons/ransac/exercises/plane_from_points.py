@@ -12,6 +12,7 @@ from lessons.ransac.exercises import GRADERS, STUDENTS
 from workbench.exercise import (
     Function,
     Verdict,
+    against,
     alternative,
     band,
     check,
@@ -79,15 +80,15 @@ def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) 
         what: How the message begins.
     """
     if not np.isfinite(got).all():
-        return fail(f"{what}: yours is {number(got)}, right is {number(right)}. {NAN_HINT}")
+        return fail(f"{what}: yours is {against(got, right)}. {NAN_HINT}")
     length, size = float(np.linalg.norm(got[:3])), float(np.ptp(p, axis=0).max())
     if abs(length - 1.0) > NO_UNIT:
-        said = f"The length of your normal is {number(length)}, right is 1: distances come out as many times as large."
+        said = f"The length of your normal is {against(length, 1.0)}: distances come out as many times as large."
         return fail(f"{what}: {said}")
     degrees = float(np.degrees(np.arctan2(np.linalg.norm(np.cross(got[:3], right[:3])), abs(got[:3] @ right[:3]))))
     away = float(np.abs(p @ got[:3] + got[3]).max())
     side = np.where(got[:3] @ right[:3] < 0, -right, right)
-    told = f"Yours is {number(got)}, right is {number(side)} or its negative."
+    told = f"Yours is {against(got, side)} or its negative."
     turned = band(
         f"{what}: normal off by", round(degrees, 9), "degrees", good=0.01, fair=1.0, hint=f"{told} {NORMAL_HINT}"
     )
@@ -152,7 +153,7 @@ def points_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def moved_and_turned(candidate: Function) -> Verdict:
     """Points that are turned and moved take their plane along, whichever of them comes first."""
-    rng, verdicts = np.random.default_rng(GRADERS), []
+    rng, verdicts = np.random.default_rng(GRADERS()), []
     for k in range(3):
         p, R, t = a_triangle(rng), exp_so3(rng.normal(size=3)), rng.uniform(-3.0, 3.0, 3)
         plane, moved = candidate(p), p @ R.T + t
@@ -168,7 +169,7 @@ def moved_and_turned(candidate: Function) -> Verdict:
 @check(2, public=False)
 def upright_and_through_the_origin(candidate: Function) -> Verdict:
     """A wall, which has no height over the floor, and planes through the origin are found."""
-    rng = np.random.default_rng(GRADERS + 10)
+    rng = np.random.default_rng(GRADERS() + 10)
     wall = np.array([[0.5, -1.0, 0.0], [2.0, 1.0, 0.0], [0.5, -1.0, 2.4]])
     through = a_triangle(rng)
     through[2] = 0.7 * through[0] - 0.4 * through[1]
@@ -186,7 +187,7 @@ def upright_and_through_the_origin(candidate: Function) -> Verdict:
 @check(2, public=False)
 def small_large_and_far(candidate: Function) -> Verdict:
     """Sides of a micrometre and of a kilometre, and triangles a kilometre away, have a plane too."""
-    rng = np.random.default_rng(GRADERS + 20)
+    rng = np.random.default_rng(GRADERS() + 20)
     verdicts = [found(candidate, a_triangle(rng, size), f"Sides of {size:g} m") for size in (1e-3, 1e-6, 1e3)]
     far = a_triangle(rng) + np.array([800.0, -600.0, 50.0])
     thin = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.5, 1e-4, 1.0]])
@@ -199,7 +200,7 @@ def small_large_and_far(candidate: Function) -> Verdict:
 @check(2, public=False)
 def nearly_on_a_line(candidate: Function) -> Verdict:
     """Points on one line but for rounding give four nan, near and a kilometre apart; thirty times the bound is a plane."""
-    rng, verdicts = np.random.default_rng(GRADERS + 30), []
+    rng, verdicts = np.random.default_rng(GRADERS() + 30), []
     for size in (1.0, 1e3, 1e-3):
         direction, start = rng.normal(size=(2, 3))
         p = size * (start + np.outer([0.1, 0.7, -0.9], direction))

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from workbench.exercise import Verdict, fail, full, partial
+from workbench.exercise import HiddenSeed, Verdict, fail, full, partial
 
-STUDENTS, GRADERS = 61, 5179  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = 61, HiddenSeed(5179)  # seeds of what a student sees run, and of what only a grader does
 
 
 def rows_verdict(

@@ -14,6 +14,8 @@ FLAT = "np.mgrid[0.0:4, 0.0:4, 0.0:1].reshape(3, 4, 4).transpose(1, 2, 0)"
 
 @contract(
     slot="bezier_patch",
+    preset="cubic",
+    forbid=("scipy.interpolate",),
     examples=(
         (f"bezier_patch({FLAT}, np.array([[1.0, 0]]))", "[[3, 0, 0]]"),
         ("bezier_patch(np.ones((4, 4, 3)), np.array([[0.2, 0.7]]))", "[[1, 1, 1]]"),
@@ -75,7 +77,7 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_patches(candidate: Function) -> Verdict:
     """Other nets, large and far away."""
-    rng = np.random.default_rng(GRADERS)
+    rng = np.random.default_rng(GRADERS())
     nets = (rng.normal(size=(4, 4, 3)), 30 * a_net(rng) + 500, 0.01 * a_net(rng))
     return worst(verdict(candidate, net, rng.random((20, 2)), "On another patch") for net in nets)
 
@@ -84,13 +86,13 @@ def other_patches(candidate: Function) -> Verdict:
 def a_patch_of_a_torus(candidate: Function) -> Verdict:
     """The patches of the lesson's torus lie within 0.3 mm of it."""
     control = bezier.torus_patches(0.6, 0.25, rational=False)[5, ..., :3]
-    return verdict(candidate, control, np.random.default_rng(GRADERS + 1).random((20, 2)), "On the torus")
+    return verdict(candidate, control, np.random.default_rng(GRADERS() + 1).random((20, 2)), "On the torus")
 
 
 @check(1, public=False)
 def none_and_edges(candidate: Function) -> Verdict:
     """No places give no points, one gives one; along each edge only the four control points of that edge count."""
-    rng = np.random.default_rng(GRADERS + 2)
+    rng = np.random.default_rng(GRADERS() + 2)
     if len(candidate(a_net(rng), np.empty((0, 2)))):
         return rows_verdict(np.ones(1), np.zeros(1), lambda k: "No places came in, points", HINT)
     edge, end = np.column_stack([np.zeros(8), rng.random(8)]), np.column_stack([np.ones(8), rng.random(8)])

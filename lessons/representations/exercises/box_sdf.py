@@ -12,6 +12,7 @@ from workbench.geometry import signed_distances
 
 @contract(
     slot="box_sdf",
+    preset="edges",
     examples=(
         ("box_sdf(np.array([[3.0, 0, 0], [4, 5, 0]]), np.array([1.0, 1, 1]))", "[2, 5]"),
         ("box_sdf(np.array([[0.0, 0, 0], [0, 0, 0.9]]), np.array([1.0, 2, 1]))", "[-1, -0.1]"),
@@ -80,7 +81,7 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_boxes(candidate: Function) -> Verdict:
     """Boxes of other shapes, long, flat and large, inside and outside."""
-    rng = np.random.default_rng(GRADERS)
+    rng = np.random.default_rng(GRADERS())
     verdicts = []
     for half in ([0.1, 2.0, 0.4], [0.6, 0.6, 0.01], [30.0, 20.0, 50.0], [1.0, 1.0, 1.0]):
         box = np.array(half)

@@ -27,6 +27,7 @@ from workbench.geometry.rotations import EULER_ORDERS, rotation_about
 
 @contract(
     slot="euler_to_matrix",
+    forbid=("scipy.spatial.transform",),
     examples=(
         ('euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "xyz")', "[[0, 0, 1], [1, 0, 0], [0, 1, 0]]"),
         ('euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "XYZ")', "[[0, -1, 0], [0, 0, -1], [1, 0, 0]]"),
@@ -91,7 +92,7 @@ def carried_axes(candidate: Function) -> Verdict:
 @check(2, public=False)
 def all_orders(candidate: Function) -> Verdict:
     """All 24 orders give the right rotation."""
-    verdicts = {order: _ordered(candidate, some_angles(GRADERS + k), order) for k, order in enumerate(EULER_ORDERS)}
+    verdicts = {order: _ordered(candidate, some_angles(GRADERS() + k), order) for k, order in enumerate(EULER_ORDERS)}
     right = [order for order, verdict in verdicts.items() if verdict.share == 1.0]
     if len(right) == len(verdicts):
         return full("24 of 24 orders are right.")
@@ -113,9 +114,9 @@ def gimbal_lock(candidate: Function) -> Verdict:
 @check(1, public=False)
 def unknown_orders(candidate: Function) -> Verdict:
     """Orders that are none of the 24 are refused, and the angles are left alone."""
-    kept = left_alone(candidate, _ordered(candidate, some_angles(GRADERS), "zyx"))
+    kept = left_alone(candidate, _ordered(candidate, some_angles(GRADERS()), "zyx"))
     none = ("xxy", "xYz", "zyy", "xyZ", "xYZ", "xyzx")
-    asked = (refused(candidate, some_angles(GRADERS), order, what=f'The order "{order}"') for order in none)
+    asked = (refused(candidate, some_angles(GRADERS()), order, what=f'The order "{order}"') for order in none)
     return worst([*asked, kept])
 
 

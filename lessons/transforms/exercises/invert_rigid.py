@@ -82,7 +82,7 @@ def motion_is_left_alone(candidate: Function) -> Verdict:
 def products_turn_round(candidate: Function) -> Verdict:
     """The inverse of a product is the product of the inverses, the other way round."""
     verdicts = []
-    for T_a_b, T_b_c in zip(some_motions(GRADERS), some_motions(GRADERS + 1), strict=True):
+    for T_a_b, T_b_c in zip(some_motions(GRADERS()), some_motions(GRADERS() + 1), strict=True):
         T_c_a = candidate(T_b_c) @ candidate(T_a_b)
         verdicts += [motion_verdict(candidate(T_a_b @ T_b_c), T_c_a, INVERT_HINT), _right(T_a_b, candidate(T_a_b))]
     return worst(verdicts)
@@ -99,7 +99,7 @@ def special_motions(candidate: Function) -> Verdict:
 
 
 def _right(T: np.ndarray, T_back: np.ndarray) -> Verdict:
-    return motion_verdict(T_back @ T, np.eye(4), INVERT_HINT, p=some_points(GRADERS), name="(T_b_a @ T_a_b)")
+    return motion_verdict(T_back @ T, np.eye(4), INVERT_HINT, p=some_points(GRADERS()), name="(T_b_a @ T_a_b)")
 
 
 @mistake("You returned (R^T, -t). The translation is undone in frame a, but R^T turns it first: it must be -R^T t.")

@@ -93,22 +93,6 @@ def right_mean_covariance(p_target, p_source):
     return with_centroids(U.dot(S).dot(Vt), p_target, p_source)
 
 
-def right_with_scipy(p_target, p_source):
-    from scipy.spatial.transform import Rotation
-
-    if len(p_source) == 0:
-        raise ValueError("no pairs")
-    a, b = p_source - p_source.mean(0), p_target - p_target.mean(0)
-    if len(a) == 1:
-        return with_centroids(np.eye(3), p_target, p_source)
-    import warnings
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        R, _ = Rotation.align_vectors(b, a)
-    return with_centroids(R.as_matrix(), p_target, p_source)
-
-
 class Aligner:
     def __init__(self, target, source):
         if len(source) == 0:

@@ -51,23 +51,6 @@ def right_dictionary(angles, order):
     return product(angles, order)
 
 
-def right_scipy(angles, order):
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_euler(order, angles).as_matrix()
-
-
-def right_scipy_turn_by_turn(angles, order):
-    from scipy.spatial.transform import Rotation
-
-    refuse(order)
-    total = Rotation.identity()
-    for letter, a in zip(order, angles):
-        one = Rotation.from_euler(letter.lower(), float(a))
-        total = one * total if letter.islower() else total * one
-    return total.as_matrix()
-
-
 def right_reversed_extrinsic(angles, order):
     refuse(order)
     if order.isupper():

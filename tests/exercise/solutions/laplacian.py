@@ -48,12 +48,6 @@ def right_python_lists(adjacency):
     return [[sum(row) if i == j else -row[j] for j in range(len(a))] for i, row in enumerate(a)]
 
 
-def right_scipy(adjacency):
-    from scipy.sparse.csgraph import laplacian as of
-
-    return of(adjacency)
-
-
 def right_sparse_back_to_dense(adjacency):
     from scipy.sparse import csr_array, diags_array
 

@@ -40,12 +40,6 @@ def right_svd(p, mean, covariance):
     return np.linalg.norm((p - mean) @ U / np.sqrt(s), axis=1)
 
 
-def right_cdist(p, mean, covariance):
-    from scipy.spatial.distance import cdist
-
-    return cdist(p, mean[None], "mahalanobis", VI=np.linalg.inv(covariance)).ravel()
-
-
 def right_list(p, mean, covariance):
     inverse = np.linalg.pinv(covariance)
     return [float(np.sqrt((x - mean).T @ inverse @ (x - mean))) for x in p]
@@ -153,3 +147,9 @@ def wrong_in_place(p, mean, covariance):
 
 def wrong_a_little_on_the_diagonal(p, mean, covariance):
     return right_einsum(p, mean, covariance + 1e-9 * np.eye(len(covariance)))
+
+
+def right_qr_of_a_root(p, mean, covariance):
+    w, V = np.linalg.eigh(covariance)
+    R = np.linalg.qr((V * np.sqrt(w)).T)[1]
+    return np.sqrt(np.sum(np.linalg.solve(R.T, np.transpose(p - mean)) ** 2, axis=0))

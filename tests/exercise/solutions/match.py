@@ -47,23 +47,6 @@ def right_einsum(p_target, p_source):
     return np.einsum("ijk,ijk->ij", diff, diff).argmin(1).astype(np.int32)
 
 
-def right_cdist(p_target, p_source):
-    from scipy.spatial.distance import cdist
-
-    if not p_target.size:
-        raise ValueError("empty target")
-    return np.argmin(cdist(p_source, p_target), axis=1)
-
-
-def right_kdtree(p_target, p_source):
-    from scipy.spatial import KDTree
-
-    if p_target.shape[0] < 1:
-        raise ValueError("empty target")
-    _, index = KDTree(p_target).query(p_source, k=1)
-    return index
-
-
 def right_expanded_about_the_mean(p_target, p_source):
     refuse(p_target)
     c = p_target.mean(0)

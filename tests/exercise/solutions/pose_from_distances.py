@@ -64,17 +64,6 @@ def right_solve_with_the_normal(p_world, rays, distances):
     return T
 
 
-def right_scipy(p_world, rays, distances):
-    from scipy.spatial.transform import Rotation
-
-    q = distances[:, None] * rays
-    R = Rotation.align_vectors(q - q.mean(0), p_world - p_world.mean(0))[0].as_matrix()
-    T = np.identity(4)
-    T[:3, :3] = R
-    T[:3, 3] = q.mean(0) - R @ p_world.mean(0)
-    return T
-
-
 def right_horn(p_world, rays, distances):
     q = distances[:, None] * rays
     a, b = p_world - p_world.mean(0), q - q.mean(0)
@@ -275,3 +264,18 @@ def wrong_half_a_turn_is_none(p_world, rays, distances):
 
 def wrong_rays_turned_to_the_front(p_world, rays, distances):
     return right_kabsch(p_world, np.where(rays[:, 2:] < 0, -rays, rays), distances)
+
+
+def right_polar_by_newton(p_world, rays, distances):
+    def frame(p):
+        u, v = p[1] - p[0], p[2] - p[0]
+        n = np.cross(u, v)
+        return np.column_stack([u, v, n / np.linalg.norm(n)])
+
+    q = distances[:, None] * rays
+    R = frame(q) @ np.linalg.inv(frame(p_world))
+    for _ in range(30):
+        R = (R + np.linalg.inv(R).T) / 2
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = R, q.mean(0) - R @ p_world.mean(0)
+    return T

@@ -60,12 +60,6 @@ def right_expm(axis, angle):
     return expm(angle * hat(unit(axis)))
 
 
-def right_scipy(axis, angle):
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_rotvec(angle * unit(axis)).as_matrix()
-
-
 def right_quaternion(axis, angle):
     w, (x, y, z) = np.cos(angle / 2), np.sin(angle / 2) * unit(axis)
     L = np.array([[w, -x, -y, -z], [x, w, -z, y], [y, z, w, -x], [z, -y, x, w]])

@@ -61,7 +61,11 @@ def read(file: str, content: bytes) -> dict[str, Any]:
     except NOT_PARSED:
         return found | {"broken": f"{file}: not a Python file"}
     imports = dict.fromkeys(name for name in imported(tree) if name.isidentifier())
-    return found | {"defines": sorted(set(names(tree.body))), "imports": list(imports)[:MOST_IMPORTS]}
+    return found | {
+        "defines": sorted(set(names(tree.body))),
+        "imports": list(imports)[:MOST_IMPORTS],
+        "parts": list(parts(tree)),
+    }
 
 
 def decoded(file: str, content: bytes) -> str:
@@ -102,6 +106,103 @@ def names(body: list[ast.stmt]) -> Iterator[str]:
             yield from names(getattr(node, inner, []))
         for handler in getattr(node, "handlers", []):
             yield from names(handler.body)
+
+
+# what of other modules is used, and where -----------------------------------------------------------------------------
+
+
+DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
+
+
+def parts(tree: ast.Module) -> Iterator[dict[str, Any]]:
+    """Yield of each statement what it gives a value, which names it reads, and which modules it uses, in which line.
+
+    A module is told by its whole path, however it came by a shorter name: `import scipy as sp` and `sp.spatial.distance` use
+    scipy.spatial.distance, and so do `from scipy import spatial`, and a text that is handed to `import_module`.
+    """
+    known = dict[str, str]()  # by the name in this file, the path that it stands for
+    nodes = [node for node in ast.walk(tree) if isinstance(node, (ast.Import, ast.ImportFrom, ast.Assign))]
+    for node in sorted(nodes, key=lambda node: node.lineno):
+        if isinstance(node, ast.Assign):
+            path = path_of(node.value, known)
+            known |= {} if path is None else {one.id: path for one in node.targets if isinstance(one, ast.Name)}
+        else:
+            known |= dict(bound(node))
+    for statement in tree.body:
+        defines, imports = isinstance(statement, DEFINITIONS), isinstance(statement, (ast.Import, ast.ImportFrom))
+        read = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
+        yield {
+            "binds": sorted(set(names([statement]))),
+            "reads": sorted(read),
+            "defines": defines,
+            "runs": not defines and not imports,
+            "uses": [list(use) for use in dict.fromkeys(used(statement, known))],
+        }
+
+
+def bound(node: ast.Import | ast.ImportFrom) -> Iterator[tuple[str, str]]:
+    """Yield the names that an import gives a value, each with the path that it stands for."""
+    for alias in node.names:
+        if isinstance(node, ast.ImportFrom):
+            if node.module and not node.level:
+                yield alias.asname or alias.name, f"{node.module}.{alias.name}"
+        else:
+            yield (
+                alias.asname or alias.name.partition(".")[0],
+                alias.name if alias.asname else alias.name.partition(".")[0],
+            )
+
+
+def used(statement: ast.stmt, known: dict[str, str]) -> Iterator[tuple[str, int]]:
+    """Yield the paths of modules and of what is in them that a statement uses, each with its line."""
+    for node in ast.walk(statement):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, node.lineno) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield from ((f"{node.module}.{alias.name}", node.lineno) for alias in node.names)
+        elif isinstance(node, (ast.Attribute, ast.Call, ast.Name)):
+            path = path_of(node, known)
+            if path is not None:
+                yield path, node.lineno
+
+
+def path_of(node: ast.expr, known: dict[str, str]) -> str | None:
+    """Return the path that an expression stands for, where it is one of a module: a name, an attribute, or a call for it."""
+    behind = list[str]()
+    while isinstance(node, ast.Attribute):
+        behind.append(node.attr)
+        node = node.value
+    start = None
+    if isinstance(node, ast.Name):
+        start = known.get(node.id)
+    elif isinstance(node, ast.Call) and node.args:
+        start = _called_for(node, known)
+    return None if start is None else ".".join([start, *reversed(behind)])
+
+
+def _called_for(call: ast.Call, known: dict[str, str]) -> str | None:
+    name, text = path_of(call.func, known), text_of(call.args[-1])
+    name = call.func.id if name is None and isinstance(call.func, ast.Name) else name
+    if text is None:
+        return None
+    if name in ("importlib.import_module", "__import__") and len(call.args) == 1:
+        return text
+    path = path_of(call.args[0], known) if name == "getattr" and len(call.args) == 2 else None
+    return None if path is None else f"{path}.{text}"
+
+
+def text_of(node: ast.expr) -> str | None:
+    """Return the text that an expression is, also where it is put together of pieces; None where it is none."""
+    if isinstance(node, ast.Constant):
+        return node.value if isinstance(node.value, str) else None
+    pieces = list[str | None]()
+    while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        pieces.append(text_of(node.right) if isinstance(node.right, ast.Constant) else None)
+        node = node.left
+    if not pieces or not isinstance(node, ast.Constant):
+        return None
+    pieces.append(text_of(node))
+    return None if None in pieces else "".join(reversed([piece or "" for piece in pieces]))
 
 
 # notebooks ------------------------------------------------------------------------------------------------------------

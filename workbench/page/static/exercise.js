@@ -35,8 +35,9 @@ const exercise = {
 
   marks(run) { return run.mark == null ? [] : [{ at: run.mark, title: "first difference" }]; },
 
-  // the mark over the slider, and the button that goes there
+  // what is true of the run: whether it calls the function; the mark over the slider, and the button that goes there
   show(run) {
+    for (const said of $$("#exercise [data-called]")) said.hidden = said.dataset.called !== String(run?.called);
     const at = run?.mark ?? null, button = $("#difference");
     if (button) button.disabled = at === null;
     if (at === null) return this.flag?.remove();
@@ -56,7 +57,7 @@ const exercise = {
   // the student's own source before that of the algorithm that calls it; where it failed the line is marked
   source(box, at) {
     if (!this.mine) return;
-    const mine = element("div", { innerHTML: `<p><b>${escape(this.mine.name)}</b>: your function drives this run.</p><div class="lines" tabindex="0">${this.mine.html}</div>` });
+    const mine = element("div", { innerHTML: `<p><b>${escape(this.mine.name)}</b>${page.run?.called === false ? ": this run does not call your function." : ": your function."}</p><div class="lines" tabindex="0">${this.mine.html}</div>` });
     if (at.wrong) {
       $(".here", box)?.classList.remove("here"); // the eye goes to one line
       $(`[data-line="${at.wrong}"]`, mine)?.classList.add("here", "wrong");
