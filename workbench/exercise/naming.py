@@ -18,6 +18,8 @@ from workbench.exercise.model import Exercise, Function, Mistake
 ENOUGH = 3
 """How much must tell a mistake from the right answer where a function makes it in some checks only: of an array each wrong
 entry counts, of single numbers each one that is not like another, a fraction twice."""
+RANGE = 1e-50, 1e50
+"""Sizes of numbers, 0 apart, that our functions are asked about: beyond, squares overflow and LAPACK may never end."""
 KEPT_ANSWERS = 2048
 ROUNDING = 1e-6  # relative
 NEAR, FAR = 0.05, 5.0
@@ -191,11 +193,23 @@ def _answer(function: Function, call: Call) -> Answer:
 
 @functools.lru_cache(maxsize=KEPT_ANSWERS)
 def _answered(function: Function, key: tuple[Any, ...]) -> Answer:
+    args = [_thawed(part) for part in key]
+    if any(_is_beyond(arg) for arg in args):
+        return raised(OverflowError("an argument is beyond what can be computed with"))
     try:
         with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):
-            return Answer(function(*map(_thawed, key)), "")
+            return Answer(function(*args), "")
     except Exception as error:
         return raised(error)
+
+
+def _is_beyond(arg: Any) -> bool:
+    """Tell whether an argument, which may come from a student's answer, has numbers that are too large or too small."""
+    if not (isinstance(arg, float) or (isinstance(arg, np.ndarray) and arg.dtype.kind == "f")):
+        return False
+    size = np.abs(arg)[()]
+    low, high = RANGE
+    return bool(np.any(np.isfinite(size) & (((size > 0) & (size < low)) | (size > high))))
 
 
 def _thawed(part: Any) -> Any:
