@@ -9,7 +9,7 @@ const stage = {
     const frame = element("iframe", { title: "3D scene of this step; drag to turn it, scroll to come nearer", ...attributes });
     this.frame = frame;
     frame.addEventListener("load", () => this.tidy(frame));
-    $("#scene").replaceChildren(frame);
+    $("#scene").replaceChildren(frame, element("div", { id: "labels", ariaHidden: "true" }));
   },
 
   // viser's own panels and bars go; the page's keys work in the frame too
@@ -22,8 +22,11 @@ const stage = {
     inside.addEventListener("keydown", (event) => {
       if (!event.key.startsWith("Arrow") && !event.target.closest("input")) keys.pressed(event);
     });
-    $("#scene").removeAttribute("aria-busy");
   },
+
+  // a scene is on its way; and the one that was is there
+  awaited() { $("#scene").setAttribute("aria-busy", "true"); },
+  arrived() { feed.ready.then(() => $("#scene").removeAttribute("aria-busy")); },
 
   legend(html) { if ($("#legend").innerHTML !== html) $("#legend").innerHTML = html; },
 
