@@ -106,6 +106,7 @@ const feed = window.feed = { // viser's client in the frame looks for it
   changes(wanted, next) {
     const sent = [], moves = [];
     const remove = (name, node) => {
+      for (const [below, part] of this.shown) if (below.startsWith(`${name}/`)) remove(below, part); // first, since they go with it
       this.shown.delete(name);
       if (node.kind.type !== "Label") sent.push({ type: "RemoveSceneNodeMessage", name: node.name, owner: "" });
     };
