@@ -114,6 +114,7 @@ function withGhosts(nodes, pinned) {
   const all = new Map(nodes);
   for (const [name, node] of pinned) {
     if (pathOf(name) === null || node.kind.type === "Label" || alike(node, nodes.get(name))) continue;
+    if (pathOf(name).includes("/")) continue; // a camera is its frustum alone
     if (node.kind.type === "ImageMessage" && nodes.has(name)) continue; // it would hide the one at its place
     all.set(name.replace("/scene/", "/ghost/"), { ...node, look: "ghost" });
   }
