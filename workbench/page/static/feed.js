@@ -65,8 +65,8 @@ const feed = window.feed = { // viser's client in the frame looks for it
       { type: "SetCameraUpDirectionMessage", position: up, initial }, { type: "SetCameraPositionMessage", position: eye, initial },
       { type: "SetCameraLookAtMessage", look_at: target, initial },
     ]);
-    this.fit(initial);
     labels.seen(this.stage.camera);
+    this.fit(initial); // and of its angle the words hear there
   },
 
   // lets a picture that has become narrower show as much in its width as it did; the camera stays where it is
