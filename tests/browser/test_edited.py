@@ -33,7 +33,7 @@ def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
         other.says("The algebraic fit of 41 points")
         me.scene()
         at_rest(me.page)  # the camera of the lesson has come
-        me.page.evaluate("feed.aim = () => { throw new Error('the camera stays where a person put it') }")
+        me.page.evaluate("void (feed.aim = () => { throw new Error('the camera stays where a person put it') })")
 
         save(folder / "draw.py", "Gauss-Newton step", "Step of Gauss-Newton")
         save(folder / "page.md", "# A circle through points", "# Through points a circle")
