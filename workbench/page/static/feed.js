@@ -106,6 +106,7 @@ const feed = window.feed = { // viser's client in the frame looks for it
   changes(wanted, next) {
     const sent = [], moves = [];
     const remove = (name, node) => {
+      for (const [below, part] of this.shown) if (below.startsWith(`${name}/`)) remove(below, part); // first, since they go with it
       this.shown.delete(name);
       if (node.kind.type !== "Label") sent.push({ type: "RemoveSceneNodeMessage", name: node.name, owner: "" });
     };
@@ -116,7 +117,8 @@ const feed = window.feed = { // viser's client in the frame looks for it
       if (!props) continue; // shown as soon as it is made
       const changed = old && old.base === base ? differing(old, kind, props) : null;
       const again = changed && veiled && !next && kind.type === "LineSegmentsMessage";
-      if (again || (old && old.base !== base)) remove(name, old);
+      const toWords = old && !changed && kind.type === "Label"; // the client knows no words: none takes the place of what was
+      if (again || toWords || (old && old.base !== base)) remove(name, old);
       const now = { ...node, props, base, name: again ? `${base}~~${++this.made}` : old && old.base === base ? old.name : base };
       this.shown.set(name, now);
       if (!changed || again) {

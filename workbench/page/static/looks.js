@@ -51,10 +51,25 @@ const LIGHT = Uint8Array.from({ length: 256 }, (_, value) => {
   return Math.round(255 * (level <= 0.04045 ? level / 12.92 : ((level + 0.055) / 1.055) ** 2.4));
 });
 
-// a surface whose colours stand in its file (GLB: a head of 12 bytes, then JSON, then numbers), as opaque as is wanted
+// what a surface's file says (GLB: a head of 12 bytes, then JSON, then numbers), and where its numbers begin
+function opened(glb) {
+  const length = new DataView(glb.buffer, glb.byteOffset).getUint32(12, true);
+  return { length, told: JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + length))), numbers: 20 + length + 8 };
+}
+
+// where the points of such a surface are, and its faces
+function shapeOf(glb) {
+  const { told: { accessors, bufferViews, meshes }, numbers } = opened(glb), [{ attributes, indices }] = meshes[0].primitives;
+  return [attributes.POSITION, indices].map((accessor) => {
+    const { byteOffset = 0, byteLength } = bufferViews[accessors[accessor].bufferView];
+    const bytes = glb.slice(numbers + byteOffset, numbers + byteOffset + byteLength);
+    return accessor === indices ? bytes : new Float32Array(bytes.buffer);
+  });
+}
+
+// a surface whose colours stand in its file, as opaque as is wanted
 function translucent(glb, opacity) {
-  const bytes = glb.slice(), view = new DataView(bytes.buffer), length = view.getUint32(12, true), numbers = 20 + length + 8;
-  const told = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + length)));
+  const bytes = glb.slice(), { length, told, numbers } = opened(bytes);
   const { accessors, bufferViews, meshes } = told, colors = accessors[meshes[0].primitives[0].attributes.COLOR_0];
   const start = numbers + (bufferViews[colors.bufferView].byteOffset ?? 0) + (colors.byteOffset ?? 0);
   for (let i = 0; i < colors.count; i++) bytes[start + 4 * i + 3] = Math.round(opacity * 255);
@@ -114,6 +129,9 @@ function alike(a, b) {
   if (!near(a.wxyz, b.wxyz) || !near(a.position, b.position)) return false;
   return Object.entries(a.kind.props).every(([key, value]) => {
     const other = b.kind.props[key];
-    return !(value instanceof Float32Array) || value === other || near(value, other);
+    if (value === other) return true;
+    if (key !== "glb_data") return !(value instanceof Float32Array) || near(value, other);
+    const [mine, theirs] = [value, other].map(shapeOf);
+    return mine.every((part, i) => near(part, theirs[i]));
   });
 }
