@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 import rerun as rr
 import viser
+from workbench.viewer.sink import ROOT, ViserSink
 
 from tests.runs import finished
 from tests.viewer.browser_scene import Browser, Seen, Windows, all_pairs, difference
@@ -20,7 +21,6 @@ from workbench.lesson import catalog
 from workbench.recording.sink import RerunSink
 from workbench.scene import Camera, Classes, Field, Mesh, Picture, Points, Scene, Segments, in_space
 from workbench.timeline import Timeline
-from workbench.viewer.sink import ROOT, ViserSink
 
 LESSONS = list(catalog())
 MORE = 8  # steps

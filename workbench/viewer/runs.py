@@ -16,7 +16,7 @@ from workbench.page.steps import Steps
 from workbench.scene import arrays
 from workbench.timeline import Timeline, Timelines
 from workbench.viewer.scheduling import Scheduler
-from workbench.wire.nodes import MAKER
+from workbench.wire.nodes import Maker
 
 Result = TypeVar("Result")
 
@@ -91,7 +91,7 @@ class Runs:
     """
 
     def __init__(self, most_bytes: int = MOST_BYTES, threads: int = 2):
-        self.timelines = Timelines(most_bytes=most_bytes)
+        self.timelines, self.maker = Timelines(most_bytes=most_bytes), Maker()
         self.stepping, self.showing = Crew("stepping", 2), Crew("showing", 2)
         self.asking, self.keeping = Crew("asking", 1), Crew("keeping", 1)
         self.scheduler = Scheduler(threads, busy=lambda: self.stepping.is_behind() or self.showing.is_behind())
@@ -124,7 +124,7 @@ class Runs:
             owned |= {id(array): array.nbytes for array in _cached_arrays(cached)}
         with self._lock:
             data = sum(steps.bytes for steps in self._steps.values())
-        return sum(owned.values()) + data + MAKER.held()
+        return sum(owned.values()) + data + self.maker.held()
 
     def let_go(self, lessons: Iterable[Lesson]) -> None:
         """Keep no run and no lesson's cache any more."""
@@ -143,7 +143,7 @@ class Runs:
             sleepers: Let go of the run of one page each, in this order, and tell whether they did.
         """
         lessons, freed = tuple(lessons), False
-        at_most = self.timelines.bytes + MAKER.held()  # arrays that two runs share are counted twice
+        at_most = self.timelines.bytes + self.maker.held()  # arrays that two runs share are counted twice
         if at_most < self._most_bytes // 2:
             return at_most
         while (held := self.held(lessons)) > self._most_bytes and self.timelines.drop():

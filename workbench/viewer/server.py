@@ -36,7 +36,6 @@ from workbench.viewer.pace import FIRST_WORD, Pace
 from workbench.viewer.patience import Patience, more_files
 from workbench.viewer.rules import Gate, Rules, page_response
 from workbench.viewer.runs import MOST_BYTES, Runs
-from workbench.viewer.share import Share
 from workbench.viewer.student import Student
 from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
@@ -67,7 +66,6 @@ class Server:
         behind: The name under which browsers find it, where it stands behind a proxy.
         most_bytes: What runs and all that belongs to them may hold.
         most_pages: How many pages may be open.
-        share: Its part, where it is one of several that stand behind one port; it does not listen then.
 
     Attributes:
         doors: Where browsers find it.
@@ -88,22 +86,21 @@ class Server:
         behind: str | None = None,
         most_bytes: int = MOST_BYTES,
         most_pages: int = MOST_PAGES,
-        share: Share | None = None,
     ):
         self.lessons: dict[str, Lesson] = dict(catalog()) | ({start.lesson.name: start.lesson} if start else {})
-        self.rules = Rules(host, open_to_all=open_to_all, behind=behind, token=share and share.token)
-        own = [listening(host, port)] if share is None else []
+        self.rules = Rules(host, open_to_all=open_to_all, behind=behind)
+        listener = listening(host, port)
         more_files()
         sys.setswitchinterval(SWITCH)
-        self.port = own[0].getsockname()[1] if share is None else share.port
-        self.doors, self._share = Doors(host, self.port, self.rules.token), share
+        self.port = listener.getsockname()[1]
+        self.doors = Doors(host, self.port, self.rules.token)
         self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
         self._lesson_pages = LessonPages()
         self.students: dict[str, Student] = {}
         self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
         self.following = start and Following(start.lesson, watched, edited, self._replace, self._pages)
         config = uvicorn.Config(
-            Gate(self._app(), self.rules, f"workbench-{self.port}", once=share is not None),
+            Gate(self._app(), self.rules, f"workbench-{self.port}"),
             http="h11",
             ws="websockets-sansio",
             log_level="critical",
@@ -114,7 +111,7 @@ class Server:
             timeout_graceful_shutdown=2,
         )
         self._uvicorn = uvicorn.Server(config)
-        self._thread = threading.Thread(target=self._uvicorn.run, args=(own,), daemon=True)
+        self._thread = threading.Thread(target=self._uvicorn.run, args=([listener],), daemon=True)
         self._thread.start()
         while not self._uvicorn.started:
             if not self._thread.is_alive():
@@ -157,8 +154,6 @@ class Server:
         keeping = [
             asyncio.create_task(one) for one in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
         ]
-        if self._share is not None:
-            self._share.begin(self._uvicorn)
         yield
         for task in keeping:
             task.cancel()
@@ -205,7 +200,7 @@ class Server:
         return page_response(request, page.replace("<body ", f'<body data-token="{self._new_token()}" ', 1))
 
     def _new_token(self) -> str:
-        return f"{0 if self._share is None else self._share.number:02x}{secrets.token_hex(11)}"
+        return secrets.token_hex(12)
 
     def _pages(self) -> list[Student]:
         return list(self.students.values())
@@ -254,7 +249,6 @@ class Server:
             return
         student = self.students[token] = Student(self.lessons, self.runs, functools.partial(_send, socket))
         student.start, student.following = self._start, self.following
-        self._tell_share()
         working = asyncio.create_task(student.work())
         try:
             await self._listen(socket, student)
@@ -263,15 +257,10 @@ class Server:
         finally:
             working.cancel()
             self.students.pop(token, None)
-            self._tell_share()
             student.close()
             student.leave()
         with contextlib.suppress(RuntimeError):
             await socket.close()
-
-    def _tell_share(self) -> None:
-        if self._share is not None:
-            self._share.tell(len(self.students))
 
     @staticmethod
     async def _listen(socket: WebSocket, student: Student) -> None:

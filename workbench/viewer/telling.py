@@ -33,7 +33,7 @@ class Telling:
     """
 
     def __init__(self, runs: Runs):
-        self._runs, self._wire, self.aim = runs, PageWire(), Aim()
+        self._runs, self._wire, self.aim = runs, PageWire(runs.maker), Aim()
         self.timeline: Timeline | None = None
         self._steps: Steps | None = None  # of that run
         self._sent: set[int] = set()  # numbers of things of this run that the page has

@@ -27,10 +27,10 @@ SCENE = "/scene/"
 class Content:
     """The bytes of an array, of which there is one for all equal ones."""
 
-    __slots__ = ("__weakref__", "bytes", "key")
+    __slots__ = ("__weakref__", "data", "key")
 
-    def __init__(self, key: str, content: bytes):
-        self.key, self.bytes = key, content
+    def __init__(self, key: str, data: bytes):
+        self.key, self.data = key, data
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +74,7 @@ class Maker:
     def held(self) -> int:
         """Return how many bytes the arrays hold of all nodes that are still there."""
         with self._lock:
-            return sum(len(content.bytes) for content in self._contents.values())
+            return sum(len(content.data) for content in self._contents.values())
 
     def nodes(self, scene: Scene, view: View) -> dict[str, Node]:
         """Return all nodes of a scene and of its stage, by name, in the order in which they are drawn."""
@@ -138,7 +138,7 @@ class Maker:
             elif said["type"] == "SceneNodeUpdateMessage":
                 made[name][0]["props"].update(said["updates"])
             elif said["type"] == "SetPositionMessage":
-                poses[name] = (*poses[name][:4], *map(float, said["position"]))
+                poses[name] = place_of(np.asarray(said["position"]), None)
             elif said["type"] == "SetSceneNodeVisibilityMessage" and not said["visible"]:
                 hidden.add(name)
         nodes = {

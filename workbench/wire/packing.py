@@ -27,14 +27,14 @@ def packed(head: Mapping[str, Any], kinds: Iterable[Kind], arrays: Iterable[Cont
     """Return one message."""
     arrays = list(arrays)
     text = json.dumps(
-        {**head, "arrays": [[one.key, len(one.bytes)] for one in arrays]}, separators=(",", ":"), allow_nan=False
+        {**head, "arrays": [[one.key, len(one.data)] for one in arrays]}, separators=(",", ":"), allow_nan=False
     )
     listed = ",".join(f'"{kind.key}":{kind.text}' for kind in kinds)
     start = f'{text[:-1]},"kinds":{{{listed}}}}}'.encode()
     start += b" " * (-(4 + len(start)) % 8)
     parts = [len(start).to_bytes(4, "little"), start]
     for one in arrays:
-        parts += [one.bytes, b"\0" * (-len(one.bytes) % 8)]
+        parts += [one.data, b"\0" * (-len(one.data) % 8)]
     return b"".join(parts)
 
 
@@ -75,7 +75,7 @@ class PageWire:
         arrays = {one.key: one for kind in kinds.values() for one in kind.arrays if one.key not in self._arrays}
         self._kinds |= kinds.keys()
         self._arrays |= arrays.keys()
-        self._held += sum(len(one.bytes) for one in arrays.values())
+        self._held += sum(len(one.data) for one in arrays.values())
         if (stage, view) != self._staged:
             said["stage"], self._staged = staged(view, self._maker), (stage, view)
         said["nodes"] = [[name, kind.key, pose] for name, (kind, pose) in nodes.items()]

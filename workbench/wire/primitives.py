@@ -18,6 +18,7 @@ from workbench.scene import (
     PALETTE,
     Axes,
     Camera,
+    Color,
     Mesh,
     Picture,
     Points,
@@ -185,7 +186,7 @@ _MAKERS: Mapping[type, Callable[[viser.SceneApi, Any], None]] = {
 }
 
 
-def _colors(color: Any, n: int) -> np.ndarray:
+def _colors(color: Color, n: int) -> np.ndarray:
     """Return one colour for all, (3,), or one for each, (n, 3)."""
     return np.array(PALETTE[color], np.uint8) if isinstance(color, str) else color_rows(color, n)
 

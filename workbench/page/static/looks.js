@@ -35,8 +35,10 @@ function looking({ type, props }, { opacity, size, width }, backdrop, later) {
   }
 }
 
-function mixed(colors, share, to) {
-  return share < 1 ? colors.map((value, i) => Math.round(share * value + (1 - share) * to[i % 3])) : colors;
+// colours mixed with a backdrop; before a dark one more of them is kept, since the eye sees less of a faint thing there
+function mixed(colors, opacity, to) {
+  const share = to[0] < 128 ? opacity ** 0.6 : opacity;
+  return opacity < 1 ? colors.map((value, i) => Math.round(share * value + (1 - share) * to[i % 3])) : colors;
 }
 
 // one colour for all is sRGB to viser's client, one for each end of a line is linear light

@@ -28,7 +28,15 @@ const stage = {
   awaited() { $("#scene").setAttribute("aria-busy", "true"); },
   arrived() { feed.ready.then(() => $("#scene").removeAttribute("aria-busy")); },
 
-  legend(html) { if ($("#legend").innerHTML !== html) $("#legend").innerHTML = html; },
+  // the legend stays as high as it once was for this run: a scene that changes its size from step to step cannot be watched
+  legend(html) {
+    const box = $("#legend"), of = `${page.run.id} ${innerWidth}`;
+    if (box.innerHTML === html) return;
+    box.innerHTML = html;
+    if (of !== this.legendOf) box.style.minHeight = "";
+    this.legendOf = of;
+    box.style.minHeight = `${box.offsetHeight}px`;
+  },
 
   // makes what is at a path, or under it, stand out: in the legend, and in the scene where the home can; "" ends it
   light(path) {
