@@ -1,5 +1,6 @@
 """What viser's client is told: whatever was shown before, it ends with what is wanted, and is told no more than it lacks."""
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
@@ -99,42 +100,11 @@ def test_a_client_has_of_a_scene_what_its_nodes_say(fed, k):
         assert abs(np.dot(wxyz, node["wxyz"])) == pytest.approx(1.0)
 
 
-PAIRS = """async ([numbers, by, together]) => {
-  client.busy = together > 1;
-  let count = 0;
-  const over = (one, other) => client.seen()[other].made < client.seen()[one].made;
-  const isLine = (node) => node.kind.type === "LineSegmentsMessage";
-  const show = async (i) => {
-    sceneView.step(scenes[i].nodes, by);
-    await settled();
-    if (++count % together) return "";
-    client.handle();
-    return client.wrong[0] ?? difference(byName(seen()), wanted[i]);
-  };
-  const mine = client, wanted = {};
-  for (const i of numbers) wanted[i] = await alone({ i });
-  client = mine;
-  feed.shown.clear(); feed.wanted = new Map(); feed.connect(client);
-  for (const i of numbers) for (const j of numbers) {
-    for (const k of [i, j]) {
-      const wrong = await show(k);
-      if (wrong) return `${i} -> ${j}: ${wrong}`;
-      if (by === 0) for (const [name, node] of sceneView.nodes) { // lines over the surfaces that come before them
-        if (isLine(node)) for (const [other, one] of sceneView.nodes) {
-          if (other === name) break;
-          if (!SURFACES.has(one.kind.type) || client.busy || over(name, other)) continue;
-          return `${i} -> ${j}: ${other} over ${name}`;
-        }
-      }
-    }
-  }
-  return "";
-}"""
-
-
 @pytest.mark.parametrize(("by", "together"), [(0, 1), (1, 1), (0, 3)], ids=["jump", "next", "three at once"])
 def test_whatever_was_shown_before_leaves_nothing(fed, by, together):
-    assert fed(PAIRS, [list(range(len(KINDS) + len(SEVERAL))), by, together]) == ""
+    numbers = range(len(KINDS) + len(SEVERAL))
+    order = [k for pair in itertools.product(numbers, numbers) for k in pair]
+    assert fed("([order, by, together]) => walked(order, by, together)", [order, by, together]) == ""
 
 
 WALK = """async ([start, count, seed]) => {

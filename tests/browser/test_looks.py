@@ -58,7 +58,8 @@ def shown(fed: Fed, scene: Scene, *, path: str = "", pin: Scene | None = None, d
     return fed(SHOWN, [numbers[0], path, None if pin is None else numbers[1], dark])
 
 
-def mixed(rgb: Any, share: float, dark: bool) -> np.ndarray:
+def mixed(rgb: Any, opacity: float, dark: bool) -> np.ndarray:
+    share = opacity**0.6 if dark else opacity  # the eye sees less of a faint thing in the dark
     return np.floor(share * np.asarray(rgb, float) + (1 - share) * np.array(BACKDROPS[dark]) + 0.5).astype(int)
 
 

@@ -99,9 +99,22 @@ function composed(a, b) {
   };
 }
 
+// what stands for an array: its numbers where they are few, else their first and a sum (FNV-1a); nobody changes an array
+const sums = new WeakMap();
+function told(array) {
+  const known = sums.get(array.buffer) ?? sums.set(array.buffer, new Map()).get(array.buffer);
+  const key = `${array.constructor.name} ${array.byteOffset} ${array.length}`;
+  if (!known.has(key)) {
+    let sum = 2166136261;
+    for (const byte of new Uint8Array(array.buffer, array.byteOffset, array.byteLength)) sum = Math.imul(sum ^ byte, 16777619) >>> 0;
+    known.set(key, `${array.constructor.name} of ${array.length}: ${array.slice(0, 12).join()} ${array.length > 12 ? sum : ""}`);
+  }
+  return known.get(key);
+}
+
 // plain data that is equal where two pictures are
-function plain(value, key) {
-  if (ArrayBuffer.isView(value)) return `${value.constructor.name} ${[...value].join()}`;
+function plain(value) {
+  if (ArrayBuffer.isView(value)) return told(value);
   if (Array.isArray(value)) return value.map((one) => plain(one));
   if (value && typeof value === "object") return Object.fromEntries(Object.entries(value).filter(([name]) => name !== "made").map(([name, one]) => [name, plain(one)]));
   return typeof value === "number" ? Math.round(value * 1e9) / 1e9 + 0 : value;
@@ -170,4 +183,35 @@ async function alone({ i, path = "", pin = null, dark = false }) {
     client = before;
   }
   return known.get(key);
+}
+
+// shows scenes in this order, each so many steps after the one before, so many handled together; returns what is wrong then
+async function walked(order, by, together) {
+  const mine = client, wanted = {};
+  for (const i of new Set(order)) wanted[i] = await alone({ i });
+  client = mine;
+  client.busy = together > 1;
+  feed.shown.clear();
+  feed.wanted = new Map();
+  feed.connect(client);
+  for (const [k, i] of order.entries()) {
+    sceneView.step(scenes[i].nodes, by);
+    await settled();
+    if ((k + 1) % together) continue;
+    client.handle();
+    const wrong = client.wrong[0] || difference(byName(seen()), wanted[i]) || (by === 0 && together === 1 ? veiled(sceneView.nodes) : "");
+    if (wrong) return `${order[k - 1]} -> ${i}: ${wrong}`;
+  }
+  return "";
+}
+
+// a line that was made before a surface which precedes it: the client draws in the order in which things were made
+function veiled(nodes) {
+  const there = client.seen(), surfaces = [];
+  for (const [name, { kind }] of nodes) {
+    if (SURFACES.has(kind.type)) surfaces.push(name);
+    const over = kind.type === "LineSegmentsMessage" && surfaces.find((one) => there[one].made > there[name].made);
+    if (over) return `${over} is drawn over ${name}`;
+  }
+  return "";
 }

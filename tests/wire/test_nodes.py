@@ -60,7 +60,7 @@ def test_equal_content_has_an_equal_key_and_other_content_another(k):
     }
     for kind, _ in one.values():
         assert json.loads(kind.text).keys() <= {"type", "props", "fade", "visible"}
-        assert len({array.key for array in kind.arrays}) == len({array.bytes for array in kind.arrays})
+        assert len({array.key for array in kind.arrays}) == len({array.data for array in kind.arrays})
     maker = Maker()
     made = [frozenset((name, kind.key, pose) for name, (kind, pose) in shown(scene, maker).items()) for scene in KINDS]
     assert [i for i, nodes in enumerate(made) if nodes == made[k] and nodes] == ([k] if made[k] else [])
