@@ -101,7 +101,7 @@ def walk_live(fed: Fed, scenes: Sequence[Scene], order: Sequence[int], by: int =
     """Show scenes in this order on a page; hold what its client draws to what it draws of each alone."""
     numbers = fed.add(scenes)
     for together in (1, 3):  # messages of so many are handled at once: a browser that draws slowly
-        walk = "([order, by, together]) => { connect(); return walked(order, by, together); }"
+        walk = "([order, by, together]) => walked(order, by, together)"
         assert fed(walk, [[numbers[i] for i in order], by, together]) == ""
 
 

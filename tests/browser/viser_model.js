@@ -187,13 +187,12 @@ async function alone({ i, path = "", pin = null, dark = false }) {
 
 // shows scenes in this order, each so many steps after the one before, so many handled together; returns what is wrong then
 async function walked(order, by, together) {
-  const mine = client, wanted = {};
+  const wanted = {};
   for (const i of new Set(order)) wanted[i] = await alone({ i });
-  client = mine;
-  client.busy = together > 1;
-  feed.shown.clear();
+  Object.assign(sceneView, { path: "", pinned: null });
   feed.wanted = new Map();
-  feed.connect(client);
+  connect();
+  client.busy = together > 1;
   for (const [k, i] of order.entries()) {
     sceneView.step(scenes[i].nodes, by);
     await settled();
