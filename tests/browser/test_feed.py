@@ -167,6 +167,34 @@ def test_what_only_moves_is_sent_as_poses_and_what_stays_is_not_sent(fed, by):
     assert fed(MESSAGES, [after, copy[0], by]) == []
 
 
+@pytest.mark.parametrize("thing", [Points(np.eye(3), np.zeros((3, 3), np.uint8)), Segments(ENDS)])
+def test_another_number_of_points_is_another_node_and_as_many_are_changed_in_place(fed, thing):
+    many = Points(np.ones((7, 3)), np.zeros((7, 3), np.uint8)) if isinstance(thing, Points) else Segments(ENDS[:1])
+    same = replace(thing, p=2 * thing.p) if isinstance(thing, Points) else replace(thing, ends=2 * thing.ends)
+    one, other, alike = fed.add([{"n": thing}, {"n": many}, {"n": same}])
+    kinds = [{kind for kind, _ in fed(MESSAGES, [one, k, 0]) if not kind.startswith("Set")} for k in (other, alike)]
+    assert kinds == [
+        {"PointCloudMessage" if isinstance(thing, Points) else "LineSegmentsMessage"},
+        {"SceneNodeUpdateMessage"},
+    ]
+
+
+def test_lines_are_made_anew_over_a_new_surface_but_not_from_step_to_step(fed):
+    first = len(KINDS)  # whose surface has another colour in the next
+    made = [kind for kind, name in fed(MESSAGES, [first, first + 1, 0]) if name.startswith("/scene/l")]
+    assert made[0] == "RemoveSceneNodeMessage"
+    assert [name for _, name in fed(MESSAGES, [first, first + 1, 1]) if not name.startswith("/scene/v")] == []
+
+
+def test_what_is_hidden_is_hidden_and_comes_back(fed):
+    show = """(visible) => {
+      const kind = { type: "FrameMessage", fade: 1, visible, props: {} };
+      feed.show(new Map([["/frame", { kind, wxyz: [1, 0, 0, 0], position: [0, 0, 0] }]]));
+      return "/frame" in client.seen();
+    }"""
+    assert [fed(show, visible) for visible in (True, False, True)] == [True, False, True]
+
+
 GLIDED = """([i, j, by, parts]) => {
   sceneView.step(scenes[i].nodes, 0); finish();
   client.said = [];
@@ -198,6 +226,18 @@ def test_a_step_beside_is_gone_to_evenly_and_ends_exactly_where_it_says(fed, by)
 def scenes_pose(scene: Scene) -> tuple[float, ...]:
     """Return the pose of a scene's cloud."""
     return Maker().nodes(scene, VIEW)["/scene/cloud"][1]
+
+
+def test_a_turn_takes_the_shorter_way(fed):
+    """From 60 to -110 degrees, whose quaternions lie more than a quarter turn apart in four dimensions."""
+    turns = [pose((0.0, 0.0, np.radians(degrees)), (0.0, 0.0, 0.0)) for degrees in (60, -110)]
+    first, second = fed.add([{"cloud": replace(CLOUD, T_world_object=T)} for T in turns])
+    walk = (
+        "([i, j]) => { sceneView.step(scenes[i].nodes, 0); finish(); sceneView.step(scenes[j].nodes, 1); tick(125); }"
+    )
+    fed(walk, [first, second])
+    found = Rotation.from_quat(fed("() => client.seen()['/scene/cloud'].wxyz"), scalar_first=True)
+    np.testing.assert_allclose(found.as_rotvec(degrees=True), (0, 0, -25), atol=1e-6)
 
 
 @pytest.mark.parametrize("by", [0, 2, -3])
