@@ -87,8 +87,8 @@ def test_what_is_faded_is_mixed_with_the_backdrop_of_the_page(fed, opacity, dark
         np.testing.assert_array_equal(
             np.reshape(found[name]["colors"], (-1, 3)), np.atleast_2d(mixed(rgb, opacity, dark))
         )
-    for name, role in (("line", "target"), ("camera", "truth")):
-        np.testing.assert_array_equal(found[name]["colors"], mixed(PALETTE[role], opacity, dark))  # one for all is sRGB
+    for name, rgb in (("line", PALETTE["target"]), ("camera", PALETTE["truth"])):
+        np.testing.assert_array_equal(found[name]["colors"], mixed(rgb, opacity, dark))  # one for all is sRGB
     ends = np.repeat([PALETTE["truth"], PALETTE["wrong"]], 2, axis=0)
     np.testing.assert_allclose(  # one for each end is linear light
         np.reshape(found["lines"]["colors"], (-1, 3)), as_light(mixed(ends, opacity, dark)), atol=0.5

@@ -24,7 +24,7 @@ def test_the_client_is_one_file_whose_worker_is_the_page():
     assert len(compressed) < len(plain)
     assert client_bytes()[2] == etag
     assert etag[0] == etag[-1] == '"'
-    own = (Path(viser.__file__).parent / "client" / "build" / "index.html").read_text(encoding="utf-8")
+    own = (Path(str(viser.__file__)).parent / "client" / "build" / "index.html").read_text(encoding="utf-8")
     before, inserted, after = html.partition(client._WORKER)
     assert inserted
     assert before + after == own

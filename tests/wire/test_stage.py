@@ -103,6 +103,18 @@ def test_a_choice_that_leads_to_other_things_brings_the_camera_of_their_presets(
     assert aim.view(lesson, params) in theirs
 
 
+@pytest.mark.parametrize(("grid", "height", "stays"), [(0.7, 0.0, False), (None, 1.0, False), (None, 0.0, True)])
+def test_the_view_of_a_preset_stays_behind_a_knob_unless_its_grid_is_another(grid, height, stays):
+    lesson, aim = catalog()["icp"], Aim()
+    usual = lesson.view
+    own = replace(usual, eye=(9.0, 9.0, 9.0), grid=grid or usual.grid, grid_height=usual.grid_height + height)
+    preset = replace(lesson.presets[0], view=own)
+    lesson = replace(lesson, presets=(preset, *lesson.presets[1:]))
+    aim.open(lesson, preset.params)
+    assert aim.view(lesson, preset.params) == own
+    assert aim.view(lesson, replace(preset.params, seed=preset.params.seed + 1)) == (own if stays else usual)
+
+
 def test_before_anything_is_opened_a_run_is_seen_by_its_own_view():
     lesson = catalog()["icp"]
     assert Aim().view(lesson, lesson.params()) == lesson.view_of(lesson.params())
