@@ -1,4 +1,4 @@
-"""A page and its scene without a browser: what one would say to the live server, and what comes back, with its time."""
+"""A page without a browser: what one would say to the live server, and what comes back, with its time."""
 
 import asyncio
 import contextlib
@@ -9,18 +9,11 @@ from collections.abc import Callable
 from typing import Any
 from urllib.parse import urlsplit
 
-import msgspec
-import viser
 import websockets
-
-CAMERA = {
-    "type": "ViewerCameraMessage", "wxyz": [1.0, 0, 0, 0], "position": [3.0, 3, 3], "fov": 0.8, "near": 0.01, "far": 1e3,
-    "image_height": 900, "image_width": 1440, "look_at": [0.0, 0, 0], "up_direction": [0.0, 0, 1],
-}  # fmt: skip
 
 
 class FakePage:
-    """One visit: the page is asked for, its websocket opened, and its scene's, which takes whatever comes.
+    """One visit: the page is asked for, and its websocket opened. Scenes come as bytes and are counted.
 
     Args:
         address: Where the server is, up to the last slash, without a query.
@@ -40,7 +33,7 @@ class FakePage:
         self._news = asyncio.Event()
         self._reading: list[asyncio.Task] = []
 
-    async def open(self, *, scene: bool = True, read: bool = True) -> "FakePage":
+    async def open(self, *, read: bool = True) -> "FakePage":
         """Open it as a browser does."""
         page = await self._page()
         self.lesson = re.findall(r'data-lesson="([^"]+)"', page)[0]
@@ -50,8 +43,6 @@ class FakePage:
         await self.say(verb="open", query=self.query, lesson=self.lesson)
         if read:
             self._reading.append(asyncio.create_task(self._read_page()))
-        if scene:
-            await self.open_scene(read=read)
         return self
 
     async def _page(self) -> str:
@@ -69,14 +60,6 @@ class FakePage:
         if head.split()[1] != b"200":
             raise ConnectionError(head.split(b"\r\n")[0].decode())
         return body.decode()
-
-    async def open_scene(self, *, read: bool = True) -> None:
-        """Let the scene come up."""
-        name = websockets.Subprotocol(f"viser-v{viser.__version__}")
-        self.scene = await self.socket(f"scene/{self.token}/", subprotocols=[name])
-        await self.scene.send(msgspec.msgpack.encode(CAMERA))
-        if read:
-            self._reading.append(asyncio.create_task(self._read_scene()))
 
     async def socket(self, path: str, **options: Any) -> Any:
         """Open a websocket of this page."""
@@ -113,7 +96,7 @@ class FakePage:
                 await self._news.wait()
 
     async def seek(self, k: int) -> tuple[float, float]:
-        """Go to a step; return the seconds until its words had come, and until the last of its scene had."""
+        """Go to a step; return the seconds until its words had come, and until its scene had."""
         began = time.perf_counter()
         self.step = {}
         await self.say(verb="seek", k=k)
@@ -130,16 +113,19 @@ class FakePage:
         """Leave."""
         for task in self._reading:
             task.cancel()
-        for name in ("live", "scene"):
-            if hasattr(self, name):
-                with contextlib.suppress(Exception):
-                    await getattr(self, name).close()
+        if hasattr(self, "live"):
+            with contextlib.suppress(Exception):
+                await self.live.close()
 
     async def _read_page(self) -> None:
         with contextlib.suppress(websockets.ConnectionClosed):
-            async for text in self.live:
-                self.bytes += len(text)
-                self._hear(json.loads(text))
+            async for part in self.live:
+                if isinstance(part, bytes):
+                    self.scene_bytes, self.scene_came = self.scene_bytes + len(part), time.perf_counter()
+                else:
+                    self.bytes += len(part)
+                    self._hear(json.loads(part))
+                self._news.set()
         self.gone = True
         self._news.set()
 
@@ -150,11 +136,3 @@ class FakePage:
             self.step, self.came = message, time.perf_counter()
         else:
             self.told.append(message)
-        self._news.set()
-
-    async def _read_scene(self) -> None:
-        with contextlib.suppress(websockets.ConnectionClosed):
-            async for frame in self.scene:
-                self.scene_bytes += len(frame)
-                self.scene_came = time.perf_counter()
-                self._news.set()

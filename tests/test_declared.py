@@ -42,7 +42,7 @@ def test_what_is_imported_is_declared_and_what_is_declared_is_used():
     needed.pop("distributed")  # for `--dask` alone, which says how to install it
     undeclared = {name: str(imported()[name]) for name, places in needed.items() if not places & asked}
     assert undeclared == {}
-    by_name = {"ziamath"}  # only its font is read: `importlib.util.find_spec` finds it
+    by_name = {"ziamath", "websockets"}  # its font is read; uvicorn imports it, as it is told to
     assert asked - set().union(*needed.values()) - by_name == set()
 
 

@@ -45,8 +45,7 @@ ALLOWED = {
     "workbench.images": set(),
     "workbench.workers": set(),
     "workbench.threads": set(),
-    "workbench.motion": DRAWING,
-    "workbench.emphasis": DRAWING,
+    "workbench.wire": LESSON | {"workbench.wire"},
     "workbench.progress": set(),
     "workbench.atomic": set(),
     "workbench.session": LESSON | {"workbench.session"},
@@ -60,14 +59,13 @@ ALLOWED = {
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.page", "workbench.exercise",
-        "workbench.recording", "workbench.viewer", "workbench.typeset",
+        "workbench.recording", "workbench.wire", "workbench.typeset",
         "workbench.session",
         "workbench.links", "workbench.images", "workbench.progress", "workbench.flags", "workbench.atomic",
         "workbench.workers",
     },
     "workbench.viewer": LESSON | {
-        "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.motion",
-        "workbench.emphasis", "workbench.links",
+        "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.wire", "workbench.links",
         "workbench.picking", "workbench.typeset", "workbench.recording", "workbench.exercise",
         "workbench.authoring.reloading", "workbench.hosts",
     },
@@ -82,7 +80,7 @@ ALLOWED = {
                           "workbench.exercise", "workbench.numerals", "workbench.certain"},
 }  # fmt: skip
 
-OUTSIDE = {"viser": ("workbench.viewer", "workbench.publish"), "rerun": ("workbench.recording",)}
+OUTSIDE = {"viser": ("workbench.wire", "workbench.publish.site"), "rerun": ("workbench.recording",)}
 
 FILES = [*(ROOT / "workbench").rglob("*.py"), *(ROOT / "lessons").rglob("*.py")]
 MODULES = sorted(path for path in FILES if "template" not in path.parts)  # a lesson to be copied to anywhere

@@ -65,7 +65,7 @@ def test_the_frame_asks_for_nothing(shown):
     assert html.count("<iframe") == 1
     assert "height:640px" in html
     document = unescape(re.search(r'srcdoc="([^"]*)"', html)[1])  # type: ignore[index]
-    assert not re.search(r'<(script|link|img|iframe)[^>]*(src|href)="(?!data:)', document.partition("viserPage(")[0])
+    assert not re.search(r'<(script|link|img|iframe)[^>]*(src|href)="(?!data:)', document.partition("viserClient(")[0])
 
 
 def test_the_licences_of_what_is_in_the_frame_come_along(shown):

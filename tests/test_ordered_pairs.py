@@ -1,26 +1,24 @@
 """Whatever was shown before leaves no trace: for all ordered pairs of a lesson's presets, A then B shows what B shows.
 
-A sink sends what differs, so what it holds can be stale. Every pair goes through the live browser, through the player of
-an export and through a recording: all presets at the step at which they open; steps some way on
-are seen between them. Runs that only a question opens are seen between two presets.
+A sink sends what differs, so what it holds can be stale. Every pair goes through a page's feed and through a recording: all
+presets at the step at which they open; steps some way on are seen between them. Runs that only a question opens are seen
+between two presets.
 """
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
 import pytest
 import rerun as rr
-import viser
 
+from tests.browser.feeding import Fed
 from tests.runs import finished
-from tests.viewer.browser_scene import Browser, Seen, Windows, all_pairs, difference
 from workbench.lesson import catalog
 from workbench.recording.sink import RerunSink
 from workbench.scene import Camera, Classes, Field, Mesh, Picture, Points, Scene, Segments, in_space
 from workbench.timeline import Timeline
-from workbench.viewer.sink import ROOT, ViserSink
 
 LESSONS = list(catalog())
 MORE = 8  # steps
@@ -79,75 +77,62 @@ def _coarse(image: Any) -> Any:
     return replace(image, values=image.values[::16, ::16]) if isinstance(image, Field) else image[::16, ::16]
 
 
+def all_pairs(n: int) -> Iterator[int]:
+    """Yield 0 to n - 1 so that each follows each other one at least once."""
+    for i in range(n):
+        for j in range(i + 1, n):
+            yield from (i, j)
+    yield 0
+
+
 def test_each_follows_each():
     walk = list(all_pairs(5))
     assert {(a, b) for a in range(5) for b in range(5) if a != b} <= set(itertools.pairwise(walk))
 
 
 @pytest.fixture(scope="module")
-def server():
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield server
-    server.stop()
+def fed(chromium) -> Iterator[Fed]:
+    fed = Fed(chromium)
+    yield fed
+    fed.close()
 
 
-def walk_live(server, monkeypatch, scenes: list[Scene], order: Sequence[int]) -> None:
-    """Show scenes in this order; hold a browser that gets all, one that gets every third, and a player to each alone."""
-    alone = [in_browser(server, monkeypatch, [scene]) for scene in scenes]
-    with monkeypatch.context() as patch:
-        windows = Windows(server, patch, browsers=2)
-        sink, ends = ViserSink(server.scene), []
-        for k, i in enumerate(order):
-            sink.show(scenes[i])
-            ends.append((i, len(windows.recorded)))
-            assert difference(windows.send(0).seen(ROOT), alone[i]) == "", f"preset {i} as number {k}"
-            if k % 3 == 0:
-                assert difference(windows.send(1).seen(ROOT), alone[i]) == "", f"preset {i} as number {k}, in one batch"
-        player = Browser()
-        for i, end in (ends[-1], ends[len(ends) // 2], ends[3], ends[len(ends) // 3]):
-            player.hide_all()
-            player.handle(windows.recorded[:end])
-            assert difference(drawn(player.seen(ROOT)), drawn(alone[i])) == "", f"preset {i}, sought"
-        sink.show({})
-
-
-def drawn(seen: Seen) -> Seen:
-    """Return what is to be seen without frames that draw nothing, such as no segments: a player never hides them."""
-    return {name: node for name, node in seen.items() if node["kind"] != "FrameMessage" or node["show_axes"]}
-
-
-def in_browser(server, monkeypatch, scenes: list[Scene]) -> Seen:
-    with monkeypatch.context() as patch:
-        windows = Windows(server, patch)
-        sink = ViserSink(server.scene)
-        for scene in scenes:
-            sink.show(scene)
-        seen = windows.send().seen(ROOT)
-        sink.show({})
-    return seen
+def walk_live(fed: Fed, scenes: Sequence[Scene], order: Sequence[int], by: int = 0) -> None:
+    """Show scenes in this order on a page; hold what its client draws to what it draws of each alone."""
+    numbers = fed.add(scenes)
+    for together in (1, 3):  # messages of so many are handled at once: a browser that draws slowly
+        walk = "([order, by, together]) => walked(order, by, together)"
+        assert fed(walk, [[numbers[i] for i in order], by, together]) == ""
 
 
 @pytest.mark.parametrize("name", LESSONS)
-def test_a_preset_after_another_shows_what_it_shows_alone(server, monkeypatch, name):
+def test_a_preset_after_another_shows_what_it_shows_alone(fed, name):
     opening, later = scenes_of(name)
     n = len(opening)
-    walk_live(server, monkeypatch, opening, list(all_pairs(n)))
+    walk_live(fed, opening, list(all_pairs(n)))
     asked = asked_alone(name)
     onwards = [i for k in range(n) for i in (n + k, k, n + (k + 1) % n)]
     there_and_back = [i for k in range(len(asked)) for i in (2 * k % n, 2 * n + k, (2 * k + 1) % n, 2 * n + k)]
-    walk_live(server, monkeypatch, opening + later + asked, onwards + there_and_back)
+    walk_live(fed, opening + later + asked, onwards + there_and_back)
+    walk_live(fed, opening + later, onwards, by=1)
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_a_preset_after_another_is_recorded_as_it_is_alone(name):
+    opening, _ = scenes_of(name)
+    n = len(opening)
     in_space_only = [{path: thing for path, thing in scene.items() if in_space(thing)} for scene in opening]
     walk_recorded(in_space_only, list(all_pairs(n)))
     walk_recorded(opening, [*range(n), *reversed(range(n)), *range(0, n, 2), *range(1, n, 2)])  # charts take their time
 
 
-def test_a_walk_through_all_lessons_shows_each_as_alone(server, monkeypatch):
+def test_a_walk_through_all_lessons_shows_each_as_alone(fed):
     scenes = []
     for lesson in catalog().values():
         timeline = Timeline(lesson, lesson.params())
         assert timeline.extend()
         scenes.append(thinned(timeline[0].scene))
-    walk_live(server, monkeypatch, scenes, list(all_pairs(len(scenes))))
+    walk_live(fed, scenes, list(all_pairs(len(scenes))))
 
 
 class Stream:

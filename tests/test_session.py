@@ -9,7 +9,7 @@ from tests.fake import Params, lesson
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import catalog
-from workbench.scene import Points, same
+from workbench.scene import same
 from workbench.session import Look, Session
 from workbench.timeline import Timelines
 
@@ -151,41 +151,19 @@ def test_a_run_without_a_first_step_shows_its_reason():
     assert "not a .npy file" in look.caption.text
 
 
-def test_another_version_of_the_lesson_goes_on_where_one_is_and_keeps_what_is_pinned():
+def test_another_version_of_the_lesson_goes_on_where_one_is_():
     session = settled(Params(angle=30.0))
     session.seek(3)
-    session.pin()
     session.go_on(dataclasses.replace(lesson), session.params)
     assert session.timeline.lesson is not lesson
     session.go_on(dataclasses.replace(lesson), session.params)  # saved again before a step was known
     finish(session)
     look = seen(session)
     assert (look.k, look.params) == (3, Params(angle=30.0))
-    assert look.pinned
     session.last()
     session.go_on(lesson, Params(steps=9))
     finish(session)
     assert session.step == 8
-
-
-def test_a_pinned_run_stays_as_ghost_and_curve():
-    session = settled()
-    session.seek(2)
-    pinned = session.timeline[2].scene
-    session.pin()
-    session.change(angle=10)
-    finish(session)
-    look = seen(session)
-    ghost, source = look.scene["ghost/source"], pinned["source"]
-    assert isinstance(ghost, Points)
-    assert isinstance(source, Points)
-    assert ghost.p is source.p
-    assert set(look.pinned_series) == set(look.timeline.series())
-    session.unpin()
-    assert not any(path.startswith("ghost/") for path in seen(session).scene)
-    session.pin()
-    session.reset()
-    assert not session.pinned
 
 
 def test_the_end_stays_the_end_when_a_knob_changes():

@@ -69,7 +69,7 @@ class ServingLive(Serving):
     behind: Annotated[
         str | None, Option("Name under which browsers find it, where it stands behind a proxy.", "NAME")
     ] = None
-    workers: Annotated[int, Option("Processes that share the pages out, on a machine with many cores.", "N")] = 1
+    workers: Annotated[int, Option("One process serves a class; says where more is told.", "N")] = 1
 
     def __post_init__(self) -> None:
         super().__post_init__()

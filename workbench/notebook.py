@@ -19,8 +19,7 @@ from workbench.loading import load
 from workbench.numerals import brief, length
 from workbench.page.document import lesson_document
 from workbench.page.thumbnail import still_of
-from workbench.publish.replay import Renderer
-from workbench.publish.runs import Run, run_script, viser_script
+from workbench.publish.runs import Run, client_script, run_script
 from workbench.timeline import Timeline
 
 LEAST_HEIGHT = 320
@@ -111,8 +110,6 @@ class Replay:
             first=self._first(),
             recorded=False,
         )
-        with Renderer() as renderer:
-            page, scene = renderer.scene(self.timeline)
         known = {
             "root": "",
             "runs": None,
@@ -126,7 +123,7 @@ class Replay:
         document = lesson_document(
             self.lesson, "", home="notebook", root=None, more={"RECORDED": known}, alone=(run.title, "")
         )
-        own = viser_script(page) + run_script(self.lesson, run, self.timeline, scene)
+        own = client_script() + run_script(self.lesson, run, self.timeline)
         return document.replace("</body>", f"<script>{own}</script></body>")
 
     def _first(self) -> int:

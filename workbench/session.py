@@ -1,6 +1,6 @@
 """One person's place in the course: which lesson, which params, which step. Knows no viewer; playing is the page's own.
 
-A viewer calls the verbs (`seek`, `change`, `pin`, ...), lets `compute` run somewhere off its event loop while `pending`,
+A viewer calls the verbs (`seek`, `change`, ...), lets `compute` run somewhere off its event loop while `pending`,
 and shows what `look` returns. The latest wish wins: `compute` gives up a run as soon as another one is wanted.
 """
 
@@ -12,8 +12,8 @@ from typing import Any
 from workbench import knobs
 from workbench.errors import AuthorError, InputError
 from workbench.lesson import Lesson
-from workbench.scene import Caption, Scene, ghost
-from workbench.timeline import Series, Timeline, Timelines
+from workbench.scene import Caption, Scene
+from workbench.timeline import Timeline, Timelines
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -25,10 +25,8 @@ class Look:
         own: The params that name the person's own files, where they have any; those of `params`, or put aside.
         k, known: The step that is shown, and how many steps there are so far.
         finished: Whether all steps are known.
-        scene: The step's scene, the pinned run's ghost included.
+        scene: The step's scene.
         caption: The step's caption, or what went wrong.
-        pinned_series: Every scalar over the steps of the pinned run.
-        pinned: Whether a run is pinned.
     """
 
     lesson: Lesson
@@ -40,8 +38,6 @@ class Look:
     finished: bool
     scene: Scene
     caption: Caption
-    pinned_series: Mapping[str, Series]
-    pinned: bool
 
 
 class Session:
@@ -67,7 +63,6 @@ class Session:
         self.lesson, self.slots = lesson, dict(slots or {})
         self.timelines = Timelines() if timelines is None else timelines
         self.message: str | None = None
-        self._pinned: tuple[Timeline, int] | None = None
         self._shown: Timeline | None = None  # the run whose picture stays until the wanted one has a first step
         self._last_k = 0
         self._aside: Any = None  # params with the person's own files, while a run without them is open
@@ -93,7 +88,7 @@ class Session:
             self._aside = self.params
         self.lesson, self.message = lesson, None
         if other:
-            self._pinned, self._shown, self.slots = None, None, {}
+            self._shown, self.slots = None, {}
         self._go(params)
         if step is None and params == lesson.params():
             self._start(f"lesson {lesson.name}", lesson.first_step)
@@ -101,7 +96,7 @@ class Session:
             self._want(lesson.first_step if step is None else step)
 
     def go_on(self, lesson: Lesson, params: Any, own: Any = None) -> None:
-        """Go on in another version of the lesson, at the step that is wanted; what is pinned stays.
+        """Go on in another version of the lesson, at the step that is wanted.
 
         Args:
             lesson: That version.
@@ -111,9 +106,8 @@ class Session:
         Raises:
             InputError: If the params are not the lesson's; nothing has changed then.
         """
-        pinned, wanted = self._pinned, self._wanted
+        wanted = self._wanted
         self.open(lesson, params)
-        self._pinned = pinned
         self._aside = self._still_aside(own)
         self._want(wanted)
 
@@ -142,8 +136,7 @@ class Session:
         self._aside = self._still_aside(aside)
 
     def reset(self) -> None:
-        """Go back to the default run, nothing pinned; own files stay open, and those put aside come back."""
-        self._pinned = None
+        """Go back to the default run; own files stay open, and those put aside come back."""
         self.open(self.lesson, knobs.with_own_files(self.lesson.params(), self.own))
 
     def use_preset(self, name: str) -> None:
@@ -153,32 +146,14 @@ class Session:
         step = self.lesson.first_step if preset.step is None else preset.step
         self._start(f"lesson {self.lesson.name}, preset {name!r}", step)
 
-    def pin(self) -> None:
-        """Keep the run and step that are shown as a ghost behind what comes."""
-        self._pinned = (self.timeline, self.step) if len(self.timeline) else None
-
-    def unpin(self) -> None:
-        """Let the pinned run go."""
-        self._pinned = None
-
     @property
     def own(self) -> Any:
         """The params that name the person's own files, if they have any: what is wanted, or what is put aside."""
         return self.params if self._aside is None else self._aside
 
-    @property
-    def pinned(self) -> bool:
-        """Whether a run is pinned."""
-        return self._pinned is not None
-
-    @property
-    def pinned_run(self) -> Timeline | None:
-        """The run that is pinned."""
-        return None if self._pinned is None else self._pinned[0]
-
     def let_go(self) -> None:
         """Hold the run no longer, to make room; what is shown stays until `take_up` or another wish."""
-        self.timeline, self._shown, self._pinned = Timeline(self.lesson, self.params, self.slots), None, None
+        self.timeline, self._shown = Timeline(self.lesson, self.params, self.slots), None
 
     def take_up(self) -> None:
         """Hold the run of the wanted params again, after `let_go`; its steps may have to be computed anew."""
@@ -245,12 +220,6 @@ class Session:
             return self._blank() if timeline.finished or self.message else None
         self._last_k = k
         step = timeline[k]
-        scene = dict(step.scene)
-        pinned_series: Mapping[str, Series] = {}
-        if self._pinned is not None:
-            other, at = self._pinned
-            scene |= ghost(other[min(at, len(other) - 1)].scene, scene)
-            pinned_series = other.series()
         return Look(
             lesson=self.lesson,
             params=self.params,
@@ -259,10 +228,8 @@ class Session:
             k=k,
             known=len(timeline),
             finished=timeline.finished,
-            scene=scene,
+            scene=step.scene,
             caption=self._trouble(k) or step.caption,
-            pinned_series=pinned_series,
-            pinned=self.pinned,
         )
 
     def _still_aside(self, own: Any) -> Any:
@@ -307,6 +274,4 @@ class Session:
             finished=True,
             scene={},
             caption=Caption(text, "wrong"),
-            pinned_series={},
-            pinned=self.pinned,
         )

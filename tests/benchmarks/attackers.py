@@ -1,7 +1,7 @@
 """Those who mean a live server ill, in a process of their own: python -m tests.benchmarks.attackers ADDRESS SECONDS
 
 300 sockets that say nothing, ten pages that wish for large pictures and take nothing, three that wish as fast as they can,
-three that send garbage to a page and its scene. Prints "here" when all are, and each second what was sent.
+three that send garbage. Prints "here" when all are, and each second what was sent.
 """
 
 import asyncio
@@ -10,7 +10,6 @@ import sys
 import time
 
 import numpy as np
-import viser
 import websockets
 
 from tests.fake_page import FakePage
@@ -20,14 +19,11 @@ async def attack(address: str, seconds: float) -> None:
     """Attack a server for so long."""
     end, began, sent = time.perf_counter() + seconds, time.perf_counter(), {"wishes": 0, "garbage": 0}
     one = await FakePage(address, "?lesson=transforms").open()
-    quiet = [await one.socket(f"live?token={i:024x}") for i in range(150)]
-    name = websockets.Subprotocol(f"viser-v{viser.__version__}")
-    quiet += [await one.socket(f"scene/{i:024x}/", subprotocols=[name]) for i in range(150, 300)]
+    quiet = [await one.socket(f"live?token={i:024x}") for i in range(300)]
 
     async def taking_nothing() -> None:
         page = await FakePage(address, "?lesson=disparity").open(read=False)
         page.live.transport.pause_reading()
-        page.scene.transport.pause_reading()
         while time.perf_counter() < end:
             with contextlib.suppress(TimeoutError, websockets.ConnectionClosed):
                 await asyncio.wait_for(page.say(verb="change", values={"seed": sent["wishes"] % 90}), 1.0)
@@ -52,8 +48,7 @@ async def attack(address: str, seconds: float) -> None:
                     while True:
                         await page.live.send(rng.bytes(int(rng.integers(1, 3000))))
                         await page.live.send("[" * int(rng.integers(1, 9000)))
-                        await page.scene.send(rng.bytes(int(rng.integers(1, 3000))))
-                        sent["garbage"] += 3
+                        sent["garbage"] += 2
                         await asyncio.sleep(0.002)
             await page.close()
 
@@ -70,6 +65,7 @@ async def attack(address: str, seconds: float) -> None:
         *(flooding() for _ in range(3)),
         *(garbage(i) for i in range(3)),
     )
+    await asyncio.gather(*(socket.close() for socket in quiet))
 
 
 if __name__ == "__main__":

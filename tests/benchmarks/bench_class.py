@@ -1,6 +1,6 @@
 """A class at one live server: how long a student waits, and what the server spends.
 
-    python -m tests.benchmarks.bench_class [--students 100] [--seconds 15] [--only mixed] [--threads 2] [--workers 1]
+    python -m tests.benchmarks.bench_class [--students 100] [--seconds 15] [--only mixed] [--threads 2]
 
 The server runs in processes of its own, the students, each a page and its scene, in this one. "words" is from the wish to
 the last byte of the step's words, "scene" to the last byte of its scene. CPU and memory are the server's (memory that its
@@ -47,7 +47,7 @@ from workbench.viewer import server
 from workbench.viewer.serving import serve
 made = server.Runs
 server.Runs = lambda most_bytes: made(most_bytes, threads=int(sys.argv[1]))
-serve(port=0, browser=False, workers=int(sys.argv[2]))
+serve(port=0, browser=False)
 """
 
 
@@ -66,10 +66,10 @@ class Waits:
 class Served:
     """The server in processes of its own."""
 
-    def __init__(self, threads: int, workers: int = 1):
+    def __init__(self, threads: int):
         environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
         self._process = psutil.Popen(
-            [sys.executable, "-c", SERVE, str(threads), str(workers)],
+            [sys.executable, "-c", SERVE, str(threads)],
             cwd=ROOT, env=environment, text=True, stdout=subprocess.PIPE,
         )  # fmt: skip
         self.address = self._process.stdout.readline().strip()
@@ -194,7 +194,6 @@ async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
             page = await FakePage(server.address, "?lesson=icp").open(read=False)
             await asyncio.sleep(2.0)
             page.live.transport.abort()
-            page.scene.transport.abort()
 
     await measured(server, given, [*(reloading for _ in range(30)), *walking("silent")])
     await asyncio.gather(*(socket.close() for socket in quiet), walker.close())
@@ -284,18 +283,17 @@ def main() -> None:
     parser.add_argument("--students", type=int, default=100)
     parser.add_argument("--seconds", type=float, default=15.0)
     parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--only", nargs="+", choices=sorted(SCENARIOS), default=list(SCENARIOS))
     parser.add_argument(
         "--lessons", nargs="+", default=["transforms", "pinhole", "icp", "ransac", "curvature", "disparity"]
     )
     given = parser.parse_args()
-    parts = f"{given.workers} processes with {given.threads} threads that compute each"
+    parts = f"one process with {given.threads} threads that compute each"
     print(f"{given.students} students, {parts}, {os.cpu_count()} cores\n")
     print(f"{'':<18} {'n':>6}   words ms: median    p95    max   scene p95   goal (words)")
     for name in given.only:
         before = os.getloadavg()[0]
-        server = Served(given.threads, given.workers)
+        server = Served(given.threads)
         try:
             found = asyncio.run(SCENARIOS[name](server, given)) or {}
             threads, memory_after = afterwards(server, given.spent[2]) if found else (0, 0.0)

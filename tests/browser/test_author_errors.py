@@ -13,7 +13,7 @@ from workbench.knobs import Knob
 from workbench.lesson import Lesson, Preset, Question
 from workbench.scene import Caption, Mesh, Points, Scene
 from workbench.viewer.server import Server
-from workbench.viewer.sink import ViserSink
+from workbench.wire.nodes import Maker
 
 pytestmark = pytest.mark.browser
 HERE = "browser/test_author_errors.py, line "
@@ -54,14 +54,14 @@ def lesson(page: str) -> Lesson:
 
 
 def test_the_page_says_where_a_lesson_fails_and_goes_on(chromium, monkeypatch, capsys):
-    shown = ViserSink.show
+    nodes = Maker.nodes
 
-    def refuse(self, scene) -> None:
+    def refuse(self, scene, view) -> dict:
         if "refused" in scene:
             raise TypeError("a Mesh of one face")
-        shown(self, scene)
+        return nodes(self, scene, view)
 
-    monkeypatch.setattr(ViserSink, "show", refuse)
+    monkeypatch.setattr(Maker, "nodes", refuse)
     server = Server(links.Place(lesson(__file__), Params(), None))
     page = chromium.new_page(viewport={"width": 1100, "height": 640})
     try:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 from playwright.sync_api import TimeoutError as TookTooLong
+from scipy.spatial.transform import Rotation
 
 from tests.browser.homes import HOMES, PHONE, Browser, Home, asked, barriers, linked, own_end
 from workbench.knobs import Field, Gizmo, Pick, fields_of, text_of
@@ -172,7 +173,7 @@ def a_handle_and_a_point_are_moved_by_hand(home: Home) -> None:
     for field in by[Gizmo][:1]:
         home.press("h")
         home.find("#move[aria-pressed=true]").wait_for()
-        home.comes_true(lambda: student(home)._scene._handles is not None)
+        home.until("() => [...feed.shown.keys()].some((name) => name.startsWith('/handle/'))")
         home.until("before => pictures > before + 1", home.ask("pictures"))  # it is drawn
         moved(home, field.name, functools.partial(drag, home, field))
         home.press("h")
@@ -236,16 +237,10 @@ def another_point(home: Home, path: str, turn: int) -> np.ndarray:
 
 def on_screen(home: Home, p_world: np.ndarray) -> np.ndarray:
     """Return where points of the scene (..., 3) are in the window, by the camera of viser's client."""
-    client = student(home)._scene.client
-    assert client is not None
-    camera, box = client.camera, home.find("#view").bounding_box()
-    ahead = camera.look_at - camera.position
-    ahead = ahead / np.linalg.norm(ahead)
-    right = np.cross(ahead, camera.up_direction)
-    right = right / np.linalg.norm(right)
-    axes = np.column_stack([right, np.cross(ahead, right), ahead])  # right, down, ahead
-    xyz = (p_world - camera.position) @ axes
-    scale = 0.5 * box["height"] / np.tan(0.5 * camera.fov)
+    camera, box = home.ask("labels.camera"), home.find("#view").bounding_box()
+    w, x, y, z = camera["wxyz"]
+    xyz = (p_world - np.array(camera["position"])) @ Rotation.from_quat([x, y, z, w]).as_matrix()  # right, down, ahead
+    scale = 0.5 * box["height"] / np.tan(0.5 * camera["fov"])
     middle = np.array([box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]])
     return middle + scale * xyz[..., :2] / xyz[..., 2:]
 

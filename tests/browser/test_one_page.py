@@ -79,9 +79,9 @@ def test_what_one_points_at_in_the_text_stands_out(visit, server):
     for point, away in ((term.hover, me.page.locator("h1").hover), (term.focus, term.blur)):
         point()
         me.page.locator("#legend .lit").first.wait_for()
-        until(me, lambda: path in [one._scene.path for one in server.students.values()])
+        me.page.wait_for_function("path => sceneView.path === path", arg=path)
         away()
-        until(me, lambda: {one._scene.path for one in server.students.values()} == {""})
+        me.page.wait_for_function("sceneView.path === ''")
         assert me.page.locator("#legend .lit").count() == 0
 
 

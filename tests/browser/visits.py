@@ -68,7 +68,7 @@ class Visit:
         self.page.add_init_script(SELDOM)
         if not scene:
             empty = "<!doctype html><title>No scene</title>"
-            self.page.route("**/scene/*/", lambda route: route.fulfill(body=empty, content_type="text/html"))
+            self.page.route("**/scene/", lambda route: route.fulfill(body=empty, content_type="text/html"))
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         self.page.on("request", lambda request: self._local(request.url, server))

@@ -3,7 +3,6 @@ import json
 import re
 from dataclasses import replace
 
-import msgspec
 import pytest
 import zstandard
 
@@ -15,10 +14,10 @@ from workbench.page.document import RECORDED, SCRIPTS, STATIC, STYLES, bare
 from workbench.page.steps import Steps
 from workbench.publish import runs, site
 from workbench.publish.pages import lesson_page
-from workbench.publish.replay import Renderer
 from workbench.scene import Caption
 from workbench.timeline import Timeline
 from workbench.typeset import math_font_css
+from workbench.wire.packing import run_text
 
 SMALL = replace(fake.lesson, presets=fake.lesson.presets[:1])
 
@@ -143,27 +142,24 @@ def test_two_runs_that_would_have_one_file_are_refused(tmp_path, rendered):
 def test_a_run_is_seen_by_the_camera_of_its_preset():
     view = View(eye=(0.0, -3.0, 1.0), grid=None)
     own = replace(SMALL, presets=(replace(SMALL.presets[0], view=view),))
-    with Renderer() as renderer:
-        seen = [renderer.scene(Timeline(own, params).complete())[1] for params in (own.params(), own.presets[0].params)]
-    assert [said(data, "SetCameraPositionMessage")["position"] for data in seen] == [list(own.view.eye), list(view.eye)]
+    heads = [head_of(run_text(Timeline(own, params).complete())) for params in (own.params(), own.presets[0].params)]
+    assert [head["stage"]["camera"]["eye"] for head in heads] == [list(own.view.eye), list(view.eye)]
 
 
 @pytest.mark.parametrize("up", [(0.0, 1.0, 0.0), (0.0, -1.0, 0.0)])
 def test_what_is_up_in_a_lesson_is_up_in_its_published_runs(up):
     lesson = replace(SMALL, view=View(eye=(2.0, 1.0, 0.5), up=up, grid=0.5, grid_height=0.4))
-    with Renderer() as renderer:
-        data = renderer.scene(Timeline(lesson, lesson.params()).complete())[1]
-    assert said(data, "SetCameraUpDirectionMessage")["position"] == list(up)
-    assert said(data, "SetCameraPositionMessage")["position"] == [2.0, 1.0, 0.5]
-    assert said(data, "GridMessage")["props"]["plane"] == "xz"
+    head = head_of(run_text(Timeline(lesson, lesson.params()).complete()))
+    assert (head["stage"]["camera"]["up"], head["stage"]["camera"]["eye"]) == (list(up), [2.0, 1.0, 0.5])
+    (grid,) = (kind for kind in head["kinds"].values() if kind["type"] == "GridMessage")
+    assert grid["props"]["plane"] == "xz"
 
 
-def said(data: str, kind: str) -> dict:
-    """Return the first message of a kind in a recording of viser's."""
-    packed = base64.b64decode(data)
+def head_of(text: str) -> dict:
+    """Return what a run's file says before its arrays."""
+    packed = base64.b64decode(text)
     inner = zstandard.ZstdDecompressor().decompress(packed[8:], max_output_size=int.from_bytes(packed[:8], "little"))
-    recorded = msgspec.msgpack.decode(inner[8 : 8 + int.from_bytes(inner[:8], "little")])
-    return next(message for _, message in recorded["messages"] if message["type"] == kind)
+    return json.loads(inner[4 : 4 + int.from_bytes(inner[:4], "little")])
 
 
 def test_what_repeats_is_kept_once():

@@ -90,8 +90,8 @@ def test_a_lesson_depends_on_what_runs_draws_records_and_renders_it(name):
         "workbench/timeline.py",
         "workbench/recording/sink.py",
         "workbench/recording/write.py",
-        "workbench/viewer/sink.py",
-        "workbench/publish/replay.py",
+        "workbench/wire/primitives.py",
+        "workbench/wire/packing.py",
     } <= found
     others = tuple(f"lessons/{other}/" for other in catalog() if other != name)
     beside = ("workbench/cli.py", "workbench/exercise/", "workbench/viewer/server.py", "workbench/publish/site.py")

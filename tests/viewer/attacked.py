@@ -43,7 +43,7 @@ def meanwhile(server: Server, attack: Callable[[FakePage], Awaitable[None]]) -> 
         async with visiting(server) as page:
             await attack(page)
             await goes_on(page)
-        await until(lambda: not server.students and not server._scenes and not server.scenes.open)
+        await until(lambda: not server.students)
 
     run_apart(all_of_it())
     assert len(server.runs.scheduler) == 0

@@ -4,10 +4,8 @@ import asyncio
 import json
 import threading
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
-import viser
 
 from tests import fake
 from tests.loops import run_apart
@@ -23,13 +21,18 @@ class Talk:
 
     def __init__(self, lesson: Lesson = fake.lesson) -> None:
         self.told: list[dict] = []
+        self.scenes: list[dict] = []  # what was said before their arrays
         self._heard = asyncio.Event()
         self.runs = Runs()
         self.student = Student({"fake": lesson}, self.runs, self._hear)
         self._work = asyncio.create_task(self.student.work())
 
-    async def _hear(self, text: str) -> None:
-        self.told.append(json.loads(text))
+    async def _hear(self, part: str | bytes) -> None:
+        if isinstance(part, bytes):
+            head = json.loads(part[4 : 4 + int.from_bytes(part[:4], "little")])
+            self.scenes.append(head)
+        else:
+            self.told.append(json.loads(part))
         self._heard.set()
 
     def say(self, **message) -> None:
@@ -76,33 +79,13 @@ def test_steps_are_those_of_the_timeline():
 
 
 def test_a_wish_of_another_thread_wakes_a_page_at_rest():
-    there = Timeline(fake.lesson, fake.Params(angle=33.0)).complete()
+    news = {"tell": "notice", "text": "saved"}
 
     async def script(me: Talk) -> None:
         me.say(verb="open", query="?lesson=fake", lesson="fake")
         await me.at_rest()
-        threading.Timer(0.2, lambda: me.student._moved(angle=33.0)).start()  # when the loop sleeps
-        run = await me.until(lambda message: message["tell"] == "run" and message["params"]["angle"] == 33.0)
-        assert run["known"] <= len(there)
-
-    talk(script)
-
-
-def test_what_is_read_of_tells_the_page_nothing_new():
-    async def script(me: Talk) -> None:
-        me.say(verb="open", query="?lesson=fake", lesson="fake")
-        await me.at_rest()
-        me.say(verb="seek", k=2)
-        await me.until(lambda message: message["tell"] == "step" and message["k"] == 2)
-        me.told.clear()
-        for verb, more in (("light", {"path": "cloud"}), ("handles", {"on": True}), ("theme", {"dark": True})):
-            me.say(verb=verb, **more)
-            await asyncio.sleep(0.3)
-        assert me.student._scene.path == "cloud"
-        assert me.student._scene.dark
-        me.say(verb="seek", k=3)
-        await me.until(lambda message: message["tell"] == "step")
-        assert {message["k"] for message in me.told if message["tell"] == "step"} == {3}
+        threading.Timer(0.2, lambda: me.student.tell_where(fake.lesson, news)).start()  # when the loop sleeps
+        await me.until(lambda message: message["tell"] == "notice")
 
     talk(script)
 
@@ -152,7 +135,7 @@ def test_after_an_answer_a_preset_has_the_file_of_the_command_line_again(tmp_pat
     talk(script)
 
 
-def test_the_camera_is_set_when_a_run_with_another_view_is_opened_and_else_left_alone(monkeypatch):
+def test_the_camera_is_set_when_a_run_with_another_view_is_opened_and_else_left_alone():
     near, sparse = View(eye=(0.5, 0.5, 0.5)), View(grid=2.0)
     lesson = replace(
         fake.lesson,
@@ -161,13 +144,11 @@ def test_the_camera_is_set_when_a_run_with_another_view_is_opened_and_else_left_
             Preset("sparse", "Sparse", "", fake.Params(angle=20.0), view=sparse),
         ),
     )
-    views: list[View] = []
     runs: set[int] = set()
-    monkeypatch.setattr("workbench.viewer.stage.set_stage", lambda client, view, eye: views.append(view))
 
     async def script(me: Talk) -> None:
-        async def done(**params) -> list[View]:
-            """Wait for the run of these params; return the views since, and turn the camera."""
+        async def done(**params) -> list[list[float]]:
+            """Wait for the run of these params; return where the camera was put since."""
             wanted = fake.Params(**params)
             run = await me.until(
                 lambda told: (
@@ -182,30 +163,25 @@ def test_the_camera_is_set_when_a_run_with_another_view_is_opened_and_else_left_
             me.say(verb="seek", k=2)
             await me.until(lambda told: told["tell"] == "step" and told["k"] == 2)
             me.told.clear()
-            seen, views[:] = views[:], []
-            return seen
+            eyes = [head["stage"]["camera"]["eye"] for head in me.scenes if "stage" in head]
+            me.scenes.clear()
+            return eyes
 
-        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-        server.camera = SimpleNamespace(on_update=lambda told: told, image_width=4, image_height=3)  # type: ignore[attr-defined]
-        try:
-            me.student.join(server)  # type: ignore[arg-type]
-            me.say(verb="open", query="?lesson=fake", lesson="fake")
-            assert await done() == [lesson.view]
-            me.say(verb="change", values={"angle": 77})
-            assert await done(angle=77.0) == []
-            me.say(verb="run", run="near")
-            assert await done(angle=10.0) == [near]
-            me.say(verb="change", values={"angle": 11})
-            assert await done(angle=11.0) == []  # a knob turns no camera
-            me.say(verb="reset")
-            assert await done() == [lesson.view]
-            me.say(verb="run", run="sparse")
-            assert await done(angle=20.0) == [sparse]
-            me.say(verb="change", values={"angle": 21})
-            assert await done(angle=21.0) == [lesson.view]  # the legend tells of another grid
-            me.say(verb="predict", question="end", given=None)
-            assert await done() == []
-        finally:
-            server.stop()
+        me.say(verb="open", query="?lesson=fake", lesson="fake")
+        assert await done() == [list(lesson.view.eye)]
+        me.say(verb="change", values={"angle": 77})
+        assert await done(angle=77.0) == []
+        me.say(verb="run", run="near")
+        assert await done(angle=10.0) == [list(near.eye)]
+        me.say(verb="change", values={"angle": 11})
+        assert await done(angle=11.0) == []  # a knob turns no camera
+        me.say(verb="reset")
+        assert await done() == [list(lesson.view.eye)]
+        me.say(verb="run", run="sparse")
+        assert await done(angle=20.0) == [list(sparse.eye)]
+        me.say(verb="change", values={"angle": 21})
+        assert await done(angle=21.0) == [list(lesson.view.eye)]  # the legend tells of another grid
+        me.say(verb="predict", question="end", given=None)
+        assert await done() == []
 
     talk(script, lesson)

@@ -20,9 +20,11 @@ SCRIPTS = (
     "tools.js", "curves.js", "stage.js", "transport.js", "beside.js", "article.js", "knobs.js", "exercise.js",
     "run.js", "progress.js", "text.js", "page.js",
 )  # fmt: skip
-LIVE = ("files.js", "edited.js", "returning.js", "live.js")
+SCENE = ("wire.js", "looks.js", "feed.js", "labels.js", "handles.js", "sceneview.js")
+"""The scripts that show scenes in viser's client."""
+LIVE = (*SCENE, "files.js", "edited.js", "returning.js", "live.js")
 """The scripts that feed the page from a server."""
-RECORDED = ("viserfile.js", "feed.js", "ghosts.js", "shelf.js", "sweeps.js", "recorded.js")
+RECORDED = (*SCENE, "shelf.js", "sweeps.js", "recorded.js")
 """The scripts that feed the page from recorded runs, on a site and in a notebook."""
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 """Steps a second of Play, as a page offers them."""

@@ -33,6 +33,7 @@ def knob_data(field: Field) -> dict[str, Any]:
         "hint": knob.hint,
         "unit": knob.unit,
         "kind": field.kind,
+        **({"size": knob.by.size} if isinstance(knob.by, Gizmo) else {}),
         "by": "gizmo" if isinstance(knob.by, Gizmo) else "pick" if isinstance(knob.by, Pick) else "slider",
         "needs": {name: list(wanted) for name, wanted in knob.needs.items()},
         "default": list(field.default) if isinstance(field.default, tuple) else field.default,

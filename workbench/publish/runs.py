@@ -1,6 +1,5 @@
 """The runs of a published lesson: which there are, and their files, rendered on all cores."""
 
-import functools
 import hashlib
 import os
 import re
@@ -15,13 +14,15 @@ from workbench.flags import show_command
 from workbench.lesson import Lesson, Question, Sweep, catalog
 from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
-from workbench.publish.replay import Renderer
 from workbench.publish.sources import sources_digest
 from workbench.recording import file_name, record_bytes
 from workbench.timeline import Timeline
+from workbench.wire.client import client_html
+from workbench.wire.packing import run_text
 from workbench.workers import WorkerLostError, shared_out
 
-VISER_PAGE = "viser.js"
+CLIENT = "viser.js"
+"""The file of a site with viser's client, which draws the scenes of all runs."""
 PAGE = "page"
 """The folder of a site with the page's own styles and scripts."""
 ALONE = 6
@@ -149,7 +150,7 @@ def recording_of(lesson: Lesson, run: Run) -> str | None:
 
 
 def render_all(runs: Sequence[tuple[Lesson, Run]]) -> Iterator[tuple[Lesson, Run, dict[str, bytes]]]:
-    """Return each run with its files when they are done, in any order; with the first of them viser's page.
+    """Return each run with its files when they are done, in any order.
 
     Lessons of the catalogue are rendered by one process per core, others, whose code only this process has, here.
 
@@ -158,9 +159,8 @@ def render_all(runs: Sequence[tuple[Lesson, Run]]) -> Iterator[tuple[Lesson, Run
     """
     cores = os.cpu_count() or 1
     if len(runs) <= ALONE or cores == 1 or any(catalog().get(lesson.name) is not lesson for lesson, _ in runs):
-        with Renderer() as renderer:
-            for lesson, run in runs:
-                yield lesson, run, render(lesson, run, renderer)
+        for lesson, run in runs:
+            yield lesson, run, render(lesson, run)
         return
     waiting = {(lesson.name, run.name): (lesson, run) for lesson, run in runs}
     try:
@@ -173,51 +173,42 @@ def render_all(runs: Sequence[tuple[Lesson, Run]]) -> Iterator[tuple[Lesson, Run
 def _render_named(names: tuple[str, str]) -> dict[str, bytes]:
     lesson_name, run_name = names
     lesson = catalog()[lesson_name]
-    return render(lesson, next(run for run in runs_of(lesson) if run.name == run_name), _own_renderer())
+    return render(lesson, next(run for run in runs_of(lesson) if run.name == run_name))
 
 
-@functools.cache
-def _own_renderer() -> Renderer:
-    return Renderer()  # as long as the process lives
-
-
-def render(lesson: Lesson, run: Run, renderer: Renderer) -> dict[str, bytes]:
-    """Return a run's replay, recording and page of its own, and viser's page beside them all, by name in the site."""
+def render(lesson: Lesson, run: Run) -> dict[str, bytes]:
+    """Return a run's replay, recording and page of its own, by name in the site."""
     timeline = Timeline(lesson, run.params).complete()
     if timeline.stopped is not None:
         raise InputError(f"{lesson.name}, {run.title}: {timeline.stopped}")
-    page, data = renderer.scene(timeline)
     preset = run.name if any(preset.name == run.name for preset in lesson.presets) else None
     script_file, alone, *recordings = files_of(lesson, run)
     return {
-        VISER_PAGE: viser_script(page).encode(),
-        script_file: run_script(lesson, run, timeline, data).encode(),
+        script_file: run_script(lesson, run, timeline).encode(),
         alone: run_page(lesson, run).encode(),
         **{name: record_bytes(timeline, preset=preset) for name in recordings},
     }
 
 
-def viser_script(page: str) -> str:
-    """Return the script with viser's page, which draws the scenes of all runs."""
-    head, tail = page.split('window.__VISER_EMBED_DATA__=""')
-    parts = f'{head}window.__VISER_EMBED_DATA__="', f'"{tail}'
-    return f"viserPage({', '.join(map(in_script, parts))});\n"
+def client_script() -> str:
+    """Return the script with viser's client."""
+    return f"viserClient({in_script(client_html())});\n"
 
 
-def run_script(lesson: Lesson, run: Run, timeline: Timeline, scene: str) -> str:
+def run_script(lesson: Lesson, run: Run, timeline: Timeline) -> str:
     """Return the script file of a run."""
-    return f"replay({in_script(run.name)}, {in_script(run_data(lesson, run, timeline, scene))});\n"
+    return f"replay({in_script(run.name)}, {in_script(run_data(lesson, run, timeline))});\n"
 
 
-def run_data(lesson: Lesson, run: Run, timeline: Timeline, scene: str) -> dict[str, Any]:
-    """Return all that a page shows of a run, as plain data; `scene` is a recording of viser's, base64."""
+def run_data(lesson: Lesson, run: Run, timeline: Timeline) -> dict[str, Any]:
+    """Return all that a page shows of a run, as plain data."""
     steps = Steps(timeline)
     data = steps.whole()
     for k, step in enumerate(data["steps"]):
         code = steps.code(k)
         data["steps"][k] = step | ({"code": code} if code else {})
     return data | {
-        "scene": scene,
+        "scene": run_text(timeline),
         "first": timeline.opening(f"lesson {lesson.name}, run {run.name!r}", run.first),
         "command": show_command(lesson, run.params),
         "recording": recording_of(lesson, run),

@@ -17,9 +17,10 @@ from workbench.publish.ledger import NAME, Ledger, Listed
 from workbench.publish.lock import only_writer
 from workbench.publish.pages import LESSONS, answers, course_page, lesson_page, lessons_script
 from workbench.publish.runs import (
+    CLIENT,
     PAGE,
-    VISER_PAGE,
     Run,
+    client_script,
     digest_of,
     files_of,
     page_digest,
@@ -97,8 +98,9 @@ def _publish(
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]
     shared = {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *RECORDED, *SCRIPTS)}
     shared |= {f"{PAGE}/{MATH}": math_font_css().encode(), ".nojekyll": b""}
+    shared |= {CLIENT: client_script().encode()}
     shared |= {f"{PAGE}/{THIRD_PARTIES}": (STATIC / THIRD_PARTIES).read_bytes()}
-    wanted = {COURSE_PAGE, LESSONS, VISER_PAGE, *shared}
+    wanted = {COURSE_PAGE, LESSONS, *shared}
     wanted |= {f"{name}/{file}" for name in names for file in (COURSE_PAGE, PICTURE)}
     wanted |= {name for lesson, run in work for name in files_of(lesson, run)}
     ledger.check(wanted, force=force)
@@ -133,8 +135,6 @@ def _render(ledger: Ledger, work: Sequence[tuple[Lesson, Run]], progress: Progre
         if ledger.runs.get(f"{lesson.name}/{run.name}") != digests[lesson.name, run.name]
         or not all(map(ledger.is_ours, files_of(lesson, run)))
     ]
-    if not ledger.is_ours(VISER_PAGE):
-        stale = stale or work[:1]  # it comes with any run
     done = len(work) - len(stale)
     for lesson, run, files in render_all(stale):
         ledger.runs.pop(f"{lesson.name}/{run.name}", None)

@@ -65,7 +65,7 @@ def _waits_for(connection: Any) -> Any:
 
 
 def more_files() -> None:
-    """Let this process open as many files as it may, up to what a large class needs: each page has three sockets."""
+    """Let this process open as many files as it may, up to what a large class needs: each page has a socket or two."""
     with contextlib.suppress(ImportError, ValueError, OSError):  # not on every machine
         import resource
 

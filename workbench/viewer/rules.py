@@ -45,7 +45,6 @@ class Rules:
         host: Where the server listens.
         open_to_all: Let everybody in who reaches it, without a token.
         behind: The public name of the server where it stands behind a proxy, with its port or without.
-        token: What others bring; None makes one.
 
     Attributes:
         token: What must be brought, None where nothing must.
@@ -54,14 +53,14 @@ class Rules:
         InputError: If `behind` is no name of a host.
     """
 
-    def __init__(self, host: str, *, open_to_all: bool = False, behind: str | None = None, token: str | None = None):
+    def __init__(self, host: str, *, open_to_all: bool = False, behind: str | None = None):
         if behind is not None and name_in(behind) is None:
             raise InputError(
                 f"--behind {behind}: the name under which browsers find the server, such as class.example.org"
             )
         self._hosts = Hosts(host)
         self.behind = None if behind is None else behind.lower()
-        self.token = None if self._hosts.local or open_to_all else token or secrets.token_urlsafe(12)
+        self.token = None if self._hosts.local or open_to_all else secrets.token_urlsafe(12)
 
     def knows(self, host: str) -> bool:
         """Tell whether a browser that names this host has come to the right place."""
@@ -118,11 +117,10 @@ class Gate:
         app: What is behind it.
         rules: Who may.
         cookie: The name of the cookie that holds the token; servers on one machine have cookies in common.
-        once: Whether a connection ends with its answer.
     """
 
-    def __init__(self, app: ASGIApp, rules: Rules, cookie: str, *, once: bool = False):
-        self._app, self._rules, self._cookie, self._once = app, rules, cookie, once
+    def __init__(self, app: ASGIApp, rules: Rules, cookie: str):
+        self._app, self._rules, self._cookie = app, rules, cookie
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer, refuse, or pass on."""
@@ -142,8 +140,6 @@ class Gate:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
                 headers.update(_HEADERS)
-                if self._once:
-                    headers["connection"] = "close"
                 headers["content-security-policy"] = _SCENE if is_scene else _PAGE.format(nonce=nonce)
             await send(message)
 

@@ -16,6 +16,7 @@ from workbench.page.steps import Steps
 from workbench.scene import arrays
 from workbench.timeline import Timeline, Timelines
 from workbench.viewer.scheduling import Scheduler
+from workbench.wire.nodes import Maker
 
 Result = TypeVar("Result")
 
@@ -90,7 +91,7 @@ class Runs:
     """
 
     def __init__(self, most_bytes: int = MOST_BYTES, threads: int = 2):
-        self.timelines = Timelines(most_bytes=most_bytes)
+        self.timelines, self.maker = Timelines(most_bytes=most_bytes), Maker()
         self.stepping, self.showing = Crew("stepping", 2), Crew("showing", 2)
         self.asking, self.keeping = Crew("asking", 1), Crew("keeping", 1)
         self.scheduler = Scheduler(threads, busy=lambda: self.stepping.is_behind() or self.showing.is_behind())
@@ -115,7 +116,7 @@ class Runs:
         self.keeping.close()
 
     def held(self, lessons: Iterable[Lesson]) -> int:
-        """Return the bytes of all runs, their steps' data and these lessons' caches, each array counted once."""
+        """Return the bytes of all runs, of what is sent of them, and of these lessons' caches; each array counts once."""
         owned: dict[int, int] = {}
         for timeline in self.timelines.alive():
             owned |= timeline.owned()
@@ -123,7 +124,7 @@ class Runs:
             owned |= {id(array): array.nbytes for array in _cached_arrays(cached)}
         with self._lock:
             data = sum(steps.bytes for steps in self._steps.values())
-        return sum(owned.values()) + data
+        return sum(owned.values()) + data + self.maker.held()
 
     def let_go(self, lessons: Iterable[Lesson]) -> None:
         """Keep no run and no lesson's cache any more."""
@@ -142,8 +143,9 @@ class Runs:
             sleepers: Let go of the run of one page each, in this order, and tell whether they did.
         """
         lessons, freed = tuple(lessons), False
-        if self.timelines.bytes < self._most_bytes // 2:
-            return self.timelines.bytes  # arrays that two runs share counted twice: there is room
+        at_most = self.timelines.bytes + self.maker.held()  # arrays that two runs share are counted twice
+        if at_most < self._most_bytes // 2:
+            return at_most
         while (held := self.held(lessons)) > self._most_bytes and self.timelines.drop():
             freed = True
         if held > self._most_bytes:

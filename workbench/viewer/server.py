@@ -1,8 +1,7 @@
-"""The live home of the page: the only thing that listens where people can reach it. viser stands behind it, on loopback,
-and answers to nobody else.
+"""The live home of the page: the only thing that listens.
 
-One port, one origin: `/` is the page, `/live` its websocket of JSON, `/scene/TOKEN/` is viser's client and its websocket,
-handed through. The token ties a scene to the page that shows it; it is made here, and says nothing of anybody.
+One port, one origin: `/` is the page, `/live` its websocket, `/scene/` viser's client, one file, which the page puts into a
+frame and feeds. A page has a token; it is made here, and says nothing of anybody.
 """
 
 import asyncio
@@ -12,12 +11,9 @@ import re
 import secrets
 import sys
 import threading
-import warnings
-from collections.abc import AsyncIterator, Mapping
-from typing import Any
+from collections.abc import AsyncIterator
 
 import uvicorn
-import viser
 from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, RedirectResponse, Response
@@ -36,14 +32,13 @@ from workbench.typeset import math_font_css
 from workbench.viewer.addresses import Doors, listening
 from workbench.viewer.documents import LessonPages, course_page, lesson_page, start_address
 from workbench.viewer.following import Following
-from workbench.viewer.inner import Inner
+from workbench.viewer.pace import FIRST_WORD, Pace
 from workbench.viewer.patience import Patience, more_files
 from workbench.viewer.rules import Gate, Rules, page_response
 from workbench.viewer.runs import MOST_BYTES, Runs
-from workbench.viewer.scene_proxy import FIRST_WORD, Pace, SceneProxy
-from workbench.viewer.share import Share
 from workbench.viewer.student import Student
-from workbench.viewer.transfers import receive, recording
+from workbench.viewer.transfers import receive, recording, scene_response
+from workbench.wire.client import client_bytes
 
 FILES = (*STYLES, *LIVE, *SCRIPTS, THIRD_PARTIES)
 MOST_PAGES = 400
@@ -56,7 +51,6 @@ EMPTY = 30.0
 """Seconds without a page after which nothing is held any more."""
 SWITCH = 0.001
 """Seconds that a thread which computes holds up another, such as the one that hears and tells; Python's own is 0.005."""
-warnings.filterwarnings("ignore", "Queued a .* on a closed connection")  # a browser that left while it was drawn for
 _TOKEN = re.compile(r"[0-9a-f]{24}")
 
 
@@ -72,7 +66,6 @@ class Server:
         behind: The name under which browsers find it, where it stands behind a proxy.
         most_bytes: What runs and all that belongs to them may hold.
         most_pages: How many pages may be open.
-        share: Its part, where it is one of several that stand behind one port; it does not listen then.
 
     Attributes:
         doors: Where browsers find it.
@@ -93,28 +86,21 @@ class Server:
         behind: str | None = None,
         most_bytes: int = MOST_BYTES,
         most_pages: int = MOST_PAGES,
-        share: Share | None = None,
     ):
         self.lessons: dict[str, Lesson] = dict(catalog()) | ({start.lesson.name: start.lesson} if start else {})
-        self.rules = Rules(host, open_to_all=open_to_all, behind=behind, token=share and share.token)
-        own = [listening(host, port)] if share is None else []
+        self.rules = Rules(host, open_to_all=open_to_all, behind=behind)
+        listener = listening(host, port)
         more_files()
         sys.setswitchinterval(SWITCH)
-        self.port = own[0].getsockname()[1] if share is None else share.port
-        self.doors, self._share = Doors(host, self.port, self.rules.token), share
+        self.port = listener.getsockname()[1]
+        self.doors = Doors(host, self.port, self.rules.token)
         self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
         self._lesson_pages = LessonPages()
         self.students: dict[str, Student] = {}
-        self._scenes: dict[str, viser.ClientHandle] = {}
         self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
         self.following = start and Following(start.lesson, watched, edited, self._replace, self._pages)
-        self._inner = Inner()
-        self._inner.viser.on_client_connect(self._joined)
-        self._inner.viser.on_client_disconnect(self._left)
-        self._connections = _connections_of(self._inner.viser)
-        self.scenes = SceneProxy(self._inner)
         config = uvicorn.Config(
-            Gate(self._app(), self.rules, f"workbench-{self.port}", once=share is not None),
+            Gate(self._app(), self.rules, f"workbench-{self.port}"),
             http="h11",
             ws="websockets-sansio",
             log_level="critical",
@@ -125,7 +111,7 @@ class Server:
             timeout_graceful_shutdown=2,
         )
         self._uvicorn = uvicorn.Server(config)
-        self._thread = threading.Thread(target=self._uvicorn.run, args=(own,), daemon=True)
+        self._thread = threading.Thread(target=self._uvicorn.run, args=([listener],), daemon=True)
         self._thread.start()
         while not self._uvicorn.started:
             if not self._thread.is_alive():
@@ -144,7 +130,6 @@ class Server:
         self._uvicorn.should_exit = True
         self._thread.join(10)
         self.runs.close()
-        self._inner.stop()
 
     # the page -------------------------------------------------------------------------------------------------------
 
@@ -158,9 +143,7 @@ class Server:
                 WebSocketRoute("/live", self._live),
                 Route("/recording/{token}", self._recording),
                 Route("/files/{token}/{field}", self._receive, methods=["POST"]),
-                Route("/scene/{token}/", self._scene),
-                WebSocketRoute("/scene/{token}", self._scene_socket),
-                WebSocketRoute("/scene/{token}/", self._scene_socket),
+                Route("/scene/", self._scene),
             ],
             lifespan=self._lifespan,
         )
@@ -171,16 +154,13 @@ class Server:
         keeping = [
             asyncio.create_task(one) for one in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
         ]
-        async with self.scenes.running():
-            if self._share is not None:
-                self._share.begin(self._uvicorn)
-            yield
+        yield
         for task in keeping:
             task.cancel()
 
     async def _warm_up(self) -> None:
         """Make what every page needs before the first one asks."""
-        await self.scenes.fetch()
+        await self.runs.asking.do(client_bytes)
         await self.runs.asking.do(math_font_css)
         await self.runs.asking.do(source_html, lesson_page)
 
@@ -220,7 +200,7 @@ class Server:
         return page_response(request, page.replace("<body ", f'<body data-token="{self._new_token()}" ', 1))
 
     def _new_token(self) -> str:
-        return f"{0 if self._share is None else self._share.number:02x}{secrets.token_hex(11)}"
+        return secrets.token_hex(12)
 
     def _pages(self) -> list[Student]:
         return list(self.students.values())
@@ -269,9 +249,6 @@ class Server:
             return
         student = self.students[token] = Student(self.lessons, self.runs, functools.partial(_send, socket))
         student.start, student.following = self._start, self.following
-        self._tell_share()
-        if token in self._scenes:
-            student.join(self._scenes[token])
         working = asyncio.create_task(student.work())
         try:
             await self._listen(socket, student)
@@ -280,15 +257,10 @@ class Server:
         finally:
             working.cancel()
             self.students.pop(token, None)
-            self._tell_share()
             student.close()
             student.leave()
         with contextlib.suppress(RuntimeError):
             await socket.close()
-
-    def _tell_share(self) -> None:
-        if self._share is not None:
-            self._share.tell(len(self.students))
 
     @staticmethod
     async def _listen(socket: WebSocket, student: Student) -> None:
@@ -300,49 +272,10 @@ class Server:
             said |= student.hear(message.get("text") or "")
             await pace.step()
 
-    # the scene ------------------------------------------------------------------------------------------------------
-
     async def _scene(self, request: Request) -> Response:
-        return await self.scenes.page(request)
-
-    async def _scene_socket(self, socket: WebSocket) -> None:
-        known = _TOKEN.fullmatch(socket.path_params["token"]) and self.scenes.open < self._most_pages
-        await (self.scenes.socket(socket) if known else socket.close(4404))
-
-    async def _joined(self, client: viser.ClientHandle) -> None:
-        connection = self._connections.get(client.client_id)
-        request = None if connection is None else connection.request
-        token = "" if request is None else request.path.strip("/")
-        self._loop.call_soon_threadsafe(self._take, token, client)
-
-    async def _left(self, client: viser.ClientHandle) -> None:
-        with contextlib.suppress(RuntimeError):  # the server has stopped
-            self._loop.call_soon_threadsafe(self._lose, client)
-
-    def _take(self, token: str, client: viser.ClientHandle) -> None:
-        self._scenes[token] = client
-        if token in self.students:
-            self.students[token].join(client)
-
-    def _lose(self, client: viser.ClientHandle) -> None:
-        for token in [token for token, other in self._scenes.items() if other is client]:
-            del self._scenes[token]
-            if token in self.students:
-                self.students[token].join(None)
+        return scene_response(request, *await self.runs.stepping.do(client_bytes))
 
 
-def _connections_of(server: viser.ViserServer) -> Mapping[int, Any]:
-    """Return viser's connections by client: their address tells which page a scene belongs to; nothing public does.
-
-    Raises:
-        InputError: If this version of viser does not have them.
-    """
-    connections = getattr(getattr(server, "_websock_server", None), "_live_connections", None)
-    if not isinstance(connections, dict):
-        raise InputError(f"viser {viser.__version__} does not tell which page a scene belongs to: install viser 1.1.1")
-    return connections
-
-
-async def _send(socket: WebSocket, text: str) -> None:
+async def _send(socket: WebSocket, part: str | bytes) -> None:
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):  # it has left
-        await socket.send_text(text)
+        await (socket.send_text(part) if isinstance(part, str) else socket.send_bytes(part))

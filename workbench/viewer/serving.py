@@ -12,16 +12,9 @@ from workbench.authoring.reloading import Edited
 from workbench.errors import InputError
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson
-from workbench.viewer.addresses import Doors, listening
-from workbench.viewer.front import Front
-from workbench.viewer.patience import more_files
-from workbench.viewer.rules import Rules
-from workbench.viewer.runs import MOST_BYTES, settle
+from workbench.viewer.addresses import Doors
+from workbench.viewer.runs import settle
 from workbench.viewer.server import Server
-from workbench.viewer.share import Share
-
-LEAST_BYTES = 384 * 2**20
-"""What the runs of one process may hold, however many there are."""
 
 
 def serve(
@@ -41,14 +34,12 @@ def serve(
     """Serve the course, or one lesson at a place, until interrupted; print the address when ready.
 
     Raises:
-        InputError: If the port is taken or may not be used, or several processes cannot serve this.
+        InputError: If the port is taken or may not be used, or several processes are wanted.
     """
     start = None if lesson is None else links.Place(lesson, params if params is not None else lesson.params(), step)
-    if workers > 1 and (watched is not None or edited is not None):
-        raise InputError("--workers: files that are looked at while they are edited are served by one process")
+    if workers > 1:
+        raise InputError(f"--workers {workers}: one process serves a hundred students; more servers: docs/classroom.md")
     with _ended_as_by_ctrl_c():
-        if workers > 1:
-            return _serve_by_several(start, workers, host, port, browser, open_to_all, behind)
         server = Server(
             start, host=host, port=port, open_to_all=open_to_all, behind=behind, watched=watched, edited=edited
         )
@@ -60,30 +51,6 @@ def serve(
             pass
         finally:
             server.stop()
-
-
-def _serve_by_several(
-    start: links.Place | None, workers: int, host: str, port: int, browser: bool, open_to_all: bool, behind: str | None
-) -> None:
-    token = Rules(host, open_to_all=open_to_all, behind=behind).token
-    listener = listening(host, port)
-    more_files()
-    most_bytes = max(LEAST_BYTES, MOST_BYTES // workers)
-
-    def work(share: Share) -> None:
-        server = Server(start, host=host, open_to_all=open_to_all, behind=behind, most_bytes=most_bytes, share=share)
-        settle()
-        share.ended.wait()
-        server.stop()
-
-    front = Front(listener, workers, token, work)
-    try:
-        _announce(Doors(host, listener.getsockname()[1], token), browser)
-        front.run()
-    except KeyboardInterrupt:
-        pass
-    finally:
-        front.stop()
 
 
 def _announce(doors: Doors, browser: bool) -> None:

@@ -6,13 +6,12 @@ Messages are JSON. From the page: {"verb": ..., ...} with the verbs of VERBS. To
 
 import asyncio
 import contextlib
-import functools
+import math
 import traceback
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from typing import Any
 
 import numpy as np
-import viser
 
 from workbench import links
 from workbench.authoring.reloading import carried
@@ -20,22 +19,19 @@ from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
 from workbench.knobs import paths_of, with_own_files
 from workbench.lesson import Lesson
-from workbench.motion import FRAMES, SECONDS
 from workbench.picking import picked_params
 from workbench.questions import answer
 from workbench.session import Session
 from workbench.timeline import Timeline
 from workbench.viewer.following import Following
-from workbench.viewer.live_scene import LiveScene
 from workbench.viewer.own_files import OwnFiles
 from workbench.viewer.runs import Runs
 from workbench.viewer.telling import Telling, packed
 from workbench.viewer.terminal import tell_terminal
 from workbench.viewer.wishes import Wishes, read_wish
 
-SCENE_ALONE = frozenset({"light", "handles", "theme"})
-"""Wishes that change how a step is drawn, and nothing of what is said of it."""
-
+LARGEST = 1e9
+"""Of the numbers of a click, metres."""
 AWAITED = 30.0
 """Seconds that a page whose step is being computed keeps its run, however little room there is."""
 
@@ -49,7 +45,7 @@ class Student:
         send: Sends a text to the page, and returns when it may be sent more; says nothing where the page has left.
     """
 
-    def __init__(self, lessons: Mapping[str, Lesson], runs: Runs, send: Callable[[str], Awaitable[None]]):
+    def __init__(self, lessons: Mapping[str, Lesson], runs: Runs, send: Callable[[str | bytes], Awaitable[None]]):
         self.lessons, self.runs, self._send = lessons, runs, send
         self._loop = asyncio.get_running_loop()
         self.start: links.Place | None = None  # where browsers begin; its own files are kept
@@ -61,15 +57,8 @@ class Student:
         self.asleep = False  # whether its run was let go to make room
         self._waits = False  # whether what was wished for is still to be shown
         self._wake = asyncio.Event()
-        self._coming: tuple[bool, viser.ClientHandle | None] = False, None  # a scene that has come or gone
-        self._scene = LiveScene(self._moved, self._clicks)
-        self._told = Telling(runs, self._scene)
+        self._told = Telling(runs)
         self._wishes = Wishes()
-
-    def join(self, client: viser.ClientHandle | None) -> None:
-        """Take the scene of this page, which has come up; None where it has gone."""
-        self._coming = True, client
-        self._wake.set()
 
     def hear(self, text: str) -> bool:
         """Note a wish, and tell whether it is one; what is none is ignored."""
@@ -83,10 +72,6 @@ class Student:
         self._wishes.add(wish)
         self.acted, self._waits = self._loop.time(), True
         self._wake.set()
-
-    def _wish_elsewhere(self, verb: str, **wish: Any) -> None:
-        """Note a wish that comes from viser's thread."""
-        self._loop.call_soon_threadsafe(self._wish, {"verb": verb, **wish})
 
     def leave(self) -> None:
         """Want nothing more: the page has gone."""
@@ -123,16 +108,13 @@ class Student:
                 await self._tell(tell="trouble", text="Something went wrong; the terminal of the server says what.")
 
     async def _do_what_is_wished(self) -> None:
-        wishes, (changed, client), self._coming = self._wishes.take(), self._coming, (False, None)
-        if changed:
-            self._scene.take(client)
-            self._told.anew()
-        if self.asleep and (wishes or client) and self.session is not None:
+        wishes = self._wishes.take()
+        if self.asleep and wishes and self.session is not None:
             self.asleep = False
             self.session.take_up()
         for wish in wishes:
             try:
-                await (self._click(wish) if wish["verb"] == "click" else VERBS[wish["verb"]](self, wish))
+                await VERBS[wish["verb"]](self, wish)
             except InputError as error:
                 tell_terminal(error)
                 await self._tell(tell="trouble", text=str(error))
@@ -143,26 +125,19 @@ class Student:
         if session is None or self.asleep:
             return
         self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
-        redraw, tell = bool(wishes), any(wish["verb"] not in SCENE_ALONE for wish in wishes)
         crew = self.runs.stepping if session.timeline is self._told.timeline else self.runs.showing
-        for text in await crew.do(self._show, session, redraw, tell):
-            await self._send(text)
+        for part in await crew.do(self._show, session, bool(wishes)):
+            await self._send(part)
         timeline = session.timeline
         self._waits = bool(self._wishes) or not (timeline.finished or 0 <= session.wanted < len(timeline))
-        await self._glide()
 
-    def _show(self, session: Session, redraw: bool, tell: bool) -> list[str]:
-        """Show what is to be seen now; return what the page is to be told. Not on the event loop."""
+    def _show(self, session: Session, tell: bool) -> list[str | bytes]:
+        """Return what the page is to be sent so that it shows what is to be seen now. Not on the event loop."""
         look = session.look()
         if look is None or session is not self.session:
             return []
         watched = None if self.following is None else self.following.watched
-        return self._told.show(session, look, redraw=redraw, tell=tell, watched=watched)
-
-    async def _glide(self) -> None:
-        """Show what moves on its way; who wishes for something meanwhile sees where it ends."""
-        while await self.runs.stepping.do(functools.partial(self._scene.go_on, at_once=len(self._wishes) > 0)):
-            await asyncio.sleep(SECONDS / FRAMES)
+        return self._told.show(session, look, tell=tell, watched=watched)
 
     def _came(self) -> None:
         """Look again: steps have come. Called in a thread that computes."""
@@ -189,7 +164,7 @@ class Student:
         session = self.session or Session(place.lesson, self.runs.timelines)
         session.open(place.lesson, params, place.step)
         session.message, self.session = trouble, session
-        self._scene.aim.open(session.lesson, params)
+        self._told.aim.open(session.lesson, params)
         if self.following is not None:
             self._news += self.following.news(place.lesson)
 
@@ -209,7 +184,7 @@ class Student:
         elif name:
             session.use_preset(name)
         if name:
-            self._scene.aim.open(session.lesson, session.params)
+            self._told.aim.open(session.lesson, session.params)
         if isinstance(step, int):
             session.open(session.lesson, session.params, step)
 
@@ -224,18 +199,13 @@ class Student:
         """Go back to the default run."""
         if self.session is not None:
             self.session.reset()
-            self._scene.aim.open(self.session.lesson, self.session.params)
+            self._told.aim.open(self.session.lesson, self.session.params)
 
     async def forget(self, message: Mapping[str, Any]) -> None:
         """Go on without a file of one's own."""
         session, name = self.session, message.get("field")
         if session is not None and name in paths_of(session.lesson.params):
             session.change(**{str(name): None})
-
-    async def pin(self, message: Mapping[str, Any]) -> None:
-        """Keep the run that is shown behind the next ones, or let it go."""
-        if self.session is not None:
-            self.session.unpin() if self.session.pinned else self.session.pin()
 
     async def predict(self, message: Mapping[str, Any]) -> None:
         """Compare a prediction with the run that answers, tell the page, and show that run; own files are put aside."""
@@ -257,28 +227,14 @@ class Student:
         told = {"right": found.right, "truth": found.truth, "why": found.why, "reply": found.reply}
         await self._tell(tell="answer", question=question.name, **told)
         session.open(lesson, question.params, found.step)
-        self._scene.aim.open(lesson, question.params)
+        self._told.aim.open(lesson, question.params)
 
-    async def handles(self, message: Mapping[str, Any]) -> None:
-        """Show the handles in the scene, or hide them."""
-        self._scene.wants_handles = message.get("on") is True
-
-    async def light(self, message: Mapping[str, Any]) -> None:
-        """Let what is at a path of the scene stand out; an empty one ends it."""
-        self._scene.path = str(message.get("path", ""))[:200]
-
-    async def theme(self, message: Mapping[str, Any]) -> None:
-        """Draw the scene for a dark or a light page."""
-        self._scene.wear(dark=message.get("dark") is True, still=message.get("still") is True)
-
-    async def _click(self, message: Mapping[str, Any]) -> None:
-        """Set the params that a click in the scene picks."""
-        session = self.session
+    async def click(self, message: Mapping[str, Any]) -> None:
+        """Set the params that a click in the scene picks: the ray of `p_origin` (3,) and `v_ray` (3,), in the world."""
+        session, ray = self.session, _ray(message)
         look = None if session is None else session.look()
-        if look is not None and session is not None:
-            values = await self.runs.stepping.do(
-                picked_params, look.params, look.scene, message["p_origin"], message["v_ray"]
-            )
+        if look is not None and session is not None and ray is not None:
+            values = await self.runs.stepping.do(picked_params, look.params, look.scene, *ray)
             session.change(**values)
 
     async def _computed(self, timeline: Timeline) -> None:
@@ -307,7 +263,7 @@ class Student:
         view = session.lesson.view_of(session.params)
         session.change(**{field: path})
         if view != session.lesson.view_of(session.params):  # a stage that shows the file
-            self._scene.aim.open(session.lesson, session.params)
+            self._told.aim.open(session.lesson, session.params)
         self._wake.set()
 
     def go_on(self, before: Lesson, after: Lesson, news: Mapping[str, Any] | None) -> None:
@@ -329,7 +285,7 @@ class Student:
         view = before.view_of(session.params)
         session.go_on(after, carried(session.params, after), carried(session.own, after))
         if view != after.view_of(session.params):
-            self._scene.aim.open(after, session.params)
+            self._told.aim.open(after, session.params)
         self._tell_where(after, news or {"tell": "notice", "text": ""})
 
     def _tell_where(self, lesson: Lesson, news: Mapping[str, Any]) -> None:
@@ -337,18 +293,20 @@ class Student:
             self._news.append(news)
             self._wake.set()
 
-    # what is done in the scene ----------------------------------------------------------------------------------------
-
-    def _clicks(self, p_origin: np.ndarray, v_ray: np.ndarray) -> None:
-        """Note a click in the scene; called in viser's thread."""
-        self._wish_elsewhere("click", p_origin=p_origin, v_ray=v_ray)
-
-    def _moved(self, **values: Any) -> None:
-        """Note that a handle was moved; called in viser's thread."""
-        self._wish_elsewhere("change", values=values)
-
     async def _tell(self, **message: Any) -> None:
         await self._send(packed(message))
+
+
+def _ray(message: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return origin and direction of a click, both (3,); None where a browser sends something else."""
+    found = []
+    for name in ("p_origin", "v_ray"):
+        values = message.get(name)
+        is_vector = isinstance(values, list) and len(values) == 3 and all(type(x) in (int, float) for x in values)
+        if not is_vector or not all(math.isfinite(x) and abs(x) < LARGEST for x in values):  # type: ignore[union-attr]
+            return None
+        found.append(np.array(values, float))
+    return (found[0], found[1]) if found[1].any() else None
 
 
 VERBS: Mapping[str, Callable[[Student, Mapping[str, Any]], Awaitable[None]]] = {
@@ -358,9 +316,6 @@ VERBS: Mapping[str, Callable[[Student, Mapping[str, Any]], Awaitable[None]]] = {
     "change": Student.change,
     "reset": Student.reset,
     "forget": Student.forget,
-    "pin": Student.pin,
     "predict": Student.predict,
-    "handles": Student.handles,
-    "light": Student.light,
-    "theme": Student.theme,
+    "click": Student.click,
 }

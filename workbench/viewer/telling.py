@@ -1,22 +1,24 @@
-"""What one page is told of the run it looks at: only what it has not been told, while its scene is shown the same step."""
+"""What one page is told of the run it looks at, and sent of its scenes: only what it has not got."""
 
 import json
 from collections.abc import Mapping
 from typing import Any
 
 from workbench import links
-from workbench.errors import AuthorError
+from workbench.authors import Blaming
+from workbench.errors import AuthorError, InputError
 from workbench.exercise.driven import Pair, calls_it, first_difference
 from workbench.exercise.watching import Watched
 from workbench.flags import show_command
-from workbench.page.charts import series_of
+from workbench.lesson import Lesson, View
 from workbench.page.lessons import files_of, values_of
 from workbench.page.steps import Steps
 from workbench.session import Look, Session
 from workbench.timeline import Timeline
-from workbench.viewer.live_scene import LiveScene
 from workbench.viewer.runs import Runs
 from workbench.viewer.terminal import tell_terminal
+from workbench.wire.packing import PageWire
+from workbench.wire.stage import Aim
 
 
 class Telling:
@@ -24,14 +26,14 @@ class Telling:
 
     Args:
         runs: What is shared between all pages.
-        scene: The page's.
 
     Attributes:
         timeline: The run that the page was told of last; None where it is to be told all.
+        aim: Where the page's camera is put.
     """
 
-    def __init__(self, runs: Runs, scene: LiveScene):
-        self._runs, self._scene = runs, scene
+    def __init__(self, runs: Runs):
+        self._runs, self._wire, self.aim = runs, PageWire(runs.maker), Aim()
         self.timeline: Timeline | None = None
         self._steps: Steps | None = None  # of that run
         self._sent: set[int] = set()  # numbers of things of this run that the page has
@@ -39,23 +41,19 @@ class Telling:
         self._told_steps = 0  # up to where its series were
         self._run = 0
         self._seen: Any = None  # what the page was shown last
-
-    def anew(self) -> None:
-        """Show the step again, to whatever scene there is now."""
-        self._seen = None
+        self._view: tuple[Lesson, View] | None = None  # on which stage
 
     def forget(self) -> None:
         """Hold no run any more."""
         self.timeline = self._steps = self._seen = None
 
-    def show(self, session: Session, look: Look, *, redraw: bool, tell: bool, watched: Watched | None) -> list[str]:
-        """Show a look in the scene, and return what the page is to be told of it.
+    def show(self, session: Session, look: Look, *, tell: bool, watched: Watched | None) -> list[str | bytes]:
+        """Return what the page is to be sent so that it shows a look: its scene as bytes, and texts.
 
         Args:
             session: Where the person is.
             look: What is to be seen there.
-            redraw: Whether the scene is looked at again though the step is the one that was seen.
-            tell: Whether the step is told again though it is that one.
+            tell: Whether the step is told again though it is the one that was seen.
             watched: A student's file that drives a lesson.
         """
         timeline = look.timeline
@@ -64,20 +62,31 @@ class Telling:
         if self.timeline is not timeline or self._steps is None:
             self.timeline, self._steps = timeline, self._runs.steps(timeline)
             self._sent, self._told, self._told_steps, self._run = set(), None, 0, self._run + 1
-        pinned = None if session.pinned_run is None else (id(session.pinned_run), len(session.pinned_run))
-        now = self._run, look.k, look.known > 0, look.caption, pinned, self._scene.client
+        now = self._run, look.k, look.known > 0, look.caption, timeline is session.timeline
         new = now != self._seen
-        trouble = self._scene.show(look, current=timeline is session.timeline) if new or redraw else None
-        told = [self._run_told(self._steps, look, pinned, watched)]
+        drawn, trouble = self._drawn(look, current=timeline is session.timeline) if new else (None, None)
+        told = [self._run_told(self._steps, look, watched)]
         again = new or tell or trouble is not None
         if look.known and again:
             told.append(self._step_told(self._steps, look, trouble))
         elif not look.known and trouble is None and look.caption.text and again:
             told.append({"tell": "trouble", "text": look.caption.text})
         self._seen = now if trouble is None else None
-        return [packed(message) for message in told if message is not None]
+        return [*([] if drawn is None else [drawn]), *(packed(message) for message in told if message is not None)]
 
-    def _run_told(self, steps: Steps, look: Look, pinned: Any, watched: Watched | None) -> dict[str, Any] | None:
+    def _drawn(self, look: Look, *, current: bool) -> tuple[bytes | None, str | None]:
+        """Return the bytes that the page lacks of a scene, or what went wrong; its view is of the run that is wanted."""
+        lesson, head = look.lesson, {"run": self._run, "k": look.k}
+        try:
+            with Blaming(f"lesson {lesson.name}", lesson.draw):
+                if current or self._view is None or self._view[0] is not lesson:
+                    self._view = lesson, self.aim.view(lesson, look.timeline.params)
+                return self._wire.step(head, look.scene, self._view[1], lesson.name), None
+        except InputError as error:
+            tell_terminal(error)
+            return None, str(error)
+
+    def _run_told(self, steps: Steps, look: Look, watched: Watched | None) -> dict[str, Any] | None:
         """Return what is new of the run since it was last told, None when nothing is."""
         params, lesson = look.params, look.lesson
         is_watched = watched is not None and watched.lesson is lesson
@@ -94,14 +103,12 @@ class Telling:
             "command": show_command(lesson, params),
             "query": links.write(links.Place(lesson, params)),
         }
-        if (said, pinned) == self._told:
+        if said == self._told:
             return None
         new: dict[str, Any] = {"tell": "run", "run": self._run, **said}
-        if self._told is None or self._told[1] != pinned:
-            new["pinned"] = series_of(look.pinned_series) if pinned else None
         if self._told is None or look.known > self._told_steps:
             new |= steps.series(self._told_steps, look.known)
-        self._told, self._told_steps = (said, pinned), look.known
+        self._told, self._told_steps = said, look.known
         return new
 
     def _step_told(self, steps: Steps, look: Look, trouble: str | None) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""What goes over HTTP beside a page: the recording of its run, and a file of its own. Both are asked for by its token."""
+"""What goes over HTTP beside a page: viser's client, and, asked for by its token, the recording of its run and own files."""
 
 from urllib.parse import quote
 
@@ -9,6 +9,16 @@ from workbench.errors import InputError
 from workbench.timeline import Timeline
 from workbench.viewer.student import Student
 from workbench.viewer.terminal import tell_terminal
+
+
+def scene_response(request: Request, plain: bytes, compressed: bytes, etag: str) -> Response:
+    """Return viser's client: nothing where the browser has it already, else compressed where it can read that."""
+    headers = {"etag": etag, "cache-control": "no-cache", "vary": "accept-encoding"}
+    if etag in (one.strip().removeprefix("W/") for one in request.headers.get("if-none-match", "").split(",")):
+        return Response(status_code=304, headers=headers)
+    if "gzip" in request.headers.get("accept-encoding", ""):
+        return Response(compressed, headers=headers | {"content-encoding": "gzip"}, media_type="text/html")
+    return Response(plain, headers=headers, media_type="text/html")
 
 
 async def recording(student: Student | None) -> Response:

@@ -37,8 +37,6 @@ class Wishes:
             self._waiting = {kind: one for kind, one in self._waiting.items() if kind[0] not in ANEW | MOVES}
         kind = verb, str(wish.get("question", ""))[:100] if verb == "predict" else ""
         before = self._waiting.pop(kind, None)
-        if verb == "pin" and before is not None:
-            return  # there and back
         if verb == "change" and before is not None:
             values = before.get("values"), wish.get("values")
             wish = {**wish, "values": {k: v for part in values if isinstance(part, dict) for k, v in part.items()}}

@@ -1,63 +1,45 @@
-// Shows recorded steps in viser's client, which waits in the frame as for a server: what a server would send is made here.
-// What is shown is made equal to the step that is wanted, whatever was shown before, so that any step follows any other.
+// Shows nodes in viser's client, which waits in the frame as for a server: what a server would send is made here, and what the
+// client would tell a server is heard here. What is shown is made equal to what is wanted, whatever was shown before.
 "use strict";
 
 const GLIDE = 250; // milliseconds in which a thing that only moves gets to its new place
-const NARROWEST = 1.2; // width of a picture by its height; in a narrower one a scene is seen from farther away
+const NARROWEST = 1.2; // width of a picture by its height; in a narrower one as much is seen in its width
 const WIDEST = 1.6; // up to this width by height, what was in view stays in view in a picture that becomes narrower
-const MESHES = new Set(["MeshMessage", "GlbMessage"]);
-const IDENTITY = { wxyz: [1, 0, 0, 0], position: [0, 0, 0], visible: true };
+const SURFACES = new Set(["MeshMessage", "GlbMessage"]);
+const IN_PLACE = new Set(["PointCloudMessage", "LineSegmentsMessage", "TransformControlsMessage"]); // changed without being made anew
 
-// the nodes of a scene by name after each step: {add: the message that made it, props, wxyz, position, visible}
-function nodesOfSteps(steps) {
-  let nodes = new Map();
-  return steps.map((messages) => {
-    nodes = new Map(nodes);
-    const change = (name, values) => nodes.has(name) && nodes.set(name, { ...nodes.get(name), ...values });
-    for (const message of messages) {
-      const { type, name } = message;
-      if (message.props && name !== undefined) {
-        nodes.delete(name); // what is made anew comes last
-        nodes.set(name, { ...IDENTITY, add: message, props: message.props });
-      } else if (type === "SceneNodeUpdateMessage") change(name, { props: { ...nodes.get(name)?.props, ...message.updates } });
-      else if (type === "SetOrientationMessage") change(name, { wxyz: message.wxyz });
-      else if (type === "SetPositionMessage") change(name, { position: message.position });
-      else if (type === "SetSceneNodeVisibilityMessage") change(name, { visible: message.visible });
-      else if (type === "RemoveSceneNodeMessage") {
-        for (const other of [...nodes.keys()]) if (other === name || other.startsWith(`${name}/`)) nodes.delete(other);
-      }
-    }
-    return nodes;
-  });
-}
-
-const feed = window.feed = { // viser's page in the frame looks for it
-  client: null,        // viser's end of the wire
-  waiting: [],         // what is sent before it is there
-  shown: new Map(),    // name -> node, with the name it has in the client
+const feed = window.feed = { // viser's client in the frame looks for it
+  client: null,        // its end of the wire
+  realm: null,         // its window
+  shown: new Map(),    // name -> node, with its props and the name it has in the client
+  wanted: new Map(),   // name -> node
   made: 0,             // how many nodes got a name of their own
   gliding: 0,          // the frame request of what glides
-  camera: "",          // how the scene that is open is first seen
+  stage: null,         // {light, camera} of the scene that is open
   keeps: NARROWEST,    // width by height of what stays in view
+  picks: false,        // whether clicks are heard
   dark: false,
+  heard: {},           // what the client says -> function: who hears it
 
-  // what stands in front of viser's page: its worker, which would open a websocket, is this page
-  before: "<script>window.Worker=class{constructor(){this.postMessage=(said)=>said.type==='set_server'&&parent.feed.connect(this)}" +
-    "terminate(){}}<\/script>",
-
+  // the client is there, for the first time or because its frame was loaded again: it has nothing
   connect(client) {
-    this.client = client;
+    Object.assign(this, { client, realm: stage.frame.contentWindow, arrays: new WeakMap() });
+    this.shown.clear();
+    this.come(this.realm);
     this.say({ type: "connected" });
-    this.send(this.waiting.splice(0));
-    for (const kind of ["pointerdown", "wheel"]) stage.frame.contentDocument.addEventListener(kind, () => { this.turned = true; }, { passive: true });
-    new ResizeObserver(() => this.aim()).observe(stage.frame);
+    this.theme(this.dark);
+    this.clicks(this.picks);
+    if (this.stage) {
+      this.send(this.stage.light);
+      this.aim(true);
+    }
+    this.show(this.wanted);
+    new ResizeObserver(() => this.fit()).observe(stage.frame);
   },
 
-  send(messages) {
-    if (!messages.length) return;
-    if (this.client) this.say({ type: "message_batch", messages });
-    else this.waiting.push(...messages);
-  },
+  hear(message) { this.heard[message.type]?.(message); },
+
+  send(messages) { if (this.client && messages.length) this.say({ type: "message_batch", messages }); },
 
   say(data) { this.client.onmessage({ data }); },
 
@@ -65,71 +47,114 @@ const feed = window.feed = { // viser's page in the frame looks for it
     this.dark = dark;
     this.send([{ type: "ThemeConfigurationMessage", titlebar_content: null, control_layout: "floating", control_width: "medium",
       show_logo: false, show_share_button: false, dark_mode: dark, colors: null }]);
+    this.again();
   },
 
   // a scene opens: its light, and its camera unless it is the one that was there, which a person may have turned since
-  open(first) {
-    const of = (start) => first.filter((message) => message.type.startsWith(start));
-    const cameras = of("SetCamera"), camera = JSON.stringify(cameras);
-    const still = first.filter((message) => message.name === undefined && !message.type.startsWith("SetCamera"));
-    const root = first.filter((message) => message.name === "" && message.type === "SetOrientationMessage");
-    const order = ["SetCameraUpDirectionMessage", "SetCameraPositionMessage", "SetCameraLookAtMessage", "SetCameraFovMessage"];
-    const isFirst = !this.camera;
-    this.send([...(isFirst ? root : []), ...still]); // the client puts the camera back where it was when the root is turned
-    if (camera === this.camera) return;
-    Object.assign(this, { camera, seen: isFirst ? cameras : order.flatMap(of), turned: false });
-    this.aim(isFirst);
+  open(told) {
+    const before = this.stage, isNew = JSON.stringify(before?.camera) !== JSON.stringify(told.camera);
+    this.stage = told;
+    this.send(told.light);
+    if (isNew) this.aim(!before);
   },
 
-  // puts the camera where the recording had it, as far away as a narrow picture needs; not where a person has turned it since
+  // puts the camera where the scene wants it
   aim(initial = false) {
-    if (this.turned || !this.seen) return;
+    const { eye, target, up } = this.stage.camera;
+    this.send([
+      { type: "SetCameraUpDirectionMessage", position: up, initial }, { type: "SetCameraPositionMessage", position: eye, initial },
+      { type: "SetCameraLookAtMessage", look_at: target, initial },
+    ]);
+    labels.seen(this.stage.camera);
+    this.fit(initial); // and of its angle the words hear there
+  },
+
+  // lets a picture that has become narrower show as much in its width as it did; the camera stays where it is
+  fit(initial = false) {
+    if (!this.stage) return;
     const { clientWidth: width, clientHeight: height } = stage.frame, aspect = width / height || NARROWEST;
     this.keeps = Math.max(this.keeps, Math.min(aspect, WIDEST));
-    const far = Math.max(1, this.keeps / aspect);
-    const target = this.seen.find((message) => message.type === "SetCameraLookAtMessage")?.look_at;
-    const eye = (p) => p.map((value, i) => target[i] + far * (value - target[i]));
-    this.send(this.seen.map((message) => ({ ...message, ...(initial ? {} : { initial: false }),
-      ...(message.type === "SetCameraPositionMessage" && target ? { position: eye([...message.position]) } : {}) })));
+    const fov = 2 * Math.atan(Math.tan(this.stage.camera.fov / 2) * Math.max(1, this.keeps / aspect));
+    this.send([{ type: "SetCameraFovMessage", fov, initial }]);
+    labels.seen({ fov });
+  },
+
+  clicks(on) {
+    this.picks = on;
+    this.send([{ type: "ScenePointerEnableMessage", event_type: "click", modifiers: on ? [null] : [], owner: "" }]);
   },
 
   // shows these nodes; `glide` lets what only moves move, `next` says that they follow what is shown
   show(wanted, { glide = false, next = false } = {}) {
+    this.wanted = wanted;
+    if (!this.client) return;
     cancelAnimationFrame(this.gliding);
     const { sent, moves } = this.changes(wanted, next);
     if (glide && moves.length) {
       this.send(sent);
       this.glide(moves);
-    } else this.send([...sent, ...moves.flatMap(([, to, name]) => pose(name, to))]);
+    } else {
+      this.send(sent);
+      this.send(moves.flatMap(([, to, now]) => this.placed(now, to)));
+    }
+    labels.show(this.shown);
   },
+
+  // shows the same as things are now: another theme, or a picture that has been made
+  again() { this.show(this.wanted); },
 
   changes(wanted, next) {
     const sent = [], moves = [];
-    for (const [name, node] of this.shown) {
-      if (wanted.has(name)) continue;
-      sent.push({ type: "RemoveSceneNodeMessage", name: node.name, owner: "" });
+    const remove = (name, node) => {
+      for (const [below, part] of this.shown) if (below.startsWith(`${name}/`)) remove(below, part); // first, since they go with it
       this.shown.delete(name);
-    }
+      if (node.kind.type !== "Label") sent.push({ type: "RemoveSceneNodeMessage", name: node.name, owner: "" });
+    };
+    for (const [name, node] of this.shown) if (!wanted.has(name)) remove(name, node);
     let veiled = false; // by a surface that is new: the client draws in the order in which things were made
     for (const [name, node] of wanted) {
-      const old = this.shown.get(name), base = this.under(name);
-      const same = old && old.add === node.add && old.base === base;
-      const again = same && veiled && !next && node.add.type === "LineSegmentsMessage";
-      if (again || (old && old.base !== base)) sent.push({ type: "RemoveSceneNodeMessage", name: old.name, owner: "" });
-      const now = { ...node, base, name: again ? `${base}~~${++this.made}` : old && old.base === base ? old.name : base };
+      const props = propsOf(node, this.dark), old = this.shown.get(name), base = this.under(name), { kind } = node;
+      if (!props) continue; // shown as soon as it is made
+      const changed = old && old.base === base ? differing(old, kind, props) : null;
+      const again = changed && veiled && !next && kind.type === "LineSegmentsMessage";
+      const toWords = old && !changed && kind.type === "Label"; // the client knows no words: none takes the place of what was
+      if (again || toWords || (old && old.base !== base)) remove(name, old);
+      const now = { ...node, props, base, name: again ? `${base}~~${++this.made}` : old && old.base === base ? old.name : base };
       this.shown.set(name, now);
-      if (!same || again) {
-        sent.push({ ...node.add, name: now.name, props: node.props }, ...pose(now.name, node), visibility(now));
-        veiled ||= MESHES.has(node.add.type);
+      if (!changed || again) {
+        sent.push(...this.added(now));
+        veiled ||= SURFACES.has(kind.type);
         continue;
       }
-      const updates = Object.fromEntries(Object.entries(node.props).filter(([key, value]) => value !== old.props[key]));
-      if (Object.keys(updates).length) sent.push({ type: "SceneNodeUpdateMessage", name: now.name, owner: "", updates });
-      if (node.visible !== old.visible) sent.push(visibility(now));
+      const keys = Object.keys(changed);
+      if (keys.length && kind.type !== "Label") sent.push({ type: "SceneNodeUpdateMessage", name: now.name, owner: "", updates: this.theirs(changed) });
       const from = old.at ?? old;
-      if (String([from.wxyz, from.position]) !== String([node.wxyz, node.position])) moves.push([from, node, now.name, now]);
+      if (String([from.wxyz, from.position]) === String([node.wxyz, node.position])) continue;
+      if (keys.length && kind.type !== "Label") sent.push(...this.placed(now, node)); // what changes does not glide
+      else moves.push([from, node, now]);
     }
     return { sent, moves };
+  },
+
+  added(node) {
+    const { kind, name, props } = node;
+    if (kind.type === "Label") return [];
+    return [{ type: kind.type, name, props: this.theirs(props), owner: "", virtual: false }, ...this.placed(node, node),
+      { type: "SetSceneNodeVisibilityMessage", name, visible: kind.visible, owner: "" }];
+  },
+
+  placed(node, { wxyz, position }) {
+    if (node.kind.type === "Label") return [];
+    return [{ type: "SetOrientationMessage", name: node.name, wxyz, owner: "" }, { type: "SetPositionMessage", name: node.name, position, owner: "" }];
+  },
+
+  // properties with arrays of the client's own window: it knows no others
+  theirs(props) {
+    return Object.fromEntries(Object.entries(props).map(([key, value]) => {
+      if (!ArrayBuffer.isView(value)) return [key, value];
+      if (!this.arrays.has(value)) this.arrays.set(value, new this.realm[value.constructor.name](value.buffer, value.byteOffset, value.length));
+      return [key, this.arrays.get(value)];
+    }));
   },
 
   // a node's name below that of its parent, which goes with it
@@ -142,21 +167,32 @@ const feed = window.feed = { // viser's page in the frame looks for it
     const start = performance.now();
     const frame = (time) => {
       const part = Math.min(1, Math.max(0, (time - start) / GLIDE)), eased = part * part * (3 - 2 * part);
-      this.send(moves.flatMap(([from, to, name, now]) => {
+      this.send(moves.flatMap(([from, to, now]) => {
         now.at = part < 1 ? between(from, to, eased) : undefined;
-        return pose(name, now.at ?? to);
+        return this.placed(now, now.at ?? to);
       }));
+      labels.place();
       if (part < 1) this.gliding = requestAnimationFrame(frame);
     };
     frame(start);
   },
 };
+feed.ready = new Promise((resolve) => { feed.come = resolve; }); // the client's window
 
-function pose(name, { wxyz, position }) {
-  return [{ type: "SetOrientationMessage", name, wxyz, owner: "" }, { type: "SetPositionMessage", name, position, owner: "" }];
+// the properties in which a node that is shown differs; null where it is to be made anew
+function differing(old, kind, props) {
+  if (old.props === props) return {};
+  if (old.kind.type !== kind.type || old.kind.visible !== kind.visible) return null;
+  const found = {};
+  for (const [key, value] of Object.entries(props)) {
+    const before = old.props[key];
+    if (value === before || (!ArrayBuffer.isView(value) && JSON.stringify(value) === JSON.stringify(before))) continue;
+    if (kind.type === "Label") return { text: value };
+    if (!IN_PLACE.has(kind.type) || (ArrayBuffer.isView(value) && value.length !== before?.length)) return null;
+    found[key] = value;
+  }
+  return found;
 }
-
-function visibility({ name, visible }) { return { type: "SetSceneNodeVisibilityMessage", name, visible, owner: "" }; }
 
 // a pose on the way: turned along the shorter arc at an even pace, moved along a line
 function between(from, to, part) {

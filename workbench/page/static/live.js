@@ -1,34 +1,46 @@
-// Feeds the page from a server: wishes go out as JSON, what came of them comes back; the scene is streamed beside.
+// Feeds the page from a server: wishes go out as JSON; what came of them comes back as JSON, and of a scene as bytes.
 "use strict";
 
 const source = {
   socket: null, waiting: [], given: {},
+  wire: new Wire(),
+  seen: null,  // {run, k}: of which step the scene is
   tells: {},  // what is told -> function: what the other parts of the page hear
 
   start() {
     const { token } = document.body.dataset;
-    stage.put({ src: `scene/${token}/` });
+    stage.put({ src: "scene/" });
     const address = new URL(`live?token=${token}`, location.href);
     address.protocol = address.protocol.replace("http", "ws");
     const socket = this.socket = new WebSocket(address);
+    socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.send({ verb: "open", query: location.search, lesson: LESSON.name });
       for (const text of this.waiting.splice(0)) socket.send(text);
       returning.opened();
     };
-    socket.onmessage = (event) => this.heard(JSON.parse(event.data));
+    socket.onmessage = ({ data }) => (typeof data === "string" ? this.heard(JSON.parse(data)) : this.drew(data));
     socket.onclose = () => returning.wait();
   },
 
   heard(message) {
     const { tell, run, ...more } = message;
     if (tell === "run") {
-      page.told({ id: run, ...more });
+      page.told({ id: run, pinned: sceneView.series(), ...more });
+      sceneView.again(); // handles follow the params
       if (more.files) files.show(more.files, more.aside);
     } else if (tell === "step") page.came(run, more.k, more.step, more.things);
     else if (tell === "answer") article.answered({ ...more, given: this.given[more.question] ?? null });
     else if (tell === "trouble") page.say(more.text, "wrong");
     else this.tells[tell]?.(more);
+  },
+
+  // a step's scene, in bytes
+  drew(bytes) {
+    const head = this.wire.read(bytes), { run, k } = head, by = this.seen?.run === run ? k - this.seen.k : 0;
+    if (head.stage) feed.open(head.stage);
+    this.seen = { run, k };
+    sceneView.step(this.wire.nodes(head.nodes), by);
   },
 
   send(message) {
@@ -40,11 +52,18 @@ const source = {
   open(name, step) { this.send({ verb: "run", run: name, step }); },
   seek(k) { this.send({ verb: "seek", k }); },
   change(values) { this.send({ verb: "change", values }); },
-  reset() { this.send({ verb: "reset" }); },
-  pin() { this.send({ verb: "pin" }); },
-  handles(on) { this.send({ verb: "handles", on }); },
-  light(path) { this.send({ verb: "light", path }); },
-  theme(dark) { this.send({ verb: "theme", dark, still: matchMedia("(prefers-reduced-motion: reduce)").matches }); },
+  reset() {
+    sceneView.pin(false);
+    this.send({ verb: "reset" });
+  },
+  pin() { sceneView.pin(); },
+  handles(on) {
+    handles.on = on;
+    sceneView.again();
+  },
+  light(path) { sceneView.light(path); },
+  theme(dark) { feed.theme(dark); },
+  click(p_origin, v_ray) { this.send({ verb: "click", p_origin, v_ray }); },
   forget(field) { this.send({ verb: "forget", field }); },
   recording() { return fetch(`recording/${document.body.dataset.token}`); },
   upload(field, file) {

@@ -117,7 +117,7 @@ document.addEventListener("DOMContentLoaded", () => {
   for (const tool of $$("[data-needs]")) tool.hidden = !tool.dataset.needs.split(" ").some((verb) => source[verb]) || !page.can(tool.id);
   article.start();
   knobs.start();
-  for (const part of [exercise, thisRun]) part.start();
+  for (const part of [exercise, thisRun, labels, handles]) part.start();
   for (const button of $$("[data-act]")) button.addEventListener("click", () => transport.act(button.dataset.act));
   $("#step").addEventListener("input", (event) => { transport.pause(); page.seek(Number(event.target.value)); });
   document.addEventListener("keydown", (event) => keys.pressed(event));

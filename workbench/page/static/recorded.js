@@ -3,24 +3,14 @@
 "use strict";
 
 const source = {
-  path: "",            // what stands out
   wanted: 0,           // number of the last wish to open something: the last click wins
-  open_: null,         // {name, data, nodes: the scene after each step}
-  pinned: null,        // {nodes, ghosts, series} of the step that stands behind
-  client: null,        // the promise of the window of viser's page
-  decoded: new Map(),  // run -> its nodes, the last few
+  open_: null,         // {name, steps: the nodes of each step}
+  decoded: new Map(),  // run -> {stage, steps}, the last few
 
   get sweep() { return RECORDED.sweeps.length > 0 && !document.body.classList.contains("alone"); },
 
   start() {
-    this.client = shelf.page().then(([before, after]) => {
-      stage.put({ srcdoc: (before + after).replace(/<head>/, `<head>${feed.before}`) });
-      return new Promise((found) => { // its window, once its program is there
-        const look = () => stage.frame.contentWindow?.__viserZstdWasm ? found(stage.frame.contentWindow) : setTimeout(look, 30);
-        look();
-      });
-    });
-    this.client.catch((error) => page.say(error.message, "wrong"));
+    shelf.client().then((client) => stage.put({ srcdoc: client }), (error) => page.say(error.message, "wrong"));
     addEventListener("hashchange", () => this.followed());
     this.followed() || this.open(RECORDED.open, null);
   },
@@ -41,35 +31,36 @@ const source = {
   async open(name, step) {
     const wish = ++this.wanted;
     const run = name || this.open_?.name || RECORDED.open;
-    $("#scene").setAttribute("aria-busy", "true");
+    stage.awaited();
     try {
       const data = await shelf.run(run);
       if (wish !== this.wanted) return;
       this.told(run, data, step ?? data.first);
-      const nodes = await this.nodes(run, data);
+      const scenes = await this.scenes(run, data);
       if (wish !== this.wanted) return;
-      if (this.open_?.nodes !== nodes) feed.open(nodes.first);
-      this.open_ = { name: run, data, nodes };
+      feed.open(scenes.stage);
+      this.open_ = { name: run, steps: scenes.steps };
       this.show(page.k, 0);
     } catch (error) {
-      if (wish === this.wanted) page.say(error.message, "wrong");
+      if (wish !== this.wanted) return;
+      page.say(error.message, "wrong");
+      stage.arrived();
     }
-    if (wish === this.wanted) $("#scene").removeAttribute("aria-busy");
   },
 
   told(run, data, step) {
     const { steps, things, series, charts, command, recording, end } = data;
     const known = steps.length, at = Math.max(0, Math.min(known - 1, step < 0 ? known + step : step));
     const told = { name: run, title: RECORDED.titles[run], steps, things, series, charts, known, finished: true, command, recording, end };
-    page.told({ ...told, id: run, query: location.protocol === "about:" ? "" : `#run=${run}`, pinned: this.pinned?.series ?? null });
+    page.told({ ...told, id: run, query: location.protocol === "about:" ? "" : `#run=${run}`, pinned: sceneView.series() });
     sweeps.show(run);
     page.see(at);
   },
 
-  async nodes(run, data) {
+  async scenes(run, data) {
     if (!this.decoded.has(run)) {
-      const steps = await viserfile.read(data.scene, await this.client);
-      this.decoded.set(run, Object.assign(nodesOfSteps(steps), { first: steps[0] }));
+      const wire = new Wire(), { stage, steps } = wire.read(await unpacked(data.scene, await feed.ready));
+      this.decoded.set(run, { stage, steps: wire.steps(steps) });
       if (this.decoded.size > 6) this.decoded.delete(this.decoded.keys().next().value);
     }
     return this.decoded.get(run);
@@ -84,31 +75,17 @@ const source = {
 
   // shows a step of the run that is open; `by` is how many steps it follows what is shown, 0 where it does not
   show(k, by) {
-    const nodes = this.open_.nodes[Math.min(k, this.open_.nodes.length - 1)];
-    const wanted = this.path ? litNodes(nodes, this.path, feed.dark) : nodes;
-    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    feed.show(this.pinned ? withGhosts(wanted, this.pinned.ghosts) : wanted, { glide: Math.abs(by) === 1 && !still, next: by === 1 });
+    const { steps } = this.open_;
+    sceneView.step(steps[Math.min(k, steps.length - 1)], by);
   },
 
   recorded: (run) => (run.recording && RECORDED.runs !== null ? `${RECORDED.runs}${run.recording}` : null),
   alone: () => (RECORDED.runs === null ? null : new URL(`${RECORDED.runs}${RECORDED.files[page.run.name]}.html`, location.href).href),
 
-  light(path) {
-    this.path = path;
-    if (this.open_) this.show(page.k, 0);
-  },
-
+  light(path) { sceneView.light(path); },
+  pin() { sceneView.pin(); },
+  theme(dark) { feed.theme(dark); },
   reset() { if (Object.hasOwn(RECORDED.files, "default")) this.open("default", null); },
-
-  // keeps the step that is shown behind the next ones, or lets it go
-  pin() {
-    const { run } = page, open = this.open_;
-    if (!run || !open) return;
-    const nodes = open.nodes[page.k];
-    this.pinned = this.pinned ? null : { nodes, ghosts: ghostsOf(nodes, feed.dark), series: run.series };
-    page.told({ id: run.id, pinned: this.pinned?.series ?? null });
-    this.show(page.k, 0);
-  },
 
   predict(question, given) {
     const text = atob(RECORDED.answers[question]);
@@ -117,12 +94,5 @@ const source = {
     const known = Array.isArray(replies) ? replies.find(([low, high]) => low <= given && given <= high)?.[2] : replies[given];
     article.answered({ question, given, right: good, truth, why, reply: good || given === null ? "" : known });
     this.open(run, step);
-  },
-
-  theme(dark) {
-    feed.theme(dark);
-    if (!this.open_ || !this.pinned) return;
-    this.pinned.ghosts = ghostsOf(this.pinned.nodes, dark);
-    this.show(page.k, 0);
   },
 };

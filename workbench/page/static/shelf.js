@@ -1,10 +1,10 @@
-// Where recorded runs come from. A run's file calls `replay`, the file with viser's page calls `viserPage`; where they stand in
+// Where recorded runs come from. A run's file calls `replay`, the file with viser's client calls `viserClient`; where they stand in
 // the document itself, as in a notebook, nothing is loaded. Nothing is fetched: the page opens from disk.
 "use strict";
 
 const shelf = {
   runs: new Map(),   // name -> the data of a run
-  viser: null,       // viser's page: [before its data, after its data]
+  viser: null,       // viser's client, as HTML
   loading: new Map(), // file -> its promise
 
   async run(name) {
@@ -12,7 +12,7 @@ const shelf = {
     return this.runs.get(name);
   },
 
-  async page() {
+  async client() {
     if (!this.viser) await this.load(`${RECORDED.root}viser.js`);
     return this.viser;
   },
@@ -30,4 +30,4 @@ const shelf = {
 };
 
 function replay(name, data) { shelf.runs.set(name, data); }
-function viserPage(...parts) { shelf.viser = parts; }
+function viserClient(html) { shelf.viser = html; }

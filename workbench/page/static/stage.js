@@ -9,7 +9,7 @@ const stage = {
     const frame = element("iframe", { title: "3D scene of this step; drag to turn it, scroll to come nearer", ...attributes });
     this.frame = frame;
     frame.addEventListener("load", () => this.tidy(frame));
-    $("#scene").replaceChildren(frame);
+    $("#scene").replaceChildren(frame, element("div", { id: "labels", ariaHidden: "true" }));
   },
 
   // viser's own panels and bars go; the page's keys work in the frame too
@@ -22,10 +22,21 @@ const stage = {
     inside.addEventListener("keydown", (event) => {
       if (!event.key.startsWith("Arrow") && !event.target.closest("input")) keys.pressed(event);
     });
-    $("#scene").removeAttribute("aria-busy");
   },
 
-  legend(html) { if ($("#legend").innerHTML !== html) $("#legend").innerHTML = html; },
+  // a scene is on its way; and the one that was is there
+  awaited() { $("#scene").setAttribute("aria-busy", "true"); },
+  arrived() { feed.ready.then(() => $("#scene").removeAttribute("aria-busy")); },
+
+  // the legend stays as high as it once was for this run: a scene that changes its size from step to step cannot be watched
+  legend(html) {
+    const box = $("#legend"), of = `${page.run.id} ${innerWidth}`;
+    if (box.innerHTML === html) return;
+    box.innerHTML = html;
+    if (of !== this.legendOf) box.style.minHeight = "";
+    this.legendOf = of;
+    box.style.minHeight = `${box.offsetHeight}px`;
+  },
 
   // makes what is at a path, or under it, stand out: in the legend, and in the scene where the home can; "" ends it
   light(path) {

@@ -1,0 +1,79 @@
+"""viser's client: one file, the same plain and compressed, with the page in the place of its worker."""
+
+import gzip
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+import viser
+
+from tests import fake
+from workbench.errors import InputError
+from workbench.lesson import View
+from workbench.viewer.transfers import scene_response
+from workbench.wire import client, listener
+from workbench.wire.client import client_bytes, client_html
+from workbench.wire.nodes import Maker
+
+
+def test_the_client_is_one_file_whose_worker_is_the_page():
+    html, (plain, compressed, etag) = client_html(), client_bytes()
+    assert plain.decode() == html
+    assert gzip.decompress(compressed) == plain
+    assert len(compressed) < len(plain)
+    assert client_bytes()[2] == etag
+    assert etag[0] == etag[-1] == '"'
+    own = (Path(str(viser.__file__)).parent / "client" / "build" / "index.html").read_text(encoding="utf-8")
+    before, inserted, after = html.partition(client._WORKER)
+    assert inserted
+    assert before + after == own
+    assert html.index("window.Worker=") < html.index("<script", html.index("window.Worker="))
+
+
+def test_who_has_the_client_is_sent_nothing_and_who_reads_gzip_the_compressed_one():
+    def asked(**headers: str) -> Any:
+        request: Any = SimpleNamespace(headers={name.replace("_", "-"): value for name, value in headers.items()})
+        return scene_response(request, *client_bytes())
+
+    plain, compressed, etag = client_bytes()
+    assert (asked().body, asked().headers["etag"]) == (plain, etag)
+    small = asked(accept_encoding="br, gzip")
+    assert (small.body, small.headers["content-encoding"], small.headers["vary"]) == (
+        compressed,
+        "gzip",
+        "accept-encoding",
+    )
+    for known in (etag, f"W/{etag}", f'"x", {etag}'):
+        again = asked(if_none_match=known)
+        assert (again.status_code, again.body, again.headers["etag"]) == (304, b"", etag)
+    assert asked(if_none_match='"x"').status_code == 200
+
+
+@pytest.mark.parametrize("content", [None, "", "<body></body>"])
+def test_a_viser_without_a_client_is_refused_in_one_line(monkeypatch, tmp_path, content):
+    monkeypatch.setattr(client.viser, "__file__", str(tmp_path / "__init__.py"))
+    client_html.cache_clear()
+    if content is not None:
+        build = tmp_path / "client" / "build"
+        build.mkdir(parents=True)
+        (build / "index.html").write_text(content)
+    try:
+        with pytest.raises(
+            InputError, match=f"viser {viser.__version__} has no client .*install viser 1.1.1"
+        ) as raised:
+            client_html()
+        assert "\n" not in str(raised.value)
+    finally:
+        client_html.cache_clear()
+
+
+def test_a_viser_that_makes_scenes_in_another_way_is_refused_in_one_line(monkeypatch):
+    class Other:
+        def __init__(self, *, server: Any):
+            """Take what this version asks for."""
+
+    monkeypatch.setattr(listener.viser, "SceneApi", Other)
+    with pytest.raises(InputError, match=f"viser {viser.__version__} makes scenes in another way") as raised:
+        Maker().nodes(fake.draw(fake._state(0)), View())
+    assert "\n" not in str(raised.value)

@@ -1,0 +1,39 @@
+"""viser's client: one file that draws scenes, and takes the page for the worker through which it would reach a server."""
+
+import functools
+import gzip
+import hashlib
+from pathlib import Path
+
+import viser
+
+from workbench.errors import InputError
+
+_WORKER = (  # what the client starts to open a websocket; the page (`feed.js`) takes its place
+    "<script>window.Worker=class{constructor(){this.postMessage=(said)=>said.type==='set_server'?parent.feed.connect(this)"
+    ":said.type==='send'&&parent.feed.hear(said.message)}terminate(){}}</script>"
+)
+
+
+@functools.cache
+def client_html() -> str:
+    """Return viser's client as a page puts it into a frame.
+
+    Raises:
+        InputError: If this version of viser has no such file.
+    """
+    file = Path(viser.__file__).parent / "client" / "build" / "index.html"
+    try:
+        html = file.read_text(encoding="utf-8")
+    except OSError:
+        html = ""
+    if "<head>" not in html:
+        raise InputError(f"viser {viser.__version__} has no client that a page can feed: install viser 1.1.1")
+    return html.replace("<head>", f"<head>{_WORKER}", 1)
+
+
+@functools.cache
+def client_bytes() -> tuple[bytes, bytes, str]:
+    """Return the client's file as it is, compressed by gzip, and what stands for its content in an ETag."""
+    plain = client_html().encode()
+    return plain, gzip.compress(plain, 9, mtime=0), f'"{hashlib.blake2b(plain, digest_size=12).hexdigest()}"'

@@ -1,0 +1,67 @@
+"""viser's scene API without a server: what would be sent to a client is kept."""
+
+import contextlib
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import viser
+from viser.infra._infra import WebsockMessageHandler
+
+from workbench.errors import InputError
+
+Said = dict[str, Any]
+"""A message of viser as plain data; an array in it is `{"__binary_index": i, "dtype": ...}`."""
+
+
+class _Wire(WebsockMessageHandler):
+    """What a SceneApi takes for its client, for the connection of that client, and for the server behind it."""
+
+    client_id = ""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.messages: list[Any] = []
+        self._websock_connection = self._viser_server = self
+        self._scene_lifecycle_lock = threading.RLock()
+
+    def queue_message(self, message: Any) -> None:
+        self.messages.append(message)
+
+    def get_message_buffer(self) -> Any:
+        return self
+
+    def remove_entity_state_from_buffer(self, *_: Any) -> None: ...
+
+    sanctioned_dead_writes = staticmethod(contextlib.nullcontext)
+
+
+class Listener:
+    """Hears what viser would send for what is added to a scene. For one thread.
+
+    Raises:
+        InputError: If this version of viser has another kind of scene API.
+    """
+
+    def __init__(self) -> None:
+        self._wire = _Wire()
+        try:
+            self._scene = viser.SceneApi(self._wire, None, None)  # type: ignore[arg-type]
+            self.at_first = self._taken()
+        except (AttributeError, TypeError) as error:
+            raise InputError(f"viser {viser.__version__} makes scenes in another way: install viser 1.1.1") from error
+
+    def heard(self, add: Callable[[viser.SceneApi], Any]) -> list[tuple[Said, list[memoryview]]]:
+        """Return what viser says when something is added to its scene: each message, and its arrays."""
+        add(self._scene)
+        return self._taken()
+
+    def _taken(self) -> list[tuple[Said, list[memoryview]]]:
+        messages, self._wire.messages = self._wire.messages, []
+        self._scene._handle_from_node_name.clear()  # the next node of the same name is a new one
+        self._scene._children_from_node_name.clear()
+        taken = []
+        for message in messages:
+            arrays: list[memoryview] = []
+            taken.append((message.as_serializable_dict(arrays), arrays))
+        return taken

@@ -1,0 +1,189 @@
+"""A scene as plain nodes that any page can draw: of which kind, with which properties, where.
+
+A node is made once, the same for all who ask, and lives as long as the primitive that it shows. Equal content has an equal
+key, so that a page is sent it once.
+"""
+
+import hashlib
+import json
+import threading
+import weakref
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from workbench.lesson import View
+from workbench.scene import Label, Scene, Spatial, in_space
+from workbench.wire.listener import Listener, Said
+from workbench.wire.primitives import AT_ORIGIN, NAME, Pose, add, place_of, pose_of
+from workbench.wire.stage import add_stage, axis_names
+
+SCENE = "/scene/"
+"""What the names of all that belongs to a step begin with; the rest is the stage."""
+
+
+class Content:
+    """The bytes of an array, of which there is one for all equal ones."""
+
+    __slots__ = ("__weakref__", "data", "key")
+
+    def __init__(self, key: str, data: bytes):
+        self.key, self.data = key, data
+
+
+@dataclass(frozen=True, eq=False)
+class Kind:
+    """What is drawn, wherever it stands.
+
+    Attributes:
+        key: Of equal content, equal keys.
+        text: As JSON: viser's type of node, its properties, and how opaque it is; an array is `{"$": key, "as": dtype}`.
+        arrays: Those that belong to it.
+    """
+
+    key: str
+    text: str
+    arrays: tuple[Content, ...] = field(repr=False)
+
+
+Node = tuple[Kind, Pose]
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What stands where a scene will be: nodes by name, and what a client is told besides."""
+
+    nodes: Mapping[str, Node]
+    light: tuple[Said, ...]
+
+
+class Maker:
+    """Makes nodes. One serves a process; any thread may ask."""
+
+    def __init__(self) -> None:
+        self._own = (
+            threading.local()
+        )  # viser's scene API is one for each thread: nobody waits for a heavy scene of others
+        self._lock = threading.Lock()
+        self._made: weakref.WeakKeyDictionary[Spatial, dict[str, Node]] = weakref.WeakKeyDictionary()
+        self._contents: weakref.WeakValueDictionary[str, Content] = weakref.WeakValueDictionary()
+        self._stages: dict[View, Stage] = {}
+
+    def held(self) -> int:
+        """Return how many bytes the arrays hold of all nodes that are still there."""
+        with self._lock:
+            return sum(len(content.data) for content in self._contents.values())
+
+    def nodes(self, scene: Scene, view: View) -> dict[str, Node]:
+        """Return all nodes of a scene and of its stage, by name, in the order in which they are drawn."""
+        found = dict(self.stage(view).nodes)
+        for path, primitive in scene.items():
+            if in_space(primitive):
+                base = SCENE + path.replace("/", "·")  # without a parent: poses compose
+                found |= {base + part: node for part, node in self._of(primitive).items()}  # type: ignore[arg-type]
+        return found
+
+    def stage(self, view: View) -> Stage:
+        """Return the stage of a view."""
+        stage = self._stages.get(view)
+        if stage is None:
+            listener = self._listener()
+            nodes, light = self._nodes([*listener.at_first, *listener.heard(lambda scene: add_stage(scene, view))])
+            for name, place in axis_names(view):
+                nodes[f"/axis/{name}"] = self._word(name, small=True), place_of(place, None)
+            stage = self._stages[view] = Stage(nodes, tuple(light))
+        return stage
+
+    def _listener(self) -> Listener:
+        if not hasattr(self._own, "listener"):
+            self._own.listener = Listener()
+        return self._own.listener
+
+    def _of(self, primitive: Spatial) -> dict[str, Node]:
+        """Return the nodes of a primitive, by what stands behind its own name."""
+        with self._lock:
+            made = self._made.get(primitive)
+        if made is None:
+            made = self._new(primitive)
+            with self._lock:
+                made = self._made.setdefault(primitive, made)
+        return made
+
+    def _new(self, primitive: Spatial) -> dict[str, Node]:
+        if isinstance(primitive, Label):
+            word = self._word(primitive.text, fade=primitive.opacity)
+            return {"": (word, place_of(primitive.p, primitive.T_world_object))}
+        nodes, _ = self._nodes(self._listener().heard(lambda scene: add(scene, primitive)), fade=primitive.opacity)
+        pose = pose_of(primitive)
+        return {name[len(NAME) :]: (kind, pose if name == NAME else at) for name, (kind, at) in nodes.items()}
+
+    def _word(self, text: str, *, small: bool = False, fade: float = 1.0) -> Kind:
+        return self._kind("Label", {"text": text, **({"small": True} if small else {})}, [], fade=fade)
+
+    def _nodes(
+        self, heard: list[tuple[Said, list[memoryview]]], fade: float = 1.0
+    ) -> tuple[dict[str, Node], list[Said]]:
+        """Return what was heard as nodes, and what was said of no node."""
+        made: dict[str, tuple[Said, list[memoryview]]] = {}
+        poses: dict[str, Pose] = {}
+        hidden, others = set[str](), list[Said]()
+        for said, arrays in heard:
+            name = said.get("name")
+            if name is None:
+                others.append(said)
+            elif "props" in said:
+                made[name], poses[name] = (said, arrays), AT_ORIGIN
+            elif said["type"] == "SceneNodeUpdateMessage":
+                made[name][0]["props"].update(said["updates"])
+            elif said["type"] == "SetPositionMessage":
+                poses[name] = place_of(np.asarray(said["position"]), None)
+            elif said["type"] == "SetSceneNodeVisibilityMessage" and not said["visible"]:
+                hidden.add(name)
+        nodes = {
+            name: (self._kind(said["type"], said["props"], arrays, fade=fade, visible=name not in hidden), poses[name])
+            for name, (said, arrays) in made.items()
+        }
+        return nodes, others
+
+    def _kind(
+        self, type_: str, props: Mapping[str, Any], arrays: list[memoryview], *, fade: float = 1.0, visible: bool = True
+    ) -> Kind:
+        contents: list[Content] = []
+
+        def plain(value: Any) -> Any:
+            if isinstance(value, dict) and "__binary_index" in value:
+                return array(bytes(arrays[value["__binary_index"]]), value["dtype"])
+            if isinstance(value, bytes | memoryview):
+                return array(bytes(value), "|u1")
+            if isinstance(value, float | np.floating):
+                return float(value) if np.isfinite(value) else None
+            return [plain(one) for one in value] if isinstance(value, tuple | list) else value
+
+        def array(content: bytes, dtype: str) -> dict[str, str]:
+            contents.append(self._content(content))
+            return {"$": contents[-1].key, "as": dtype}
+
+        said: dict[str, Any] = {"type": type_, "props": {name: plain(value) for name, value in props.items()}}
+        said |= {"fade": round(fade, 4)} if fade < 1 else {}
+        said |= {} if visible else {"visible": False}
+        text = json.dumps(said, separators=(",", ":"), allow_nan=False)
+        return Kind(digest(text.encode()), text, tuple(contents))
+
+    def _content(self, content: bytes) -> Content:
+        key = digest(content)
+        with self._lock:
+            kept = self._contents.get(key)
+            if kept is None:
+                kept = self._contents[key] = Content(key, content)
+        return kept
+
+
+def digest(content: bytes) -> str:
+    """Return what stands for bytes: 96 bits of a hash."""
+    return hashlib.blake2b(content, digest_size=12).hexdigest()
+
+
+MAKER = Maker()
+"""That of this process."""
