@@ -112,7 +112,9 @@ def test_only_the_exercise_that_forbids_it_is_refused():
 
 
 HANDED = [
-    node.name for node in ast.parse(REFUSED.read_text(encoding="utf-8")).body if "__" in getattr(node, "name", "")
+    node.name
+    for node in ast.parse(REFUSED.read_text(encoding="utf-8")).body
+    if isinstance(node, ast.FunctionDef) and "__" in node.name
 ]
 
 
