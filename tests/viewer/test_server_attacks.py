@@ -23,9 +23,9 @@ from tests.viewer.attacked import HERE, goes_on, meanwhile, until
 from workbench import links
 from workbench.knobs import fields_of
 from workbench.lesson import catalog
+from workbench.viewer import connection as connection_module
 from workbench.viewer import patience
 from workbench.viewer import server as server_module
-from workbench.viewer import connection as connection_module
 from workbench.viewer.connection import PageConnection
 from workbench.viewer.runs import Runs
 from workbench.viewer.server import Server
