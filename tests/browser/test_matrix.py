@@ -23,7 +23,6 @@ from workbench.page.code import moment_data
 from workbench.questions import answer
 from workbench.scene import Picture
 from workbench.timeline import Timeline
-from workbench.viewer.student import Student
 
 pytestmark = pytest.mark.browser
 AGREES = """(captions) => page.run.finished && page.known() === captions.length &&

@@ -162,7 +162,7 @@ def test_gradescope_has_results_where_the_grader_breaks(gradescope, bare, tmp_pa
     if broken == "no sandbox":
         settings = json.loads((root / "source" / "assignment.json").read_text())
         (root / "source" / "assignment.json").write_text(json.dumps(settings | {"sandbox": "landlock"}))
-        walls = root / "source" / "packages" / "workbench" / "exercise" / "sandbox" / "walls.py"
+        walls = root / "source" / "packages" / "workbench" / "exercise" / "sandbox" / "isolation.py"
         walls.write_text(walls.read_text() + "\ndef _tried(wall): return 'not in this container'\n")
     found = run(root / "run_autograder", root, "/nowhere/python" if broken == "no Python" else bare)
     jsonschema.validate(found, GRADESCOPE)

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from lessons.pinhole import experiments
-from lessons.pinhole.experiments import BACK, DISTORT, DIVIDE, PIXELS
+from lessons.pinhole.captions import back_error, blame, depth
 from lessons.pinhole.lesson import lesson
+from lessons.pinhole.presets import BACK, DISTORT, DIVIDE, PIXELS
 from lessons.pinhole.shot import FACTORS, shot_of
 from lessons.pinhole.state import Params
-from lessons.pinhole.words import back_error, blame, depth
 from tests.lessons.pinhole_runs import orange, preset, states, tone
 from tests.runs import finished
 from workbench.algorithms import pinhole

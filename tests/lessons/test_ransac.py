@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from lessons.ransac import experiments
-from lessons.ransac.experiments import clean_share, end, first, share_reached
+from lessons.ransac.captions import is_right
 from lessons.ransac.lesson import lesson
+from lessons.ransac.presets import clean_share, end, first, share_reached
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params
-from lessons.ransac.words import is_right
 from tests.lessons.ransac_runs import best, members, part, rivals, states_of, truth_of
 from tests.truths.ransac import most_trusted
 from workbench.algorithms.models import MODELS, PLANE

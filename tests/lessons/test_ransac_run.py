@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from lessons.ransac import experiments
-from lessons.ransac.experiments import end, first
+from lessons.ransac.captions import is_right
 from lessons.ransac.lesson import chosen_sample, lesson, run
+from lessons.ransac.presets import end, first
 from lessons.ransac.rows import subject_of
 from lessons.ransac.shapes import outline
 from lessons.ransac.state import Params
-from lessons.ransac.words import is_right
 from tests.lessons.ransac_runs import best, part, rivals, states_of, truth_of
 from workbench.algorithms.models import MODELS
 from workbench.algorithms.ransac import iterations_needed

@@ -12,9 +12,9 @@ from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox.budget import CALLS
+from workbench.exercise.sandbox.function import MEGABYTES
+from workbench.exercise.sandbox.isolation import OUTPUT_BYTES
 from workbench.exercise.sandbox.python import ALLOWED
-from workbench.exercise.sandbox.student import MEGABYTES
-from workbench.exercise.sandbox.walls import OUTPUT_BYTES
 from workbench.lesson import catalog
 from workbench.loading import word_for
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from workbench.atomic import write_atomic
 from workbench.errors import InputError
-from workbench.exercise.sandbox.student import MEGABYTES
+from workbench.exercise.sandbox.function import MEGABYTES
 from workbench.exercise.starter import commands, starter
 from workbench.handout import gradescope, prairielearn
 from workbench.handout.assignment import Assignment

@@ -21,7 +21,7 @@ from workbench.wire.packing import PageWire
 from workbench.wire.stage import Aim
 
 
-class Telling:
+class PageUpdates:
     """What a page has been told, and what is new to it.
 
     Args:
