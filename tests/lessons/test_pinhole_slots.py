@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lessons.pinhole import experiments
+from lessons.pinhole import presets
 from lessons.pinhole.captions import back_error
 from lessons.pinhole.lesson import lesson
 from lessons.pinhole.presets import BACK, DISTORT, DIVIDE, PIXELS
@@ -62,7 +62,7 @@ def test_a_lens_that_bends_where_there_is_none_is_not_said_to_do_nothing():
 
 def test_round_trips_end_where_they_began_and_not_at_a_rounding():
     assert captions(Params())[BACK].endswith("we come out where we began.")
-    assert "1.09 m from where we began" in captions(experiments.RAY_LENGTH)[BACK]
+    assert "1.09 m from where we began" in captions(presets.RAY_LENGTH)[BACK]
 
 
 # The functions of the exercises
