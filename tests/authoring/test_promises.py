@@ -237,6 +237,12 @@ BROKEN = [
     (TASK, "@alternative\n", "", "it has 0 alternatives; wanted are 1 or more"),
     (
         TASK,
+        "np.linalg.solve(A.T @ A, A.T @ (p**2).sum(axis=1))",
+        "fit_circle(p); return fit_circle(p)",
+        "by_normal_equations does not earn full marks by itself",
+    ),
+    (
+        TASK,
         "left_alone(candidate, judged(candidate, on_circle(CIRCLE)))",
         "judged(candidate, on_circle(CIRCLE))",
         "a function that changes its input is not told so",
