@@ -10,8 +10,8 @@ from typing import Any
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.flags import show_command
 from workbench.lesson import Lesson, Question, Sweep, catalog
+from workbench.links import show_command
 from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
 from workbench.publish.sources import sources_digest

@@ -4,7 +4,7 @@ from workbench.geometry.polylines import between
 from workbench.scene import Chart, Points, Scene, Segments
 
 from .state import P_TRUE, State
-from .words import caption
+from .captions import caption
 
 DISTANCE = Chart("Distance", unit="m")
 
