@@ -3,8 +3,8 @@
 from workbench.geometry.polylines import between
 from workbench.scene import Chart, Points, Scene, Segments
 
-from .state import P_TRUE, State
 from .captions import caption
+from .state import P_TRUE, State
 
 DISTANCE = Chart("Distance", unit="m")
 

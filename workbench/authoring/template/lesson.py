@@ -17,8 +17,8 @@ from workbench.tracing import traced
 
 from .draw import draw
 from .exercises.weighted_centroid import weighted_centroid
-from .presets import PRESETS, QUESTIONS
 from .fixes import measured
+from .presets import PRESETS, QUESTIONS
 from .state import P_TRUE, Params, State
 
 Centroid = Callable[[np.ndarray, np.ndarray], np.ndarray]
