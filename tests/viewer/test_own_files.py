@@ -48,8 +48,9 @@ class Page:
 
     def until(self, what) -> dict:
         while True:
-            told = json.loads(self.socket.recv(timeout=300))
-            if what(told):
+            part = self.socket.recv(timeout=300)
+            told = {} if isinstance(part, bytes) else json.loads(part)  # a scene comes as bytes
+            if told and what(told):
                 return told
 
     def give(self, content: bytes, name: str = "mine.npy", field: str = "scan", origin: str | None = None):

@@ -31,7 +31,7 @@ def rotation_verdict(
             return fail(f"{name} mirrors: its determinant is {number(det, 3)}, right is 1. {hint}")
         return fail(
             f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}, its determinant is "
-            f"{number(det, 3)}. {hint}"
+            f"{number(det, 3)}, right is 1. {hint}"
         )
     return band("Rotation error", degrees_between(R, R_right), "degrees", good=good, fair=fair, hint=hint)
 

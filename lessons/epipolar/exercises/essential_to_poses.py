@@ -19,6 +19,7 @@ from workbench.exercise import (
     fail,
     left_alone,
     mistake,
+    number,
     worst,
 )
 from workbench.exercise.judging import degrees_between
@@ -82,8 +83,11 @@ def judged(Ts: np.ndarray, rights: np.ndarray, good: float = 0.01, fair: float =
     """Judge whether each of some right motions is among the answers, by the one that is farthest from all of them."""
     for T in Ts:
         if not is_motion(T):
+            if np.isfinite(T).all() and np.allclose(T[:3, :3].T @ T[:3, :3], np.eye(3), atol=1e-6):
+                last = ", ".join(number(value) for value in T[3])
+                return fail(f"The last row of one of yours is ({last}), right is (0, 0, 0, 1). {HINT}")
             told = beside(T[:3, :3].T @ T[:3, :3], np.eye(3), HINT, "R^T R") if np.isfinite(T).all() else HINT
-            return fail(f"One of yours is no motion, or its last row is not (0, 0, 0, 1). {told}")
+            return fail(f"One of yours is no motion. {told}")
         det = float(np.linalg.det(T[:3, :3]))
         if det < 0:
             return fail(
