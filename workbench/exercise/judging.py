@@ -29,10 +29,8 @@ def rotation_verdict(
     if off > SKEWED or det < 0:
         if off <= SKEWED:
             return fail(f"{name} mirrors: its determinant is {number(det, 3)}, right is 1. {hint}")
-        return fail(
-            f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}, its determinant is "
-            f"{number(det, 3)}, right is 1. {hint}"
-        )
+        told = f", its determinant is {against(det, 1.0, 3)}" if abs(det - 1.0) > SKEWED else ""
+        return fail(f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}{told}. {hint}")
     return band("Rotation error", degrees_between(R, R_right), "degrees", good=good, fair=fair, hint=hint)
 
 
