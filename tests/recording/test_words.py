@@ -57,6 +57,7 @@ def test_signs_that_fonts_lack_are_replaced(text, drawn):
         (r"T_{ab}, -t = (-1, x) - y", "T_ab, −t = (−1, x) − y"),
         (r"\tbinom{3}{i} \operatorname{tr}(D)", "(3 over i) tr (D)"),
         (r"\begin{aligned} a &= b \\ c &< d \end{aligned}", "a = b; c < d"),
+        (r"x = X / Z, \qquad y = Y / Z", "x = X/Z,\ny = Y/Z"),
         (r"\bar q", "mean q"),
         (r"\unknown{x}", "unknown x"),
         (r"\frac", "frac"),
@@ -75,6 +76,7 @@ def test_no_formula_breaks_the_page(tex):
 
 def test_code_is_left_alone_and_formulas_become_words():
     page = plain_page("Take $\\alpha_1$ and `$x$`.\n\n$$ a = b $$\n\n```\n$y$\n```\n")
+    assert plain_page("$a \\qquad b$ $$a \\qquad b$$") == "a b \n    a\n    b\n"
     assert page == "Take α₁ and `$x$`.\n\n\n    a = b\n\n\n```\n$y$\n```\n"
 
 

@@ -24,21 +24,21 @@ def plain_page(markdown: str) -> str:
 
 def _part(part: str) -> str:
     if part.startswith("$$"):
-        return f"\n    {plain_formula(part[2:-2])}\n"
+        return "\n" + "\n".join(f"    {line}" for line in plain_formula(part[2:-2]).splitlines()) + "\n"
     if part.startswith("$") and part.endswith("$") and len(part) > 1:
-        return re.sub(r"([*_`|<\\])", r"\\\1", plain_formula(part[1:-1]))
+        return re.sub(r"([*_`|<\\])", r"\\\1", plain_formula(part[1:-1]).replace("\n", " "))
     return part
 
 
 def plain_formula(tex: str) -> str:
-    """Return a TeX formula in plain signs on one line, rows of a matrix behind semicolons; what no reader knows as it is."""
+    r"""Return a TeX formula in plain signs a line for each `\qquad`, rows of a matrix behind semicolons."""
     try:
         formula = ElementTree.fromstring(math_html(tex).replace(">&<", "><"))  # signs of alignment, not escaped
     except ElementTree.ParseError:
         formula = None
     if formula is None or formula.tag == "code":
         return safe(re.sub(r"[\\{}$]", "", tex)).strip()
-    text = re.sub(r"\s+", " ", safe(_text(formula)))
+    text = re.sub(r" *\n *", "\n", re.sub(r"[^\S\n]+", " ", safe(_text(formula))))
     return re.sub(r"([(\[{]) | (?=[,;.)\]}])", r"\1", text).strip()
 
 
@@ -53,7 +53,7 @@ def _text(node: ElementTree.Element) -> str:
             word = node.text or ""
             return f" {word} " if word in _SPACED or word.isalpha() else f"{word} " if word in ",;:" else word
         case "mspace":
-            return "; " if node.get("linebreak") else "\u00a0"
+            return "; " if node.get("linebreak") else "\n" if node.get("width") == "2em" else "\u00a0"
         case "mfrac" if node.get("linethickness") == "0":
             return " over ".join(parts)
         case "mfrac":
