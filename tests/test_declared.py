@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 ASKED = [Requirement(line) for line in PROJECT["dependencies"]]
 CI = (ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8")
-BESIDE = "workbench/exercise/inside"
+BESIDE = "workbench/exercise/child"
 """Files here are run in a student's process, where they import each other by their bare names."""
 
 

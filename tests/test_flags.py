@@ -1,22 +1,21 @@
 """Commands that are printed for a run open that run: each goes through a shell's words and the real parser."""
 
 import functools
-import inspect
 import shlex
 from dataclasses import replace
 from pathlib import Path
-from typing import get_args
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests import fake
-from workbench.cli import COMMANDS, show
+from workbench.cli import show
 from workbench.errors import InputError
-from workbench.flags import SWITCHES, Chosen, command_line, parse, show_command
+from workbench.flags import Chosen, parse
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, catalog
+from workbench.links import command_line, show_command
 
 LESSONS = list(catalog().values())
 
@@ -98,16 +97,22 @@ def test_a_student_s_file_behind_a_flag_is_not_taken_for_the_lesson(tmp_path):
     assert opened(command_line("show", "--with", evil, "icp")).lesson.name == "icp"
     with pytest.raises(InputError, match="which lesson"):
         opened(command_line("show", "--with", evil))
+    with pytest.raises(InputError, match="which lesson"):
+        opened(command_line("show", "--scan", evil))  # a flag of whatever lesson it might be
+    with pytest.raises(InputError, match="--scan"):
+        opened(command_line("show", "--scan", evil, "icp"))
     assert opened(command_line("show", "--no-browser", tmp_path / "mine.py")).lesson is fake.lesson
     assert not (tmp_path / "was-run").exists()
 
 
-def test_every_switch_of_a_command_that_takes_a_lesson_is_known():
-    switches = {"--no-browser", "--open"}  # of ServingLive
-    for command in COMMANDS.values():
-        parameters = inspect.signature(command).parameters.values()
-        if any(parameter.annotation is Chosen for parameter in parameters):
-            switches |= {
-                f"--{parameter.name}" for parameter in parameters if get_args(parameter.annotation)[:1] == (bool,)
-            }
-    assert switches == SWITCHES
+def test_flags_stand_where_people_put_them(monkeypatch):
+    monkeypatch.setitem(catalog(), "fake", fake.lesson)
+    for words in (
+        "fake --place -1,0.25,0 --no-wobble --step -1",
+        "--place=-1,0.25,0 fake --step=-1 --no-wobble",
+        "--no-browser --no-wobble fake --place -1,.25,-0 --port 0",
+    ):
+        assert opened(f"workbench show {words}").params == fake.Params(place=(-1.0, 0.25, 0.0), wobble=False)
+    assert (
+        opened("workbench show icp --start_angle 120").params == opened("workbench show --start-angle=120 icp").params
+    )

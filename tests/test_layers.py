@@ -61,11 +61,11 @@ ALLOWED = {
         "workbench.publish", "workbench.page", "workbench.exercise",
         "workbench.recording", "workbench.wire", "workbench.typeset",
         "workbench.session",
-        "workbench.links", "workbench.images", "workbench.progress", "workbench.flags", "workbench.atomic",
+        "workbench.links", "workbench.images", "workbench.progress", "workbench.atomic",
         "workbench.workers",
     },
     "workbench.viewer": LESSON | {
-        "workbench.viewer", "workbench.page", "workbench.flags", "workbench.session", "workbench.wire", "workbench.links",
+        "workbench.viewer", "workbench.page", "workbench.session", "workbench.wire", "workbench.links",
         "workbench.picking", "workbench.typeset", "workbench.recording", "workbench.exercise",
         "workbench.authoring.reloading", "workbench.hosts",
     },

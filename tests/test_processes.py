@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from workbench.workers import WorkerLostError, shared_out
+from workbench.workers import WorkerLostError, parallel_map
 
 ROOT = Path(__file__).resolve().parents[1]
 PATIENCE = 120.0
@@ -20,9 +20,9 @@ PATIENCE = 120.0
 RUNS_LONG = """
 import sys
 from tests.test_processes import begin_and_wait
-from workbench.workers import shared_out
+from workbench.workers import parallel_map
 if __name__ == "__main__":
-    for task in shared_out(begin_and_wait, [sys.argv[1] + "/a", sys.argv[1] + "/b"], 2):
+    for task in parallel_map(begin_and_wait, [sys.argv[1] + "/a", sys.argv[1] + "/b"], 2):
         pass
 """
 
@@ -49,18 +49,18 @@ def begin_and_wait(path: str) -> None:
 
 
 def test_everything_is_done_once():
-    assert sorted(shared_out(square, range(5), 2)) == [(n, n * n) for n in range(5)]
-    assert list(shared_out(square, [], 2)) == []
+    assert sorted(parallel_map(square, range(5), 2)) == [(n, n * n) for n in range(5)]
+    assert list(parallel_map(square, [], 2)) == []
 
 
 def test_an_error_is_raised_here():
     with pytest.raises(ValueError, match="3 is bad"):
-        list(shared_out(fail, [3], 2))
+        list(parallel_map(fail, [3], 2))
 
 
 def test_a_process_that_is_ended_from_outside_is_noticed():
     with pytest.raises(WorkerLostError):
-        list(shared_out(vanish, [1], 1))
+        list(parallel_map(vanish, [1], 1))
 
 
 def vanish_or_hang(number: int) -> int:
@@ -73,7 +73,7 @@ def vanish_or_hang(number: int) -> int:
 
 @pytest.mark.parametrize("start", ["spawn", "fork"])
 def test_what_is_lost_or_takes_too_long_costs_no_other(start):
-    found = shared_out(vanish_or_hang, range(6), 2, seconds=3.0, lost=lambda number: -number, start=start)
+    found = parallel_map(vanish_or_hang, range(6), 2, seconds=3.0, lost=lambda number: -number, start=start)
     assert sorted(found) == [(0, 0), (1, -1), (2, -2), (3, 3), (4, 4), (5, 5)]
 
 

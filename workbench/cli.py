@@ -12,9 +12,11 @@ from typing import Annotated, Any
 
 from workbench import __version__
 from workbench.errors import InputError, not_among, one_line
-from workbench.flags import Chosen, Option, Serving, ServingLive, command_line, is_path, lesson_given, parse
+from workbench.flags import Chosen, Option, Serving, ServingLive, parse
 from workbench.knobs import called_by_flags
 from workbench.lesson import catalog
+from workbench.links import command_line
+from workbench.loading import is_path, lesson_given
 
 Command = Callable[..., int | None]
 """Does its work; returns the exit code where it is neither 0 nor, for an InputError, 2."""

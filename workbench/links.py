@@ -1,5 +1,10 @@
-"""Addresses of exact moments: `?lesson=icp&start_angle=120&step=7`. Everything in one is checked like any other input."""
+"""Addresses and commands that open exact moments: `?lesson=icp&start_angle=120`, `workbench show icp --start-angle=120`.
 
+Everything in an address is checked like any other input.
+"""
+
+import os
+import shlex
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
@@ -8,6 +13,7 @@ from urllib.parse import parse_qsl, urlencode
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
+from workbench.loading import word_for
 
 
 @dataclass(frozen=True)
@@ -66,3 +72,38 @@ def read(query: str, *, here: Lesson | None = None) -> Place | None:
     params = knobs.make(lesson.params, values, base=base)
     opens = lesson.preset(preset).step if preset is not None and not values else None
     return Place(lesson, params, opens if step is None else int(step))
+
+
+def command_line(*words: object) -> str:
+    """Return a command of the workbench as a person can type it, quoted for a shell."""
+    return " ".join(["workbench", *(_quoted(str(word)) for word in words)])
+
+
+def _quoted(word: str) -> str:
+    if word.isprintable():
+        return shlex.quote(word)
+    signs = {"\\": "\\\\", "'": "\\'"}
+    escaped = (
+        signs.get(sign, sign) if sign.isprintable() else "".join(f"\\x{byte:02x}" for byte in os.fsencode(sign))
+        for sign in word
+    )
+    return f"$'{''.join(escaped)}'"  # a terminal that shows it obeys none of its signs
+
+
+def show_command(lesson: Lesson, params: Any) -> str:
+    """Return the command that opens a lesson live at these params.
+
+    A lesson that the catalogue does not have is named by its file. Where a run reads somebody's own file, FILE stands in
+    its place: what a person's folders are called is nobody else's business.
+    """
+    given = knobs.changed(params)
+    flags = [_flag_of(field, given[field.name]) for field in knobs.fields_of(type(params)) if field.name in given]
+    return command_line("show", word_for(lesson.name, lesson.params.__module__), *flags)
+
+
+def _flag_of(field: knobs.Field, text: str) -> str:
+    """Return the flag that gives a field the value that `knobs.changed` writes as this text."""
+    name = field.name.replace("_", "-")
+    if field.kind == "bool":
+        return f"--{name}" if field.clean(text) else f"--no-{name}"
+    return f"--{name}={'FILE' if field.kind == 'path' else text}"

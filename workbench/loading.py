@@ -6,6 +6,7 @@ import each other (`from .draw import draw`). Loaded again, it is another packag
 
 import importlib
 import itertools
+import os
 import sys
 import traceback
 from importlib.machinery import ModuleSpec, SourceFileLoader
@@ -15,7 +16,7 @@ from types import ModuleType
 
 from workbench.authors import described
 from workbench.errors import AuthorError, InputError
-from workbench.lesson import Lesson, catalog, lesson_in
+from workbench.lesson import Lesson, catalog, find, lesson_in
 
 _numbers = itertools.count(1)
 
@@ -71,6 +72,28 @@ def taken_by(lesson: Lesson) -> str | None:
     if other is None or other is lesson or files[0] == files[1]:
         return None
     return f"lesson {other.name} ({files[0] or other.params.__module__})"
+
+
+def lesson_given(word: str) -> Lesson:
+    """Return the lesson that a person names on the command line: by its name, or by the path of its file or folder.
+
+    For words that a person typed only, since the file is run; names out of files and links go to `find`.
+
+    Raises:
+        InputError: If there is no such lesson, the file cannot be used, or its lesson has the name of another.
+    """
+    if not is_path(word):
+        return find(word)
+    lesson = load(Path(word))
+    other = taken_by(lesson)
+    if other is not None:
+        raise InputError(f"{word}: its name {lesson.name!r} is taken by {other}; give it another")
+    return lesson
+
+
+def is_path(word: str) -> bool:
+    """Tell whether a word names a lesson by its path: a Python file, a folder, or what has a slash in it."""
+    return word not in catalog() and (word.endswith(".py") or os.sep in word or "/" in word or Path(word).is_dir())
 
 
 class _Place(ModuleType):

@@ -13,8 +13,8 @@ import numpy as np
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.flags import show_command
 from workbench.lesson import Lesson, find
+from workbench.links import show_command
 from workbench.loading import load
 from workbench.numerals import brief, length
 from workbench.page.document import lesson_document

@@ -41,7 +41,7 @@ class _Worker:
             return None
 
 
-def shared_out(
+def parallel_map(
     function: Callable[[T], R],
     tasks: Sequence[T],
     processes: int,

@@ -3,9 +3,9 @@
 import numpy as np
 
 from lessons.alignment.axes import signed_axes
+from lessons.alignment.captions import caption
 from lessons.alignment.charts import beside_axes, beside_pairs
 from lessons.alignment.state import AxesState, Outcome, PairsState, Scans, State
-from lessons.alignment.words import caption
 from workbench.data.surfaces import sphere
 from workbench.data.thinning import every
 from workbench.geometry.motions import apply

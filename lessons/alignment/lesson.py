@@ -12,7 +12,7 @@ import numpy as np
 
 from lessons.alignment.axes import FindAxes, Sign, axes_stage, gap
 from lessons.alignment.draw import draw
-from lessons.alignment.experiments import FIRST, PRESETS, QUESTIONS, VIEW
+from lessons.alignment.presets import FIRST, PRESETS, QUESTIONS, VIEW
 from lessons.alignment.scans import scans_of
 from lessons.alignment.state import Outcome, PairsState, Params, State
 from workbench.algorithms.procrustes import Scale, procrustes

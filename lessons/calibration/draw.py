@@ -4,10 +4,10 @@ import functools
 
 import numpy as np
 
+from lessons.calibration.captions import caption, title
 from lessons.calibration.charts import beside
 from lessons.calibration.state import State, Subject
 from lessons.calibration.views import photograph
-from lessons.calibration.words import caption, title
 from workbench.data.boards import board_mesh, board_points
 from workbench.geometry.cameras import look_at
 from workbench.geometry.motions import apply, inverse, motion

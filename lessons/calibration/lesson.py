@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from lessons.calibration.draw import VIEW, draw
-from lessons.calibration.experiments import PRESETS, QUESTIONS
+from lessons.calibration.presets import PRESETS, QUESTIONS
 from lessons.calibration.state import COEFFICIENTS, Ending, Params, State
 from lessons.calibration.views import deviations, map_error, over_tilt, subject_of
 from workbench.algorithms import calibration as calibration_steps

@@ -3,9 +3,9 @@
 import numpy as np
 import scipy
 
+from lessons.chamfer_emd.captions import caption, left_label, right_label, significant
 from lessons.chamfer_emd.pairing import unrolled
 from lessons.chamfer_emd.state import Side, State
-from lessons.chamfer_emd.words import caption, left_label, right_label, significant
 from workbench.geometry.motions import motion
 from workbench.geometry.polylines import between
 from workbench.geometry.shape_distances import DEFINITIONS

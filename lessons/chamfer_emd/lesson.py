@@ -13,7 +13,7 @@ from lessons.chamfer_emd import distances
 from lessons.chamfer_emd.clouds import clouds_of
 from lessons.chamfer_emd.distances import Measures, measured, numbers_of_yardsticks
 from lessons.chamfer_emd.draw import VIEW, draw
-from lessons.chamfer_emd.experiments import PRESETS, QUESTIONS
+from lessons.chamfer_emd.presets import PRESETS, QUESTIONS
 from lessons.chamfer_emd.state import Params, State
 from workbench.algorithms import transport
 from workbench.algorithms.flow import Distance, Flow, flow

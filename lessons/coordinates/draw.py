@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from lessons.coordinates.captions import CAP, CAPS_AREA, caption, in_caps, quantity
 from lessons.coordinates.flat import met, ranged, seen
 from lessons.coordinates.state import State
-from lessons.coordinates.words import CAP, CAPS_AREA, caption, in_caps, quantity
 from workbench.algorithms.pan_tilt import Followed
 from workbench.algorithms.parallels import Met, Scaled, Seen
 from workbench.algorithms.placing import Cell, Placed, Ranged, Readings, Scattered, Walked

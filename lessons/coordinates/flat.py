@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from lessons.coordinates.captions import lies_on_both
 from lessons.coordinates.state import State, Thing
-from lessons.coordinates.words import lies_on_both
 from workbench.algorithms.parallels import Met, Seen
 from workbench.algorithms.placing import Ranged
 from workbench.certain import as_a

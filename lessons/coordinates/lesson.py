@@ -14,8 +14,8 @@ from lessons.coordinates.draw import draw
 from lessons.coordinates.exercises.great_circle_distance import great_circle_distance
 from lessons.coordinates.exercises.meet import meet
 from lessons.coordinates.exercises.spherical_from_cartesian import spherical_from_cartesian
-from lessons.coordinates.experiments import PRESETS, QUESTIONS, VIEW
 from lessons.coordinates.point import point_stage
+from lessons.coordinates.presets import PRESETS, QUESTIONS, VIEW
 from lessons.coordinates.state import SECONDS, TILTS, Now, Params, State
 from lessons.coordinates.subjects import places_of, thing_of
 from workbench.algorithms.pan_tilt import follow

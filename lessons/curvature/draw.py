@@ -3,10 +3,10 @@
 import numpy as np
 
 from lessons.curvature import ring
+from lessons.curvature.captions import caption
 from lessons.curvature.charts import beside
 from lessons.curvature.scales import DEFECT_SCALE, ERROR_SCALE, H_SCALE, K_SCALE, arrow, reach, share_within
 from lessons.curvature.state import State
-from lessons.curvature.words import caption
 from workbench.data.thinning import every
 from workbench.geometry.polylines import between
 from workbench.numerals import brief

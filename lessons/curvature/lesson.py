@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from lessons.curvature.draw import draw
-from lessons.curvature.experiments import GAUSSIAN, PRESETS, QUESTIONS, UNFOLDING, VIEW
 from lessons.curvature.mesh import subject_of
+from lessons.curvature.presets import GAUSSIAN, PRESETS, QUESTIONS, UNFOLDING, VIEW
 from lessons.curvature.state import Params, State, Subject
 from lessons.curvature.study import error_of, study_of
 from workbench.algorithms.curvature import Defects, Gaussian, MeanNormals, Measured, measure_curvature

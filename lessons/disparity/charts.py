@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
+from lessons.disparity.captions import distance
 from lessons.disparity.state import State
-from lessons.disparity.words import distance
 from workbench.algorithms.disparity import Stage
 from workbench.data.windows import side_by_side
 from workbench.geometry.stereo import depth_interval

@@ -5,10 +5,10 @@ import math
 
 import numpy as np
 
+from lessons.disparity.captions import caption
 from lessons.disparity.charts import beside
 from lessons.disparity.stage import T_WORLD_LEFT, pictures
 from lessons.disparity.state import Setup, State
-from lessons.disparity.words import caption
 from workbench.algorithms.disparity import Stage
 from workbench.data.framing import round_below
 from workbench.geometry.cameras import back_project

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from lessons.disparity.draw import draw
-from lessons.disparity.experiments import PRESETS, QUESTIONS
 from lessons.disparity.pairs import setup_of
+from lessons.disparity.presets import PRESETS, QUESTIONS
 from lessons.disparity.stage import VIEW
 from lessons.disparity.state import Figures, Params, Setup, State
 from lessons.disparity.truth import judged

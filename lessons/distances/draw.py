@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from lessons.distances.captions import caption
 from lessons.distances.charts import beside
 from lessons.distances.plane import HALF
 from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, State, Subject, Trials
 from lessons.distances.subjects import true_way
-from lessons.distances.words import caption
 from workbench.algorithms.heat_method import HeatState
 from workbench.certain import sure
 from workbench.data.thinning import every

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lessons.epipolar.captions import caption
 from lessons.epipolar.charts import beside
 from lessons.epipolar.state import State
-from lessons.epipolar.words import caption
 from workbench.algorithms.two_views import Followed
 from workbench.certain import sure
 from workbench.data.skyline import skyline

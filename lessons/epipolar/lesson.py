@@ -14,7 +14,7 @@ from lessons.epipolar.draw import VIEW, draw
 from lessons.epipolar.exercises.eight_point import eight_point
 from lessons.epipolar.exercises.essential_to_poses import essential_to_poses
 from lessons.epipolar.exercises.triangulate import triangulate
-from lessons.epipolar.experiments import PRESETS, QUESTIONS
+from lessons.epipolar.presets import PRESETS, QUESTIONS
 from lessons.epipolar.state import MOST_MATCHES, Params, State
 from workbench.algorithms.two_views import EightPoint, Poses, Triangulate, follow_ray, relate, solve_linear
 from workbench.data.two_views import TwoViews, made_views, own_views, shown_length

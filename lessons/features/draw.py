@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from lessons.features.captions import caption
 from lessons.features.flat import lines_between, outlined, pictured
 from lessons.features.state import Outlined, Pictured, Scanned, State
-from lessons.features.words import caption
 from workbench.data.thinning import every
 from workbench.geometry.alignment import rmse
 from workbench.geometry.fpfh import BINS

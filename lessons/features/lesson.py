@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from lessons.features.draw import draw
-from lessons.features.experiments import PRESETS, QUESTIONS, VIEW
 from lessons.features.outlines import outline_steps
 from lessons.features.pictures import Response, picture_steps
+from lessons.features.presets import PRESETS, QUESTIONS, VIEW
 from lessons.features.scans import Matcher, scan_steps
 from lessons.features.state import Params, State
 from workbench.geometry import fpfh, keypoints, matching

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from lessons.fitting.captions import caption
 from lessons.fitting.contours import REACH, on_contours
 from lessons.fitting.state import State, Subject
-from lessons.fitting.words import caption
 from workbench.algorithms.fit_studies import AWAY, FATES, Basin, Lines, Rivals, Spread
 from workbench.algorithms.least_squares import Descent, Walked
 from workbench.algorithms.robust import LOSSES, Trusted

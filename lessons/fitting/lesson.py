@@ -14,7 +14,7 @@ from lessons.fitting.draw import draw
 from lessons.fitting.exercises.circle_linearised import circle_linearised
 from lessons.fitting.exercises.damped_step import damped_step
 from lessons.fitting.exercises.huber_weights import huber_weights
-from lessons.fitting.experiments import PRESETS, QUESTIONS, VIEW
+from lessons.fitting.presets import PRESETS, QUESTIONS, VIEW
 from lessons.fitting.stages import Linearised, Weights, basin, lines, rivals, trust, walk
 from lessons.fitting.state import Now, Params, State
 from lessons.fitting.subjects import subject_of

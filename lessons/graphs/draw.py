@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from lessons.graphs.captions import caption
 from lessons.graphs.charts import beside
 from lessons.graphs.measures import predicted, reached
 from lessons.graphs.state import Grown, Matrix, Mode, State
-from lessons.graphs.words import caption
 from workbench.algorithms.diffusion import Heat, Smoothed
 from workbench.algorithms.graph_network import Layer, Trained
 from workbench.algorithms.spectral_cut import Cut

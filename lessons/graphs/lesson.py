@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from lessons.graphs.draw import draw
-from lessons.graphs.experiments import BALL, PRESETS, QUESTIONS, VIEW
+from lessons.graphs.presets import BALL, PRESETS, QUESTIONS, VIEW
 from lessons.graphs.stages import Functions, states
 from lessons.graphs.state import Params, State
 from lessons.graphs.subjects import subject_of

@@ -1,7 +1,7 @@
 """Where ICP ends from a row of starts: its basin of convergence.
 
 The tries are an experiment of their own, and quicker than the run: a thinned source, turned the other way about the
-vertical, not shifted, and fewer iterations. What `lessons.icp.words` says of a try tells all of this but the last.
+vertical, not shifted, and fewer iterations. What `lessons.icp.captions` says of a try tells all of this but the last.
 """
 
 import functools

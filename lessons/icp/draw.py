@@ -3,8 +3,8 @@
 import numpy as np
 
 from lessons.icp.basin import ANGLES, POINTS
+from lessons.icp.captions import caption
 from lessons.icp.state import Scans, State
-from lessons.icp.words import caption
 from workbench.data.thinning import every
 from workbench.geometry.alignment import MotionError
 from workbench.geometry.motions import apply, inverse

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from lessons.icp.basin import align_of, gate_of, tries_of
 from lessons.icp.draw import draw
-from lessons.icp.experiments import PRESETS, QUESTIONS, VIEW
+from lessons.icp.presets import PRESETS, QUESTIONS, VIEW
 from lessons.icp.scans import scans_of
 from lessons.icp.state import Params, State, Try
 from workbench.algorithms.icp import Align, Match, PlaneStep, icp

@@ -4,9 +4,9 @@ import functools
 
 import numpy as np
 
+from lessons.learning.captions import caption, changes_of, said, shares_right
 from lessons.learning.state import Clouds, Looks, Params, State, Target, Turns
 from lessons.learning.tasks import NEW_VIEW, PIXELS, RADII
-from lessons.learning.words import caption, changes_of, said, shares_right
 from workbench.algorithms.mesh_fitting import MeshFitted
 from workbench.algorithms.point_net import Classified
 from workbench.algorithms.radiance_field import Reconstructed

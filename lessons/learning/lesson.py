@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from lessons.learning.draw import draw
-from lessons.learning.experiments import PRESETS, QUESTIONS, VIEW
+from lessons.learning.presets import PRESETS, QUESTIONS, VIEW
 from lessons.learning.state import Params, State
 from lessons.learning.tasks import Functions, steps
 from workbench.algorithms.set_regression import ChamferGradient

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from lessons.measures.captions import area, off, volume
 from lessons.measures.state import State, Study
 from lessons.measures.study import SURE
-from lessons.measures.words import area, off, volume
 from workbench.algorithms.measures import Cells, Sums
 from workbench.algorithms.monte_carlo import Balls, Estimates, Lines, Sampled, Throws
 from workbench.numerals import percent

@@ -4,10 +4,10 @@ import functools
 
 import numpy as np
 
+from lessons.measures.captions import caption
 from lessons.measures.charts import beside
 from lessons.measures.samples import TRIANGLE, at_corners
 from lessons.measures.state import State, Subject
-from lessons.measures.words import caption
 from workbench.algorithms.measures import Cells, Sums
 from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
 from workbench.data.thinning import every

@@ -14,7 +14,7 @@ from lessons.measures.draw import draw
 from lessons.measures.exercises.points_on_faces import points_on_faces
 from lessons.measures.exercises.signed_volume import signed_volume
 from lessons.measures.exercises.volume_by_chance import volume_by_chance
-from lessons.measures.experiments import PRESETS, QUESTIONS, VIEW
+from lessons.measures.presets import PRESETS, QUESTIONS, VIEW
 from lessons.measures.samples import samples
 from lessons.measures.state import Params, State, Subject
 from lessons.measures.study import peeked, study_of

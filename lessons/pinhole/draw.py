@@ -5,9 +5,9 @@ import math
 
 import numpy as np
 
+from lessons.pinhole.captions import caption, depth
 from lessons.pinhole.shot import FACTORS
 from lessons.pinhole.state import State, name_of
-from lessons.pinhole.words import caption, depth
 from workbench.algorithms import pinhole
 from workbench.data.street import street
 from workbench.geometry.cameras import camera_center, depths

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from lessons.pinhole.draw import VIEW, draw
-from lessons.pinhole.experiments import PRESETS, QUESTIONS
 from lessons.pinhole.models import laid_out, model_of, overlaid
+from lessons.pinhole.presets import PRESETS, QUESTIONS
 from lessons.pinhole.shot import shot_of
 from lessons.pinhole.state import Params, Shot, State
 from workbench.algorithms import pinhole

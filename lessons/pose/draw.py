@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lessons.pose.captions import caption
 from lessons.pose.state import Repeated, State, Subject, Target
-from lessons.pose.words import caption
 from workbench.algorithms import ransac
 from workbench.algorithms.camera_search import Searched
 from workbench.certain import as_a

@@ -14,7 +14,7 @@ from lessons.pose.draw import LOOKS, VIEW, draw
 from lessons.pose.exercises.choose_pose import choose_pose
 from lessons.pose.exercises.pose_from_distances import pose_from_distances
 from lessons.pose.exercises.pose_step import pose_step
-from lessons.pose.experiments import PRESETS, QUESTIONS
+from lessons.pose.presets import PRESETS, QUESTIONS
 from lessons.pose.scenes import subject_of
 from lessons.pose.state import Params, State, Subject
 from lessons.pose.trials import repeated

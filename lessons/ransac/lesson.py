@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from lessons.ransac.draw import draw
-from lessons.ransac.experiments import PRESETS, QUESTIONS, VIEW
+from lessons.ransac.presets import PRESETS, QUESTIONS, VIEW
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params, Rival, State, Subject
 from workbench.algorithms.models import PLANE, from_points

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from lessons.representations.captions import field_error, form_of, size
 from lessons.representations.state import Built, Cells, Fitted, Growth, Joined, Searched, State
-from lessons.representations.words import field_error, form_of, size
 from workbench.algorithms.octree import Level
 from workbench.certain import sure
 from workbench.numerals import angle, length, percent

@@ -4,9 +4,9 @@ import functools
 
 import numpy as np
 
+from lessons.representations.captions import caption, subject_name
 from lessons.representations.charts import beside
 from lessons.representations.state import Built, Cells, Cloud, Fitted, Joined, Patches, Searched, State, Subject
-from lessons.representations.words import caption, subject_name
 from workbench.algorithms.kd_tree import Tree
 from workbench.algorithms.octree import Level
 from workbench.data.thinning import every

@@ -9,8 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from lessons.representations.draw import draw
-from lessons.representations.experiments import PRESETS, QUESTIONS, VIEW
 from lessons.representations.forms import FORMS, BezierPatch, Functions, others
+from lessons.representations.presets import PRESETS, QUESTIONS, VIEW
 from lessons.representations.state import Params, State
 from lessons.representations.subjects import BoxSdf, subject_of
 from workbench.geometry import bezier, level_sets, signed_distances

@@ -4,8 +4,8 @@ import functools
 
 import numpy as np
 
+from lessons.transforms.captions import caption_of_build, caption_of_move, times
 from lessons.transforms.state import FRONT, Body, Built, Ghost, Moved, State
-from lessons.transforms.words import caption_of_build, caption_of_move, times
 from workbench.data.framing import ground_grid
 from workbench.geometry.affine import decompose, is_affine, kind_of, transform, transform_directions, translation
 from workbench.geometry.invariants import Change

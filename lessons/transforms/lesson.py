@@ -12,7 +12,7 @@ import numpy as np
 from lessons.transforms.body import body_of, motion_factors, numbers_of, shape_factors
 from lessons.transforms.compare import ghosts_of, undo_ghosts_of
 from lessons.transforms.draw import draw
-from lessons.transforms.experiments import PRESETS, QUESTIONS, VIEW
+from lessons.transforms.presets import PRESETS, QUESTIONS, VIEW
 from lessons.transforms.state import Built, Moved, Params, State, Way
 from workbench.algorithms import interpolation as between
 from workbench.algorithms.composition import Invert, compose

@@ -13,7 +13,7 @@ from workbench.errors import InputError
 from workbench.loading import load
 
 CIRCLE = Path(__file__).resolve().parents[1] / "authors" / "circle"
-LESSON, DRAW, STATE, RUNS, PAGE = "lesson.py", "draw.py", "state.py", "experiments.py", "page.md"
+LESSON, DRAW, STATE, RUNS, PAGE = "lesson.py", "draw.py", "state.py", "presets.py", "page.md"
 TASK = "exercises/fit_circle.py"
 SCAFFOLD_LINE = (TEMPLATE / "page.md").read_text(encoding="utf-8").splitlines()[2]
 
@@ -172,7 +172,7 @@ BROKEN = [
         "view=View(eye=(90, 0, 0), target=(99, 0, 0)) if True else View(",
         "step 0: out of its frame are",
     ),
-    (RUNS, "states[0].circle[2],", "states[99].circle[2],", "question 'radius': circle/experiments.py, line N"),
+    (RUNS, "states[0].circle[2],", "states[99].circle[2],", "question 'radius': circle/presets.py, line N"),
     (RUNS, "states[0].circle[2],", "float('nan'),", "its answer is nan"),
     (RUNS, "tolerance=0.05", "tolerance=0.0", "question 'radius': its tolerance is 0"),
     (RUNS, "tolerance=0.05", "tolerance=0.05, wrong=((2.0, 1.0, 'The other way round.'),)", "wants a lowest number"),
@@ -182,7 +182,7 @@ BROKEN = [
         RUNS,
         "lambda states: 0 if",
         "lambda states: 7 if",
-        "question 'refined': circle/experiments.py, line N: its answer is 7",
+        "question 'refined': circle/presets.py, line N: its answer is 7",
     ),
     # the page
     (PAGE, "## Pitfalls", "## Traps", "page.md: the page has no part 'Pitfalls'"),
@@ -235,6 +235,12 @@ BROKEN = [
         "the mistake 'doubled centre' is not recognised: no check tells it",
     ),
     (TASK, "@alternative\n", "", "it has 0 alternatives; wanted are 1 or more"),
+    (
+        TASK,
+        "np.linalg.solve(A.T @ A, A.T @ (p**2).sum(axis=1))",
+        "fit_circle(p); return fit_circle(p)",
+        "by_normal_equations does not earn full marks by itself",
+    ),
     (
         TASK,
         "left_alone(candidate, judged(candidate, on_circle(CIRCLE)))",

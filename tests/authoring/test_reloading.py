@@ -55,9 +55,9 @@ def test_files_that_are_new_or_go_away_count_and_others_do_not(edited):
     (edited.path / "circle.rrd").write_bytes(b"a recording beside it")
     (edited.path / ".draw.py.swp").write_bytes(b"an editor's")
     assert not edited.changed()
-    (edited.path / "words.py").write_text("WORDS = ()")
+    (edited.path / "captions.py").write_text("WORDS = ()")
     assert edited.changed()
-    (edited.path / "words.py").unlink()
+    (edited.path / "captions.py").unlink()
     assert edited.changed()
 
 
@@ -102,7 +102,7 @@ def test_params_are_carried_over_as_far_as_they_go(edited):
     save(edited, "state.py", "5, 200)", "5, 100)")
     save(edited, "state.py", "noise: Annotated[float", "sigma: Annotated[float")
     save(edited, "lesson.py", "params.noise", "params.sigma")
-    save(edited, "experiments.py", "noise=0", "sigma=0")
+    save(edited, "presets.py", "noise=0", "sigma=0")
     assert edited.changed()
     assert edited.trouble is None
     after = carried(before, edited.lesson)

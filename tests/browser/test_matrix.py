@@ -23,7 +23,6 @@ from workbench.page.code import moment_data
 from workbench.questions import answer
 from workbench.scene import Picture
 from workbench.timeline import Timeline
-from workbench.viewer.student import Student
 
 pytestmark = pytest.mark.browser
 AGREES = """(captions) => page.run.finished && page.known() === captions.length &&
@@ -229,7 +228,7 @@ def another_point(home: Home, path: str, turn: int) -> np.ndarray:
     T = np.eye(4) if one.T_world_object is None else one.T_world_object
     p = np.array([[0.23, 0.1, 0.0]]) * (one.width or 1.0) if isinstance(one, Picture) else one.p
     places = on_screen(home, p[:200] @ T[:3, :3].T + T[:3, 3])
-    box = home.find("#view").bounding_box()
+    box = home.find("#scene").bounding_box()
     middle = np.array([box["x"] + 0.5 * box["width"], box["y"] + 0.55 * box["height"]])
     order = np.argsort(np.linalg.norm(places - middle, axis=1))
     return places[order[turn % len(order)]]
@@ -237,7 +236,7 @@ def another_point(home: Home, path: str, turn: int) -> np.ndarray:
 
 def on_screen(home: Home, p_world: np.ndarray) -> np.ndarray:
     """Return where points of the scene (..., 3) are in the window, by the camera of viser's client."""
-    camera, box = home.ask("labels.camera"), home.find("#view").bounding_box()
+    camera, box = home.ask("labels.camera"), home.find("#scene").bounding_box()
     w, x, y, z = camera["wxyz"]
     xyz = (p_world - np.array(camera["position"])) @ Rotation.from_quat([x, y, z, w]).as_matrix()  # right, down, ahead
     scale = 0.5 * box["height"] / np.tan(0.5 * camera["fov"])

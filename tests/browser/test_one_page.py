@@ -53,7 +53,7 @@ def test_a_chart_stands_beside_the_scene_once_it_has_a_point(visit):
     """The Fiedler vector, where the club opens, has cut nothing yet; the cuts come after it."""
     me = visit("?lesson=graphs&preset=club")
     me.page.wait_for_function("page.run?.finished && page.k === 1 && page.step()")
-    titles = "beside.of(page.run, page.step()).map((tile) => tile.key)"
+    titles = "panels.of(page.run, page.step()).map((tile) => tile.key)"
     assert "series Conductance" not in me.page.evaluate(titles)
     me.act("last")
     me.page.wait_for_function(f"{titles}.includes('series Conductance')")

@@ -19,7 +19,7 @@ from workbench.exercise.finding import exercises
 from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise
 from workbench.exercise.reports import terminal
-from workbench.exercise.sandbox import Student
+from workbench.exercise.sandbox import SandboxedFunction
 from workbench.exercise.submission import Submission
 
 FOLDER = Path(__file__).with_name("solutions")
@@ -27,10 +27,10 @@ DISPATCH = "\n\ndef any_of_these(name, *args):\n    return globals()[name](*args
 FATES = ("full", "less", "named", "misnamed", "useful", "vague")
 
 
-class Handed:
+class HandIn:
     """One of the functions of a file, in the process that all of them share."""
 
-    def __init__(self, student: Student, name: str):
+    def __init__(self, student: SandboxedFunction, name: str):
         self._student, self._name = student, name
 
     def __call__(self, *args: Any) -> Any:
@@ -83,10 +83,10 @@ def graded(exercise: Exercise) -> Iterator[Graded]:
     for node in tree.body:
         if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "NAMED":
             named = ast.literal_eval(node.value)
-    with Student(Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0) as student:
+    with SandboxedFunction(Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0) as student:
         for name in names:
             if name.startswith(("right_", "wrong_")):
-                handed = Handed(student, name)
+                handed = HandIn(student, name)
                 yield Graded(name, grade_function(handed, exercise, file=path.name), named.get(name))
 
 
@@ -95,11 +95,11 @@ def graded_strangers() -> Iterator[Graded]:
     path = FOLDER.with_name("strangers.py")
     source = path.read_text(encoding="utf-8")
     known = exercises()
-    with Student(Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0) as student:
+    with SandboxedFunction(Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0) as student:
         for node in ast.parse(source).body:
             if isinstance(node, ast.FunctionDef):
                 exercise, _, kind = node.name.partition("__")
-                report = grade_function(Handed(student, node.name), known[exercise], file=path.name)
+                report = grade_function(HandIn(student, node.name), known[exercise], file=path.name)
                 yield Graded(f"right_{kind}", report, None)
 
 

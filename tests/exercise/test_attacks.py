@@ -23,10 +23,10 @@ from tests.exercise import attacks, honest
 from tests.exercise.centroid import EXERCISE
 from tests.exercise.processes import family
 from workbench.errors import InputError
+from workbench.exercise.child.wire import lengths, pack
 from workbench.exercise.finding import exercises
 from workbench.exercise.grading import grade_file
-from workbench.exercise.inside.wire import lengths, pack
-from workbench.exercise.sandbox import Student, StudentError, Wall, named, python
+from workbench.exercise.sandbox import SandboxedFunction, StudentError, Wall, named, python
 from workbench.exercise.submission import Submission
 
 POINTS = np.arange(12.0).reshape(4, 3)
@@ -143,11 +143,11 @@ def attempting(teacher, wall):
     bodies = [teacher.told(body) for body in TOGETHER.values()]
     tries = [f"def try_{k}(p):\n{textwrap.indent(textwrap.dedent(body), '    ')}" for k, body in enumerate(bodies)]
     given = submitted("return globals()[f'try_{int(p)}'](p)", "\n".join(tries))
-    with Student(given, "centroid", seconds=5.0, wall=wall) as student:
+    with SandboxedFunction(given, "centroid", seconds=5.0, wall=wall) as student:
         yield student
 
 
-def tried(student: Student, argument: np.ndarray) -> Any:
+def tried(student: SandboxedFunction, argument: np.ndarray) -> Any:
     try:
         return student(argument)
     except StudentError as error:
@@ -170,7 +170,9 @@ def test_it_gets_nothing_and_harms_nobody(teacher, wall, attempting, name):
 
 @pytest.mark.parametrize("name", attacks.SOLUTIONS, ids=ids(attacks.SOLUTIONS))
 def test_it_finds_no_solution(teacher, wall, name):
-    with Student(submitted(teacher.told(attacks.SOLUTIONS[name])), "centroid", seconds=5.0, wall=wall) as student:
+    with SandboxedFunction(
+        submitted(teacher.told(attacks.SOLUTIONS[name])), "centroid", seconds=5.0, wall=wall
+    ) as student:
         got = tried(student, POINTS)
         process = student._process
     assert not got, f"it got {got}"
@@ -180,7 +182,9 @@ def test_it_finds_no_solution(teacher, wall, name):
 @pytest.mark.parametrize("body", attacks.RESOURCES.values(), ids=ids(attacks.RESOURCES))
 def test_what_it_uses_is_bounded_and_its_own(teacher, wall, body):
     began = time.monotonic()
-    with Student(submitted(teacher.told(body)), "centroid", seconds=1.5, megabytes=1024, wall=wall) as student:
+    with SandboxedFunction(
+        submitted(teacher.told(body)), "centroid", seconds=1.5, megabytes=1024, wall=wall
+    ) as student:
         got = tried(student, POINTS)
         process = student._process
         assert len(student.printed()) <= 8000
@@ -193,7 +197,7 @@ def test_what_it_uses_is_bounded_and_its_own(teacher, wall, body):
 @pytest.fixture(scope="module")
 def working(wall):
     """Return a function that does honest work by its name, in one process."""
-    with Student(Path(honest.__file__), "work", seconds=20.0, wall=wall) as student:
+    with SandboxedFunction(Path(honest.__file__), "work", seconds=20.0, wall=wall) as student:
         yield student
 
 
@@ -260,7 +264,7 @@ FORGED = {
 
 @pytest.mark.parametrize("body", FORGED.values(), ids=ids(FORGED))
 def test_a_forged_answer_is_an_answer_or_none(wall, body):
-    with Student(submitted(FRAME + body + "\nreturn p[0]"), "centroid", seconds=1.5, wall=wall) as student:
+    with SandboxedFunction(submitted(FRAME + body + "\nreturn p[0]"), "centroid", seconds=1.5, wall=wall) as student:
         for _ in range(2):
             got = tried(student, POINTS)
             assert isinstance(got, (int, float, list, np.ndarray)) or got is None
@@ -269,7 +273,7 @@ def test_a_forged_answer_is_an_answer_or_none(wall, body):
 def test_who_forges_the_answer_to_this_call_has_answered_it(wall):
     """A number that is written to the pipe is judged as the one that is returned: knowing the pipe is worth nothing."""
     body = FRAME + "reply(said({'f': '0x1p0'}))\nreturn p[0]"
-    with Student(submitted(body), "centroid", seconds=1.5, wall=wall) as student:
+    with SandboxedFunction(submitted(body), "centroid", seconds=1.5, wall=wall) as student:
         assert student(POINTS) == 1.0
         with pytest.raises(StudentError, match="something else than the result"):
             student(POINTS)
@@ -312,14 +316,17 @@ def test_patching_everything_changes_nothing_here(wall):
 
 def test_its_message_has_no_answer_in_it(wall):
     body = "import sys, json\nreturn json.dumps(sorted(sys._getframe(1).f_locals['request']))"
-    with Student(submitted(body), "centroid", wall=wall) as student:
+    with SandboxedFunction(submitted(body), "centroid", wall=wall) as student:
         assert json.loads(student(POINTS)) == ["args", "do", "file", "nonce", "options"]
 
 
 def test_one_submission_sees_nothing_of_another(wall):
     one = submitted("open('left.txt', 'w').write('x')\nimport sys; sys.modules['left'] = 1\nreturn 1")
     other = submitted("import os, sys\nreturn int('left' in sys.modules or os.path.exists('left.txt'))")
-    with Student(one, "centroid", wall=wall) as first, Student(other, "centroid", wall=wall) as second:
+    with (
+        SandboxedFunction(one, "centroid", wall=wall) as first,
+        SandboxedFunction(other, "centroid", wall=wall) as second,
+    ):
         for _ in range(2):
             tried(first, POINTS)  # where it has no folder to write to, it is refused
             assert second(POINTS) == 0

@@ -12,12 +12,12 @@ from workbench.exercise import finding
 from workbench.exercise.finding import exercises
 from workbench.exercise.forbidden import forbidden_use
 from workbench.exercise.grading import grade_file
-from workbench.exercise.handed import Handed
 from workbench.exercise.marking import Asked, grade_student
 from workbench.exercise.reading import Reader
 from workbench.exercise.reports import terminal
 from workbench.exercise.starter import starter
 from workbench.exercise.submission import Submission, submission
+from workbench.exercise.submissions import HandIn
 
 REFUSED = Path(__file__).with_name("refused.py")
 STRICT = replace(EXERCISE, contract=replace(EXERCISE.contract, forbid=("scipy.spatial", "numpy.average")))
@@ -112,7 +112,9 @@ def test_only_the_exercise_that_forbids_it_is_refused():
 
 
 HANDED = [
-    node.name for node in ast.parse(REFUSED.read_text(encoding="utf-8")).body if "__" in getattr(node, "name", "")
+    node.name
+    for node in ast.parse(REFUSED.read_text(encoding="utf-8")).body
+    if isinstance(node, ast.FunctionDef) and "__" in node.name
 ]
 
 
@@ -136,7 +138,7 @@ def test_every_exercise_that_forbids_something_says_so_in_its_starter():
 def test_a_class_and_a_terminal_are_told_in_one_line(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(finding, "exercises", lambda: {"centroid": STRICT})
     text = "import scipy.spatial\n" + ANSWER.format("p.mean(0)")
-    result = grade_student(Handed("ada", {"my_centroid.py": text.encode()}), Asked())
+    result = grade_student(HandIn("ada", {"my_centroid.py": text.encode()}), Asked())
     (report,) = result["reports"]
     assert {check["kind"] for check in report["checks"]} == {"forbidden"}
     (tmp_path / "my_centroid.py").write_text(text)

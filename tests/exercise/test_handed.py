@@ -12,9 +12,9 @@ import pytest
 from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
 from workbench.exercise import classroom, finding, reports
-from workbench.exercise.handed import handed_in
 from workbench.exercise.marking import Asked
 from workbench.exercise.sandbox import best
+from workbench.exercise.submissions import handed_in
 
 RIGHT = "def centroid(p):\n    return p.mean(axis=0)\n"
 WRONG = "def centroid(p):\n    return p.sum(axis=0)\n"

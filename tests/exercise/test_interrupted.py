@@ -34,7 +34,7 @@ def until(seen, seconds: float = 300.0):
 def sandboxed(first: int) -> set[int]:
     """Return all processes under the grader, once one of them is a student's that was started."""
     found = family(first) - {first}
-    return found if any(b"child.py" in _command(pid) for pid in found) else set()
+    return found if any(b"/main.py" in _command(pid) for pid in found) else set()
 
 
 def _command(pid: int) -> bytes:
@@ -95,7 +95,7 @@ def test_killed_it_leaves_no_process_and_no_folder(grading):
 
 def test_a_worker_that_is_killed_takes_its_submission_along_and_costs_no_other(grading):
     process, _, _ = grading
-    worker = min(pid for pid in family(process.pid) - {process.pid} if b"child.py" not in _command(pid))
+    worker = min(pid for pid in family(process.pid) - {process.pid} if b"/main.py" not in _command(pid))
     its = family(worker) - {worker}
     os.kill(worker, signal.SIGKILL)
     until(lambda: not there(its))

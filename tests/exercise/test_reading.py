@@ -7,10 +7,10 @@ import pytest
 
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises, exercises_in, said_for
-from workbench.exercise.handed import Handed
 from workbench.exercise.marking import Asked, chosen
 from workbench.exercise.reading import MOST_LOST, Reader
 from workbench.exercise.submission import read_submission
+from workbench.exercise.submissions import HandIn
 
 MEGABYTE = 1 << 20
 RIGHT = "def match(p, q):\n    return 0\n"
@@ -56,7 +56,7 @@ def test_no_file_keeps_the_grader_busy(tmp_path, name):
 
 def test_one_that_hangs_costs_the_others_nothing_and_many_cost_no_more_than_three():
     files = {"a.py": PARTS, "my_match.py": RIGHT, **{f"z{k}.py": PARTS for k in range(20)}}
-    handed = Handed("ada", {name: text.encode() for name, text in files.items()})
+    handed = HandIn("ada", {name: text.encode() for name, text in files.items()})
     began = spent()
     found = chosen(handed, Asked())
     assert spent() - began < 5.0 * MOST_LOST

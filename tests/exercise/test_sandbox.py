@@ -13,25 +13,25 @@ from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
 from workbench.exercise.candidate import held_to_contract
 from workbench.exercise.grading import grade_file
-from workbench.exercise.sandbox import CallBudget, Student, StudentError
+from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError
 from workbench.exercise.sandbox.pipe import _Deadline
 from workbench.exercise.sandbox.waiting import waited
 
 POINTS = np.arange(12.0).reshape(4, 3)
 
 
-def written(folder, body: str, head: str = "") -> Student:
+def written(folder, body: str, head: str = "") -> SandboxedFunction:
     path = folder / "my_centroid.py"
     code = f"import numpy as np\n{head}\ndef centroid(p):\n{textwrap.indent(textwrap.dedent(body), '    ')}\n"
     path.write_text(code, encoding="utf-8")
-    return Student(path, "centroid", seconds=1.0)
+    return SandboxedFunction(path, "centroid", seconds=1.0)
 
 
 @pytest.fixture
 def student(tmp_path):
-    made: list[Student] = []
+    made: list[SandboxedFunction] = []
 
-    def make(body: str, head: str = "") -> Student:
+    def make(body: str, head: str = "") -> SandboxedFunction:
         made.append(written(tmp_path, body, head))
         return made[-1]
 
@@ -154,11 +154,11 @@ def test_a_missing_function_and_a_missing_file_are_told(tmp_path):
     (tmp_path / "my.py").write_text("x = 1\n")
     with (
         pytest.raises(StudentError, match="defines no function centroid"),
-        Student(tmp_path / "my.py", "centroid") as one,
+        SandboxedFunction(tmp_path / "my.py", "centroid") as one,
     ):
         one.start()
     with pytest.raises(InputError, match="cannot be read"):
-        Student(tmp_path / "other.py", "centroid")
+        SandboxedFunction(tmp_path / "other.py", "centroid")
 
 
 def test_an_error_names_the_students_own_line(student):
@@ -212,7 +212,7 @@ def test_a_cheat_earns_nothing(tmp_path, name):
 )
 def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, said):
     given = written(tmp_path, body).submission
-    with Student(given, "centroid", seconds=5.0, budget=CallBudget(5.0)) as student:
+    with SandboxedFunction(given, "centroid", seconds=5.0, budget=CallBudget(5.0)) as student:
         began = time.monotonic()
         errors = []
         for _ in range(20):
@@ -228,7 +228,7 @@ def test_one_late_call_takes_no_time_from_the_next(tmp_path):
     """Who was promised a second has it in every call: a slow right function keeps its points."""
     body = "import time; time.sleep(3.0 if p.max() > 100 else 0.7); return p.mean(axis=0)"
     given = written(tmp_path, body).submission
-    with Student(given, "centroid", seconds=1.5, budget=CallBudget(1.5)) as student:
+    with SandboxedFunction(given, "centroid", seconds=1.5, budget=CallBudget(1.5)) as student:
         for _ in range(2):
             with pytest.raises(StudentError, match=r"took more than 1\.5 s, the limit, .* too slow"):
                 student(1000 * POINTS)
@@ -288,7 +288,7 @@ def test_an_array_of_other_things_is_no_pair(answer):
 
 def test_who_hangs_in_one_place_is_called_in_all_others(tmp_path):
     given = written(tmp_path, "while p.max() > 100: pass\nreturn p.mean(axis=0)").submission
-    with Student(given, "centroid", seconds=1.0, budget=CallBudget(1.0)) as student:
+    with SandboxedFunction(given, "centroid", seconds=1.0, budget=CallBudget(1.0)) as student:
         with pytest.raises(StudentError, match="took more than"):
             student(1000 * POINTS)
         for _ in range(5):

@@ -23,9 +23,9 @@ from PIL import Image
 from tests.exercise.formats import ASSESSMENT, GRADESCOPE, PRAIRIELEARN, QUESTION
 from workbench.cli import main
 from workbench.exercise.finding import exercises
+from workbench.exercise.starter import sample
 from workbench.handout.assignment import assigned, read
 from workbench.handout.parcel import CARRIED, NEEDED
-from workbench.handout.samples import right
 from workbench.handout.writing import files, lay_out_gradescope, lay_out_prairielearn, run, write
 
 WRONG = "def invert_rigid(T):\n    print('seen', T.shape)\n    return T.T\n"
@@ -162,7 +162,7 @@ def test_gradescope_has_results_where_the_grader_breaks(gradescope, bare, tmp_pa
     if broken == "no sandbox":
         settings = json.loads((root / "source" / "assignment.json").read_text())
         (root / "source" / "assignment.json").write_text(json.dumps(settings | {"sandbox": "landlock"}))
-        walls = root / "source" / "packages" / "workbench" / "exercise" / "sandbox" / "walls.py"
+        walls = root / "source" / "packages" / "workbench" / "exercise" / "sandbox" / "isolation.py"
         walls.write_text(walls.read_text() + "\ndef _tried(wall): return 'not in this container'\n")
     found = run(root / "run_autograder", root, "/nowhere/python" if broken == "no Python" else bare)
     jsonschema.validate(found, GRADESCOPE)
@@ -357,8 +357,7 @@ def blocked(*words: object) -> subprocess.CompletedProcess:
 def test_grading_needs_numpy_and_scipy_and_nothing_of_the_page_and_every_sample_is_right(tmp_path):
     for k, exercise in enumerate(exercises().values()):
         (tmp_path / "in" / f"student{k}").mkdir(parents=True)
-        (tmp_path / "in" / f"student{k}" / f"my_{exercise.name}.py").write_text(right(exercise))
-        assert not {"workbench", "lessons", "jaxtyping"} & set(right(exercise).partition('"""\n\n')[2].split())
+        (tmp_path / "in" / f"student{k}" / f"my_{exercise.name}.py").write_text(sample(exercise))
     told = blocked("workbench", "grade", tmp_path / "in", "--jobs", 2)
     assert (told.returncode, told.stderr.count("Error")) == (0, 0), told.stderr
     (tmp_path / "my_match.py").write_text("def match(p_target, p_source):\n    return 1, 2\n")

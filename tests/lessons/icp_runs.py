@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from lessons.icp.experiments import HOME
 from lessons.icp.lesson import lesson, run
+from lessons.icp.presets import HOME
 from lessons.icp.state import Params, State, Try
 from tests.runs import finished
 from workbench.scene import Caption

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lessons.calibration import experiments
+from lessons.calibration import presets
 from lessons.calibration.lesson import lesson, run
 from lessons.calibration.state import Ending, Params, State
 from tests.runs import finished
@@ -36,7 +36,7 @@ def f_of(state: State) -> float:
 
 
 def sd_of(params: Params) -> float:
-    return experiments.f_deviation(states(params))
+    return presets.f_deviation(states(params))
 
 
 def ending(params: Params, kind: str) -> tuple[State, Ending]:
@@ -74,7 +74,7 @@ def test_the_plus_minus_is_that_of_all_unknowns():
 
 def test_the_closed_form_knows_no_lens():
     home = states(Params())
-    poses, lens, first = home[experiments.POSES : experiments.POSES + 3]
+    poses, lens, first = home[presets.POSES : presets.POSES + 3]
     assert (poses.now.phase, lens.now.phase, first.now.phase) == ("poses", "lens", "refine")
     assert f_of(poses) == pytest.approx(477.2, abs=0.1)
     assert poses.rms == pytest.approx(4.88, abs=0.01)
@@ -87,7 +87,7 @@ def test_the_closed_form_knows_no_lens():
 def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
     """What Levenberg-Marquardt was cut off at, f = 613 px after 30 iterations, is no answer of the method."""
     cv2 = pytest.importorskip("cv2", reason="opencv-python-headless is not installed")
-    last = end(experiments.FLAT)
+    last = end(presets.FLAT)
     found = last.now.adjustment
     assert found is not None
     assert found.stop is Stop.CONVERGED
@@ -108,7 +108,7 @@ def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
 
 
 def test_of_a_long_refinement_every_tenth_iteration_is_shown_and_the_last():
-    shown = [one.now.adjustment for one in states(experiments.FLAT) if one.now.phase == "refine" and one.ending is None]
+    shown = [one.now.adjustment for one in states(presets.FLAT) if one.now.phase == "refine" and one.ending is None]
     numbers = [one.iteration for one in shown if one is not None]
     assert numbers[:31] == [*range(1, 31), 40]
     assert all(number % 10 == 0 for number in numbers[30:-1])
@@ -160,9 +160,9 @@ def test_wrong_boards():
     stretched = end(preset("stretched")).now.K
     assert stretched is not None
     assert stretched[1, 1] / stretched[0, 0] == pytest.approx(0.984, abs=0.006)
-    ratio = experiments.distance_ratio(states(experiments.LARGER))
+    ratio = presets.distance_ratio(states(presets.LARGER))
     assert ratio == pytest.approx(1 / 1.02, abs=0.002)
-    assert f_of(end(experiments.LARGER)) == pytest.approx(f_of(end(Params())), abs=0.3)
+    assert f_of(end(presets.LARGER)) == pytest.approx(f_of(end(Params())), abs=0.3)
     assert abs(f_of(end(preset("bent"))) - 536) > 4 * sd_of(preset("bent"))
 
 
@@ -202,7 +202,7 @@ def test_the_answers(name, right):
 
 
 def test_two_views_determine_k_and_not_well():
-    two = states(experiments.TWO)
+    two = states(presets.TWO)
     assert two[1].now.K is None
     assert f_of(two[2]) == pytest.approx(519, abs=1)
 
@@ -217,7 +217,7 @@ def captions(**slots) -> list[Caption]:
 def test_rows_drive_the_closed_form():
     said = captions(constraint_rows=lambda H: calibration.constraint_rows(H.T))
     assert any("no camera sees such views" in caption.text for caption in said[:10])
-    assert "f is guessed as the picture's width" in said[experiments.POSES].text
+    assert "f is guessed as the picture's width" in said[presets.POSES].text
 
 
 @pytest.mark.parametrize(
@@ -230,8 +230,8 @@ def test_rows_drive_the_closed_form():
 )
 def test_poses_that_are_none_are_told(change, said):
     told = captions(pose_from_homography=lambda K, H: change(calibration.pose_from_homography(K, H)))
-    assert said in told[experiments.POSES].text
-    assert told[experiments.POSES].tone == "wrong"
+    assert said in told[presets.POSES].text
+    assert told[presets.POSES].tone == "wrong"
 
 
 def test_the_rms_of_the_slot_is_drawn_and_told():
@@ -256,9 +256,9 @@ def test_leaving_out():
 
 
 def test_the_view_that_is_clicked_is_shown():
-    shown = states(Params(shown=5))[experiments.POSES]
+    shown = states(Params(shown=5))[presets.POSES]
     assert shown.subject.views[shown.shown] == 5
-    scene, other = lesson.draw(shown), lesson.draw(states(Params())[experiments.POSES])
+    scene, other = lesson.draw(shown), lesson.draw(states(Params())[presets.POSES])
     picture, another = scene["picture"], other["picture"]
     assert isinstance(picture, Picture)
     assert isinstance(another, Picture)
@@ -285,8 +285,8 @@ def test_corners_in_the_picture_lie_where_squares_meet():
 
 
 def test_residuals_are_drawn_from_the_corner_twenty_times_as_long():
-    worst = int(np.argmax(states(Params())[experiments.POSES].per_view))
-    state = states(Params(shown=worst))[experiments.POSES]
+    worst = int(np.argmax(states(Params())[presets.POSES].per_view))
+    state = states(Params(shown=worst))[presets.POSES]
     scene = lesson.draw(state)
     picture, corners, residuals = scene["picture"], scene["corners"], scene["residuals"]
     assert isinstance(picture, Picture)

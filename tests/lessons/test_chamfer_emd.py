@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 import scipy
 
+from lessons.chamfer_emd.captions import metres, squared
 from lessons.chamfer_emd.clouds import YARDSTICKS
 from lessons.chamfer_emd.draw import T_WORLD_LEFT, T_WORLD_RIGHT
-from lessons.chamfer_emd.experiments import ONE_WAY, QUESTIONS, nearer_side
 from lessons.chamfer_emd.lesson import lesson, run
+from lessons.chamfer_emd.presets import ONE_WAY, QUESTIONS, nearer_side
 from lessons.chamfer_emd.state import Params, State
-from lessons.chamfer_emd.words import metres, squared
 from tests.lessons.chamfer_emd_runs import line, preset, scene, states, timeline
 from workbench.algorithms.flow import Stop, flow
 from workbench.geometry.shape_distances import chamfer

@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from lessons.curvature.experiments import DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL, UNFOLDING
 from lessons.curvature.lesson import lesson
+from lessons.curvature.presets import DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL, UNFOLDING
 from lessons.curvature.state import Params, at_stage
 from tests.lessons.curvature_runs import STAGES, at, preset, scene, study_in, surface_field, timeline
 from workbench.geometry import curvature

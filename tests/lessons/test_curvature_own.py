@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from lessons.curvature.experiments import GAUSSIAN
 from lessons.curvature.lesson import lesson
 from lessons.curvature.mesh import EYE
+from lessons.curvature.presets import GAUSSIAN
 from lessons.curvature.state import Params
 from tests.lessons.curvature_runs import STAGES, at, part, surface_field, timeline
 from workbench.data.files import read_mesh

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lessons.disparity.experiments import (
+from lessons.disparity.lesson import lesson
+from lessons.disparity.pairs import ROWS_OFF, setup_of
+from lessons.disparity.presets import (
     BARE,
     BOARDS,
     CHECKED,
@@ -26,8 +28,6 @@ from lessons.disparity.experiments import (
     mean_depths,
     near_edges,
 )
-from lessons.disparity.lesson import lesson
-from lessons.disparity.pairs import ROWS_OFF, setup_of
 from lessons.disparity.state import Params
 from lessons.disparity.truth import depth_errors
 from tests.lessons.disparity_runs import (

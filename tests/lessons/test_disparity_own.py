@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lessons.disparity.experiments import (
+from lessons.disparity.lesson import lesson, run
+from lessons.disparity.pairs import MOST_CELLS, setup_of
+from lessons.disparity.presets import (
     CHECKED,
     DEPTH,
     HOME,
@@ -16,8 +18,6 @@ from lessons.disparity.experiments import (
     MOTORCYCLE,
     PLANES,
 )
-from lessons.disparity.lesson import lesson, run
-from lessons.disparity.pairs import MOST_CELLS, setup_of
 from lessons.disparity.state import Params
 from tests.lessons.disparity_runs import states, timeline
 from workbench.algorithms.cost_volume import sad_cost_volume

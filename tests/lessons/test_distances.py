@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy
 
-from lessons.distances import experiments
+from lessons.distances import presets
 from lessons.distances.lesson import lesson
 from lessons.distances.stages import finer_grids, finer_spheres
 from lessons.distances.state import Ball, Found, Front, Landmarks, Params, Scatter, Trials
@@ -34,7 +34,7 @@ def now(kind, params, step=-1):
 
 
 def goal(params) -> tuple[float, float]:
-    return experiments.to_goal(states(params))
+    return presets.to_goal(states(params))
 
 
 # the plane ------------------------------------------------------------------------------------------------------------
@@ -110,7 +110,7 @@ def test_within_two_in_ever_more_dimensions():
 
 
 def test_outliers_hide_themselves_and_are_found_by_the_closest_half():
-    masked, robust = (now(Scatter, preset(name), experiments.TOLD) for name in ("masking", "robust"))
+    masked, robust = (now(Scatter, preset(name), presets.TOLD) for name in ("masking", "robust"))
     assert masked.d[masked.outlier].mean() == pytest.approx(2.15, abs=0.05)
     assert not masked.flagged[masked.outlier].any()
     clean = metrics.mahalanobis(masked.p, *metrics.mean_and_covariance(masked.p[~masked.outlier]))
@@ -233,7 +233,7 @@ def test_distances_below_zero_are_told(tmp_path):
 
 
 def test_the_time_of_heat():
-    plain, early, late = (now(Found, params) for params in (preset("heat"), preset("early"), experiments.LATE))
+    plain, early, late = (now(Found, params) for params in (preset("heat"), preset("early"), presets.LATE))
     assert tuple(round(100 * float(np.nanmean(np.abs(one.error))), 1) for one in (plain, early, late)) == (
         1.9,
         26.0,
@@ -284,8 +284,8 @@ def test_one_edge_ruins_the_ways_over_a_roll():
     d, true = goal(preset("roll"))
     assert d / true == pytest.approx(1.015, abs=0.003)
     assert not states(preset("roll"))[0].subject.shortcuts.any()
-    d, true = goal(experiments.SHORTCUT)
-    assert states(experiments.SHORTCUT)[0].subject.shortcuts.sum() == 1
+    d, true = goal(presets.SHORTCUT)
+    assert states(presets.SHORTCUT)[0].subject.shortcuts.sum() == 1
     assert (round(d, 2), round(true, 2)) == (2.54, 6.42)
     np.testing.assert_allclose(true_distances(states(preset("roll"))[-1]), now(Found, preset("roll")).truth, atol=1e-4)
 
@@ -373,7 +373,7 @@ def test_what_is_drawn():
     assert isinstance(scene["way"], Segments)
     assert isinstance(scene["true way"], Segments)
     assert len(scene["true way"].ends) == 2  # over the tip of the wall
-    roll = finished("distances", experiments.SHORTCUT)[-1].scene
+    roll = finished("distances", presets.SHORTCUT)[-1].scene
     assert isinstance(roll["nodes"], Points)
     assert isinstance(roll["shortcuts"], Segments)
     assert len(roll["shortcuts"].ends) == 1

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.epipolar.experiments import DEPTH, depth_sigma
 from lessons.epipolar.lesson import lesson, run
+from lessons.epipolar.presets import DEPTH, depth_sigma
 from lessons.epipolar.state import Params
 from tests.runs import finished
 from tests.truths.epipolar import apart, errors, sampson, true_fundamental

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.features.experiments import FLIPPED, HOME, OUTLINE_X, ROOT, SMALL, TURNED, kept, kept_count, kept_share
 from lessons.features.lesson import lesson, run
+from lessons.features.presets import FLIPPED, HOME, OUTLINE_X, ROOT, SMALL, TURNED, kept, kept_count, kept_share
 from tests.runs import finished
 from tests.truths.features import home, share
 from workbench.errors import InputError

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from lessons.graphs import measures
-from lessons.graphs.experiments import SIGN
 from lessons.graphs.lesson import lesson
+from lessons.graphs.presets import SIGN
 from lessons.graphs.state import Grown, Mode, Params
 from tests.runs import finished
 from workbench.algorithms.diffusion import Heat, Smoothed

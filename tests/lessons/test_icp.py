@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 
 from lessons.icp.basin import ANGLES
 from lessons.icp.draw import draw
-from lessons.icp.experiments import END, HOME, end, rmse_falls
 from lessons.icp.lesson import lesson, run
+from lessons.icp.presets import END, HOME, end, rmse_falls
 from lessons.icp.state import Params, State
 from tests.lessons.icp_runs import caption, preset, scene, states, timeline, tries, true, two_scans, until_stop
 from workbench.algorithms.icp import Stop, nearest

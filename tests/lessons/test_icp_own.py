@@ -9,8 +9,8 @@ import pytest
 
 from lessons.icp.basin import ANGLES
 from lessons.icp.draw import draw
-from lessons.icp.experiments import HOME, end
 from lessons.icp.lesson import lesson, run
+from lessons.icp.presets import HOME, end
 from lessons.icp.state import Params
 from tests.lessons.icp_runs import preset, scene, states, true, two_scans, until_stop
 from workbench.algorithms.icp import Stop

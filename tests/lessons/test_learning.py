@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.learning.experiments import RABBIT
 from lessons.learning.lesson import lesson, run
+from lessons.learning.presets import RABBIT
 from lessons.learning.state import Params
 from tests.runs import finished
 from tests.truths.learning import farthest, folded, named, overlap, radii, wrong_by

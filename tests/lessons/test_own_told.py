@@ -9,7 +9,7 @@ import trimesh
 
 from lessons.alignment.lesson import lesson as alignment
 from lessons.alignment.scans import scans_of
-from lessons.graphs.experiments import BALL, VIEW
+from lessons.graphs.presets import BALL, VIEW
 from workbench.data.clouds import pair
 from workbench.geometry.motions import exp_so3, motion
 from workbench.knobs import fields_of

@@ -5,12 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
-from lessons.pinhole import experiments
-from lessons.pinhole.experiments import BACK, DISTORT, DIVIDE, PIXELS
+from lessons.pinhole import presets
+from lessons.pinhole.captions import back_error, blame, depth
 from lessons.pinhole.lesson import lesson
+from lessons.pinhole.presets import BACK, DISTORT, DIVIDE, PIXELS
 from lessons.pinhole.shot import FACTORS, shot_of
 from lessons.pinhole.state import Params
-from lessons.pinhole.words import back_error, blame, depth
 from tests.lessons.pinhole_runs import orange, preset, states, tone
 from tests.runs import finished
 from workbench.algorithms import pinhole
@@ -139,19 +139,19 @@ def test_the_camera_may_not_stand_on_its_target():
 
 
 def test_dolly_keeps_the_crate_and_nearly_doubles_the_tower():
-    before, after = shot_of(dataclasses.replace(experiments.DOLLY, dolly=1.0)), preset("dolly")[-1].shot
+    before, after = shot_of(dataclasses.replace(presets.DOLLY, dolly=1.0)), preset("dolly")[-1].shot
     assert after.crate == pytest.approx(before.crate, rel=0.01)
     assert round(after.crate) == 56
     assert (round(after.tower_before), round(after.tower)) == (97, 172)
     assert after.tower_before == pytest.approx(before.tower)
     assert after.crate_before == pytest.approx(before.crate)
-    said = Timeline(lesson, experiments.DOLLY).complete()[PIXELS].caption.text
+    said = Timeline(lesson, presets.DOLLY).complete()[PIXELS].caption.text
     assert "the tower was 97.4 px high and is 172 px now" in said
     assert f"The crate was {before.crate:.1f} px high and is {after.crate:.1f} px now" in said
 
 
 def test_doubling_f_doubles_every_distance_from_the_principal_point():
-    near, far = states(dataclasses.replace(experiments.ZOOM, f=experiments.ZOOM.f / 2))[-1], preset("zoom")[-1]
+    near, far = states(dataclasses.replace(presets.ZOOM, f=presets.ZOOM.f / 2))[-1], preset("zoom")[-1]
     c = far.shot.K[:2, 2]
     np.testing.assert_allclose(far.now.uv - c, 2 * (near.now.uv - c), atol=1e-9)
     np.testing.assert_allclose(far.now.xy, near.now.xy, atol=1e-12)
@@ -173,7 +173,7 @@ def test_rails_meet_where_the_formula_says_wherever_the_camera_stands():
     shot = run_[-1].shot
     far = np.array([[x, 1e7, 0.06] for x in (-0.75, 0.75)])
     np.testing.assert_allclose(project(far, shot.T_camera_world, shot.K), [shot.vanishing] * 2, atol=1e-3)
-    assert abs(experiments.shift_of_vanishing(run_)) < 1e-9
+    assert abs(presets.shift_of_vanishing(run_)) < 1e-9
     moved = shot.T_camera_world.copy()
     moved[:3, 3] = (7.0, -3.0, 2.0)
     np.testing.assert_allclose(vanishing_points(np.array([[0.0, 1, 0]]), moved, shot.K)[0], shot.vanishing)
@@ -184,7 +184,7 @@ def test_rails_meet_where_the_formula_says_wherever_the_camera_stands():
 def test_the_ball_is_an_ellipse_off_the_axis_and_round_on_it():
     shot = preset("ball")[-1].shot
     assert shot.ball_ratio > 1.35
-    on_axis = dataclasses.replace(experiments.BALL, target=tuple(float(x) for x in BALL_CENTER))
+    on_axis = dataclasses.replace(presets.BALL, target=tuple(float(x) for x in BALL_CENTER))
     assert shot_of(on_axis).ball_ratio == pytest.approx(1.0, abs=1e-9)
 
 
@@ -210,7 +210,7 @@ def test_radial_lenses_move_along_the_radius_and_more_further_out(name, sign):
 def test_barrel_bows_edges_outwards_and_pincushion_inwards():
     """The middle of a straight edge above the centre, against the line through its bent ends."""
     edge = np.column_stack([[-0.5, 0.0, 0.5], [-0.4, -0.4, -0.4]])
-    for params, sign in ((experiments.BARREL, 1), (experiments.PINCUSHION, -1)):
+    for params, sign in ((presets.BARREL, 1), (presets.PINCUSHION, -1)):
         ends = distort(edge, params.k1, params.k2)
         bow = ends[[0, 2], 1].mean() - ends[1, 1]  # y points down: positive is outwards here
         assert sign * bow > 0.005
@@ -248,7 +248,7 @@ def test_a_lamp_behind_gets_a_pixel_well_inside_only_if_divided_anyway():
     assert state.false == 1
     assert round(state.now.p_camera[5, 2]) == -2
     assert np.isnan(states(Params(point=5))[PIXELS].now.uv[5]).all()
-    assert tone(experiments.BEHIND, PIXELS) == "info"  # it was asked for
+    assert tone(presets.BEHIND, PIXELS) == "info"  # it was asked for
 
 
 def test_the_inverted_pose_loses_nearly_every_point():
@@ -258,7 +258,7 @@ def test_the_inverted_pose_loses_nearly_every_point():
     np.testing.assert_allclose(
         state.now.p_camera[2], (inverse(state.shot.T_camera_world) @ [*street().points[2], 1])[:3]
     )
-    assert tone(experiments.INVERTED, 1) == "info"
+    assert tone(presets.INVERTED, 1) == "info"
 
 
 def test_opengl_axes_make_depths_negative_and_mirror_the_picture():
@@ -282,7 +282,7 @@ def test_a_lens_fed_with_pixels_is_off_by_millions():
     assert run_[DIVIDE].error < 1e-9
     assert run_[DISTORT].error == pytest.approx(36.1e6, rel=0.01)
     assert (
-        Timeline(lesson, experiments.LENS_ON_PIXELS)
+        Timeline(lesson, presets.LENS_ON_PIXELS)
         .complete()[PIXELS]
         .caption.text.startswith("K (x′, y′, 1) is the pixel")
     )
@@ -305,7 +305,7 @@ def test_a_forgotten_k_is_shifted_and_twice_too_large():
 
 def test_the_edited_photograph_is_the_one_its_k_describes():
     """Corners of the outline, drawn by the edited K, lie where the halved photograph has its own edges."""
-    full, half = shot_of(Params()), shot_of(experiments.CROP_RIGHT)
+    full, half = shot_of(Params()), shot_of(presets.CROP_RIGHT)
     np.testing.assert_allclose((half.uv + 0.5) * 2 - 0.5 + [60, 40], full.uv)
     blocks = full.picture[40:, 60:].reshape(100, 2, 130, 2, 3).mean(axis=(1, 3))
     assert np.abs(half.picture - blocks).max() <= 0.5
@@ -349,7 +349,7 @@ def test_a_preset_tells_its_mistake_where_it_shows_and_only_then_and_calmly(name
 
 def test_the_photograph_stands_upright_before_the_eye_and_is_wide_enough():
     eye, target = np.array(lesson.view.eye), np.array(lesson.view.target)
-    for params in (Params(), experiments.CROP_RIGHT):
+    for params in (Params(), presets.CROP_RIGHT):
         picture = Timeline(lesson, params).complete()[PIXELS].scene["picture"]
         assert isinstance(picture, Picture)
         assert picture.T_world_object is not None
@@ -364,7 +364,7 @@ def test_the_photograph_stands_upright_before_the_eye_and_is_wide_enough():
 
 
 def test_what_lands_on_the_photograph_lies_at_its_pixels():
-    for params in (Params(), experiments.CROP_RIGHT, experiments.BEHIND):
+    for params in (Params(), presets.CROP_RIGHT, presets.BEHIND):
         step = Timeline(lesson, params).complete()[PIXELS]
         picture, dots, landed = (step.scene[path] for path in ("picture", "plane", "landed"))
         assert isinstance(picture, Picture)
@@ -382,7 +382,7 @@ def test_what_lands_on_the_photograph_lies_at_its_pixels():
 
 
 def test_a_lamp_behind_is_drawn_through_the_camera_to_the_plane_in_front():
-    step = Timeline(lesson, experiments.BEHIND).complete()[DIVIDE]
+    step = Timeline(lesson, presets.BEHIND).complete()[DIVIDE]
     ray = step.scene["followed ray"]
     assert isinstance(ray, Segments)
     in_camera = apply(step.state.shot.T_camera_world, ray.ends[0])

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from lessons.pinhole import experiments
-from lessons.pinhole.experiments import BACK, DISTORT, DIVIDE, PIXELS
+from lessons.pinhole import presets
+from lessons.pinhole.captions import back_error
 from lessons.pinhole.lesson import lesson
+from lessons.pinhole.presets import BACK, DISTORT, DIVIDE, PIXELS
 from lessons.pinhole.shot import shot_of
 from lessons.pinhole.state import Mistake, Params
-from lessons.pinhole.words import back_error
 from tests.lessons.pinhole_runs import orange, states, tone
 from workbench.geometry.cameras import camera_center, project
 from workbench.geometry.distortion import distort
@@ -62,7 +62,7 @@ def test_a_lens_that_bends_where_there_is_none_is_not_said_to_do_nothing():
 
 def test_round_trips_end_where_they_began_and_not_at_a_rounding():
     assert captions(Params())[BACK].endswith("we come out where we began.")
-    assert "1.09 m from where we began" in captions(experiments.RAY_LENGTH)[BACK]
+    assert "1.09 m from where we began" in captions(presets.RAY_LENGTH)[BACK]
 
 
 # The functions of the exercises
@@ -119,7 +119,7 @@ def test_the_given_functions_are_asked_few_times():
 
 
 def test_every_mistake_has_its_sentence():
-    from lessons.pinhole.words import MISTAKES
+    from lessons.pinhole.captions import MISTAKES
 
     assert {*Mistake.__args__} == {"none", *MISTAKES}
 

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.pose.experiments import FEW, HALF, PLANE, TILTED, needed
 from lessons.pose.lesson import lesson, run
+from lessons.pose.presets import FEW, HALF, PLANE, TILTED, needed
 from lessons.pose.scenes import subject_of
 from lessons.pose.state import Params, Repeated
 from lessons.pose.trials import TRIPLES

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lessons.ransac import experiments
-from lessons.ransac.experiments import clean_share, end, first, share_reached
+from lessons.ransac import presets
+from lessons.ransac.captions import is_right
 from lessons.ransac.lesson import lesson
+from lessons.ransac.presets import clean_share, end, first, share_reached
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params
-from lessons.ransac.words import is_right
 from tests.lessons.ransac_runs import best, members, part, rivals, states_of, truth_of
 from tests.truths.ransac import most_trusted
 from workbench.algorithms.models import MODELS, PLANE
@@ -53,8 +53,8 @@ def test_how_many_inliers_the_distances_of_the_page_keep(model):
 def test_the_inlier_distances_that_are_set_keep_95_percent_of_the_inliers():
     assert Params().inlier_distance / Params().noise == pytest.approx(1.96, abs=0.05)
     assert Params().inlier_pixels / Params().noise_pixels == pytest.approx(3.46, abs=0.05)  # of a homography
-    assert experiments.PROSAC.inlier_pixels / experiments.PROSAC.noise_pixels == pytest.approx(3.46, abs=0.05)
-    assert experiments.MATCHES.inlier_pixels / experiments.MATCHES.noise_pixels == pytest.approx(1.96, abs=0.05)
+    assert presets.PROSAC.inlier_pixels / presets.PROSAC.noise_pixels == pytest.approx(3.46, abs=0.05)
+    assert presets.MATCHES.inlier_pixels / presets.MATCHES.noise_pixels == pytest.approx(1.96, abs=0.05)
     for words in ("$t = 1.96\\,\\sigma$", "3.46\\,\\sigma$, and only 78 % within $2.45\\,\\sigma$"):
         assert words in page()
 
@@ -99,7 +99,7 @@ def test_the_default_run_does_what_the_page_says():
 
 
 def test_thirty_and_seventy_percent():
-    thirty, seventy = end(states_of(experiments.THIRTY)), end(states_of(experiments.SEVENTY))
+    thirty, seventy = end(states_of(presets.THIRTY)), end(states_of(presets.SEVENTY))
     assert 10 <= thirty.now.iteration <= 20
     assert 100 < seventy.now.iteration < 200
     assert clean_share(thirty) ** 3 == pytest.approx(1 / 3, abs=0.02)
@@ -110,34 +110,34 @@ def test_thirty_and_seventy_percent():
 
 
 def test_an_inlier_distance_too_small():
-    last = end(states_of(experiments.TIGHT))
+    last = end(states_of(presets.TIGHT))
     reference = end(states_of(Params()))
-    assert experiments.TIGHT.inlier_distance == pytest.approx(experiments.TIGHT.noise / 4, rel=0.1)
+    assert presets.TIGHT.inlier_distance == pytest.approx(presets.TIGHT.noise / 4, rel=0.1)
     assert last.now.stop is Stop.MAX_ITERATIONS
     assert best(last).inliers[members(last.subject)].mean() == pytest.approx(0.25, abs=0.05)
     assert last.best_error > 5 * reference.best_error
 
 
 def test_an_inlier_distance_too_large():
-    last = end(states_of(experiments.LOOSE))
-    assert experiments.LOOSE.inlier_distance == pytest.approx(20 * experiments.LOOSE.noise)
+    last = end(states_of(presets.LOOSE))
+    assert presets.LOOSE.inlier_distance == pytest.approx(20 * presets.LOOSE.noise)
     assert 8 <= last.now.iteration <= 17
     assert last.best_error == pytest.approx(0.04, abs=0.005)
     assert best(last).inliers[~members(last.subject)].mean() > 0.3
     assert not is_right(last)
     assert part(lesson.draw(last), "caption", Caption).tone == "wrong"
-    assert Timeline(lesson, experiments.LOOSE).complete()[-1].caption.tone == "info"  # it is meant to be
+    assert Timeline(lesson, presets.LOOSE).complete()[-1].caption.tone == "info"  # it is meant to be
 
 
 def test_msac_keeps_a_sample_nearer_to_the_truth():
     def error(params):
         return [state for state in states_of(params) if state.now.phase == "best"][-1].best_error
 
-    assert error(experiments.MSAC) < 0.1 * error(replace(experiments.MSAC, score="count"))
+    assert error(presets.MSAC) < 0.1 * error(replace(presets.MSAC, score="count"))
 
 
 def test_the_largest_plane_wins():
-    states = states_of(experiments.WALL)
+    states = states_of(presets.WALL)
     last = end(states)
     wall = abs(best(last).estimate[2]) < 0.3
     assert wall
@@ -148,7 +148,7 @@ def test_the_largest_plane_wins():
 
 
 def test_the_picked_wire_is_degenerate_and_counts():
-    states = states_of(experiments.WIRE)
+    states = states_of(presets.WIRE)
     assert [state.now.phase for state in states[:2]] == ["sample", "degenerate"]
     assert states[0].chosen
     assert members(states[0].subject)[states[0].now.sample].all()
@@ -159,18 +159,18 @@ def test_the_picked_wire_is_degenerate_and_counts():
 
 
 def test_three_near_inliers_make_a_bad_plane():
-    state = first(states_of(experiments.NEAR), "inliers")
+    state = first(states_of(presets.NEAR), "inliers")
     assert state.chosen
     assert members(state.subject)[state.now.sample].all()
     assert np.ptp(state.subject.p[state.now.sample], axis=0).max() < 0.2
     assert share_reached(state) < 0.1
     assert (
-        states_of(experiments.NEAR)[lesson.preset("near-sample").step or 0].now.phase == "model"
+        states_of(presets.NEAR)[lesson.preset("near-sample").step or 0].now.phase == "model"
     )  # what it reaches comes next
 
 
 def test_huber_lies_between_and_ransac_below():
-    last = end(states_of(experiments.THIRTY))
+    last = end(states_of(presets.THIRTY))
     errors = rivals(last)
     assert errors["least squares"] == pytest.approx(0.15, abs=0.01)
     assert errors["Huber"] == pytest.approx(0.014, abs=0.001)
@@ -178,7 +178,7 @@ def test_huber_lies_between_and_ransac_below():
 
 
 def test_the_local_refit_ends_sooner():
-    with_it, without = (end(states_of(replace(experiments.LOCAL, local_refit=local))) for local in (True, False))
+    with_it, without = (end(states_of(replace(presets.LOCAL, local_refit=local))) for local in (True, False))
     assert with_it.now.iteration < 0.75 * without.now.iteration
     assert is_right(with_it)
 
@@ -186,7 +186,7 @@ def test_the_local_refit_ends_sooner():
 @pytest.mark.parametrize("seed", range(6))
 def test_prosac_stops_after_a_tenth_of_the_draws_and_is_right(seed):
     """It once stopped by the share of all matches, as chance does, after some 300 samples."""
-    params = replace(experiments.PROSAC, seed=seed)
+    params = replace(presets.PROSAC, seed=seed)
     trusting, by_chance = (end(states_of(replace(params, sampler=how))) for how in ("PROSAC", "uniform"))
     assert trusting.now.stop is Stop.ENOUGH
     assert trusting.now.iteration < 25
@@ -195,7 +195,7 @@ def test_prosac_stops_after_a_tenth_of_the_draws_and_is_right(seed):
     assert trusting.best_error == pytest.approx(by_chance.best_error, abs=0.05)
 
 
-@pytest.mark.parametrize("params", [experiments.PROSAC, replace(experiments.PROSAC, seed=3), Params(sampler="PROSAC")])
+@pytest.mark.parametrize("params", [presets.PROSAC, replace(presets.PROSAC, seed=3), Params(sampler="PROSAC")])
 def test_prosac_asks_for_the_share_among_the_most_trusted(params):
     for state in states_of(params):
         if state.now.phase == "best":
@@ -223,7 +223,7 @@ def test_what_is_quoted_is_at_rest_or_says_that_it_is_not():
     for params in [one.params for one in (*lesson.presets, *lesson.questions)]:
         last = end(states_of(params))
         if last.now.stop is not Stop.ENOUGH:
-            assert params == experiments.TIGHT
+            assert params == presets.TIGHT
             assert "500 samples do not suffice" in lesson.preset("tight").line
             assert "maximum number of samples is reached" in part(lesson.draw(last), "caption", Caption).text
 
@@ -242,7 +242,7 @@ def test_known_wrong_answers_are_answered():
 
 
 def test_two_views_and_their_lines():
-    last = end(states_of(experiments.MATCHES))
+    last = end(states_of(presets.MATCHES))
     assert is_right(last)
     assert best(last).inliers[members(last.subject)].mean() > 0.9
     assert iterations_needed(clean_share(last), 7, 0.99) > 50

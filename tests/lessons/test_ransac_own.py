@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lessons.ransac.experiments import end
+from lessons.ransac.captions import is_right
 from lessons.ransac.lesson import lesson
+from lessons.ransac.presets import end
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params
-from lessons.ransac.words import is_right
 from tests.lessons.ransac_runs import best, members, part, states_of, truth_of
 from workbench.algorithms.models import MODELS
 from workbench.errors import InputError

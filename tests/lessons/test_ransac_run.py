@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from lessons.ransac import experiments
-from lessons.ransac.experiments import end, first
+from lessons.ransac import presets
+from lessons.ransac.captions import is_right
 from lessons.ransac.lesson import chosen_sample, lesson, run
+from lessons.ransac.presets import end, first
 from lessons.ransac.rows import subject_of
 from lessons.ransac.shapes import outline
 from lessons.ransac.state import Params
-from lessons.ransac.words import is_right
 from tests.lessons.ransac_runs import best, part, rivals, states_of, truth_of
 from workbench.algorithms.models import MODELS
 from workbench.algorithms.ransac import iterations_needed
@@ -89,12 +89,10 @@ def test_every_model_asks_how_many_samples(model):
 def test_the_wire_shows_what_a_plane_does_with_points_on_a_line():
     exercise = next(exercise for exercise in exercises_of(lesson) if exercise.name == "plane_from_points")
     assert "'Three points on one line'" in exercise.task
-    assert "Three points on one line" in [
-        preset.title for preset in lesson.presets if preset.params == experiments.WIRE
-    ]
+    assert "Three points on one line" in [preset.title for preset in lesson.presets if preset.params == presets.WIRE]
     careless = next(mistake.function for mistake in exercise.mistakes if mistake.name == "line not seen")
     for plane, phase in ((exercise.reference, "degenerate"), (careless, "model")):
-        states = run(experiments.WIRE, plane_from_points=plane)
+        states = run(presets.WIRE, plane_from_points=plane)
         assert [next(states).now.phase for _ in range(2)] == ["sample", phase]
 
 
@@ -104,7 +102,7 @@ RIGHT = [(exercise, function) for exercise in exercises_of(lesson) for function 
 @pytest.mark.parametrize(("exercise", "function"), RIGHT, ids=lambda value: getattr(value, "__name__", value.__class__))
 def test_another_right_function_draws_the_same_pictures(exercise, function):
     """Whatever side its normals are on, and however it rounds."""
-    for params in (Params(), experiments.WIRE):
+    for params in (Params(), presets.WIRE):
         pairs = list(driven(lesson, exercise, function).run(params))
         assert end([pair.theirs for pair in pairs])
         assert [pair.trouble for pair in pairs if pair.trouble] == []

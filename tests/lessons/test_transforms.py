@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from lessons.transforms.body import numbers_of
-from lessons.transforms.experiments import ENTRIES, directions_left, halfway
 from lessons.transforms.lesson import lesson
+from lessons.transforms.presets import ENTRIES, directions_left, halfway
 from lessons.transforms.state import Compare, Method, Params
 from tests.lessons.transforms_runs import MOVE, built, exp_axis, moved, opened, opened_at, preset, survivors, timeline
 from workbench.geometry.affine import Kind, kind_of, transform

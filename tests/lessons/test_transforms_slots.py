@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from lessons.transforms.experiments import complete
 from lessons.transforms.lesson import lesson, run
+from lessons.transforms.presets import complete
 from lessons.transforms.state import Built, Moved, Params
 from tests.lessons.transforms_runs import MOVE, built, opened, opened_at, preset, timeline
 from workbench.algorithms.composition import Factor, compose

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from lessons.transforms.experiments import complete
 from lessons.transforms.lesson import lesson
+from lessons.transforms.presets import complete
 from lessons.transforms.state import Built, Moved, Params
 from tests.runs import finished
 from workbench.geometry.rotations import axis_angle_from_rotation

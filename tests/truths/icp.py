@@ -6,8 +6,8 @@ import numpy as np
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
-from lessons.icp.experiments import OVERLAP
 from lessons.icp.lesson import run as run_icp
+from lessons.icp.presets import OVERLAP
 from lessons.icp.state import Params, State
 from tests.verdicts import Run
 

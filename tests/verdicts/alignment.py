@@ -5,8 +5,8 @@ import re
 
 import numpy as np
 
+from lessons.alignment.captions import caption
 from lessons.alignment.state import AxesState, PairsState
-from lessons.alignment.words import caption
 from tests.readings import LENGTH, NUMBER, near, near_length, number
 from tests.truths.alignment import HOME, eigenvectors, many, of_pairs, to_nearest, turn_left
 from tests.verdicts import Claim, Run

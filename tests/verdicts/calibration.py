@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lessons.calibration.experiments import FEW, FLAT
+from lessons.calibration.captions import caption
 from lessons.calibration.lesson import lesson
+from lessons.calibration.presets import FEW, FLAT
 from lessons.calibration.state import Params, State
-from lessons.calibration.words import caption
 from tests.readings import NUMBER, near, number, says
 from tests.truths.calibration import LENS, deviation_of_f, rms_of, worst_ray
 from tests.verdicts import Claim, Run

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import scipy
 
-from lessons.chamfer_emd.words import caption as caption
+from lessons.chamfer_emd.captions import caption as caption
 from tests.own_seed import of_preset
 from tests.readings import NUMBER, number, says
 from tests.verdicts import Claim, Run

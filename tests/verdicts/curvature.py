@@ -4,9 +4,9 @@ import re
 
 import numpy as np
 
+from lessons.curvature.captions import caption as caption
 from lessons.curvature.lesson import run as run_of
 from lessons.curvature.state import Params
-from lessons.curvature.words import caption as caption
 from tests.readings import NUMBER, number, says_percent
 from tests.truths.curvature import (
     angle_K,

@@ -5,8 +5,8 @@ import re
 
 import numpy as np
 
+from lessons.disparity.captions import caption
 from lessons.disparity.lesson import lesson
-from lessons.disparity.words import caption
 from tests.readings import LENGTH, NUMBER, metres, number, says, says_length
 from tests.truths.disparity import (
     CHOSEN,

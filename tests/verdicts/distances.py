@@ -6,8 +6,8 @@ import re
 import numpy as np
 import scipy
 
+from lessons.distances.captions import caption
 from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, State, Trials
-from lessons.distances.words import caption
 from tests.own_seed import of_preset
 from tests.readings import LENGTH, NUMBER, near, near_length, number, says, says_percent
 from tests.truths.distances import by_heat, errors, mahalanobis, true_distances

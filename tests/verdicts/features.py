@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 
+from lessons.features.captions import caption
 from lessons.features.state import Outlined, Scanned
-from lessons.features.words import caption
 from tests.readings import LENGTH, near, near_length, number, says_percent
 from tests.truths.features import agreeing, home, nearer, off, share, turn
 from tests.verdicts import Claim, Run

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import scipy
 
-from lessons.fitting.experiments import LEAP
+from lessons.fitting.presets import LEAP
 from tests.readings import LENGTH, NUMBER, POWER, near, near_length, number, says
 from tests.truths.fitting import cost, distances, is_right, least, plane_error, radius_deviation, straight, wider
 from tests.verdicts import Claim, Run

@@ -5,8 +5,8 @@ import re
 
 import numpy as np
 
+from lessons.graphs.captions import caption
 from lessons.graphs.state import Grown, Mode
-from lessons.graphs.words import caption
 from tests.own_seed import of_preset
 from tests.readings import NUMBER, POWER, near, number, says_percent
 from tests.truths.graphs import A, correct, modes, off, parts, told, volume

@@ -5,9 +5,9 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from lessons.icp.captions import caption
 from lessons.icp.lesson import run as run_icp
 from lessons.icp.state import Params, State
-from lessons.icp.words import caption
 from tests.readings import LENGTH, NUMBER, metres, near, near_length
 from tests.truths.icp import (
     arrived,

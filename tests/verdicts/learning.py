@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from lessons.learning.words import caption as caption
+from lessons.learning.captions import caption as caption
 from tests.own_seed import of_preset
 from tests.readings import LENGTH, NUMBER, metres, number, says
 from tests.truths.learning import farthest, folded, named, overlap, radii, to_given, wrong_by

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import scipy
 
-from lessons.measures.words import caption as caption
+from lessons.measures.captions import caption as caption
 from tests.own_seed import of_preset
 from tests.readings import NUMBER, near, number, says_percent
 from tests.truths.measures import (

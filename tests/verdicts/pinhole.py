@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from lessons.pinhole import words
+from lessons.pinhole import captions
 from lessons.pinhole.lesson import run as follow
 from tests.readings import LENGTH, NUMBER, POWER, close, number, says, says_length
 from tests.truths.pinhole import (
@@ -37,7 +37,7 @@ POINT = rf"\(({NUMBER}), ({NUMBER}), ({NUMBER})\)"
 
 
 def caption(state: Any) -> Caption:
-    return words.caption(state)
+    return captions.caption(state)
 
 
 def right(run: Run, k: int) -> bool | None:

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from lessons.pose.captions import caption
 from lessons.pose.lesson import lesson
 from lessons.pose.state import Params, Repeated, State
 from lessons.pose.trials import ANEW
-from lessons.pose.words import caption
 from tests.readings import LENGTH, NUMBER, near, near_length, number
 from tests.truths.pose import is_near, is_right, off, pixels_off, rms, share_near
 from tests.verdicts import Claim, Run

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lessons.ransac.words import caption
+from lessons.ransac.captions import caption
 from tests.readings import NUMBER, near, near_length, number
 from tests.truths.ransac import (
     apart,

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import scipy
 
-from lessons.representations.words import caption as caption
+from lessons.representations.captions import caption as caption
 from tests.readings import LENGTH, NUMBER, near, near_length, number, says_percent
 from tests.truths.representations import distance, errors, mesh_of, sizes, surface_of
 from tests.verdicts import Claim, Run

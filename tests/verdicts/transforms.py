@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from lessons.transforms.captions import caption_of_build, caption_of_move
 from lessons.transforms.state import Built, Moved
-from lessons.transforms.words import caption_of_build, caption_of_move
 from tests.readings import LENGTH, NUMBER, close, number, says, says_length
 from tests.truths.transforms import (
     SMALL,

@@ -23,12 +23,12 @@ from tests.viewer.attacked import HERE, goes_on, meanwhile, until
 from workbench import links
 from workbench.knobs import fields_of
 from workbench.lesson import catalog
+from workbench.viewer import connection as connection_module
 from workbench.viewer import patience
 from workbench.viewer import server as server_module
-from workbench.viewer import student as student_module
+from workbench.viewer.connection import PageConnection
 from workbench.viewer.runs import Runs
 from workbench.viewer.server import Server
-from workbench.viewer.student import Student
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +79,7 @@ def test_a_page_that_takes_nothing_is_sent_the_latest_when_it_takes_again():
             took.append(json.loads(part))
             await takes.wait()
 
-        student = Student({"fake": fake.lesson}, runs, send)
+        student = PageConnection({"fake": fake.lesson}, runs, send)
         working = asyncio.create_task(student.work())
         student.hear('{"verb": "open", "query": "?lesson=fake", "lesson": "fake"}')
         await until(lambda: bool(took))
@@ -87,7 +87,7 @@ def test_a_page_that_takes_nothing_is_sent_the_latest_when_it_takes_again():
             student.hear(json.dumps({"verb": "change", "values": {"angle": k / 100}}))
             student.hear(json.dumps({"verb": "seek", "k": k % 6}))
             student.hear(json.dumps({"verb": "predict", "question": f"{k}"}))
-        assert len(student._wishes) <= 12
+        assert len(student._requests) <= 12
         assert len(took) == 1
         takes.set()
         await until(lambda: any(one.get("k") == 4999 % 6 for one in took))
@@ -136,7 +136,7 @@ def test_a_scene_that_is_not_taken_is_not_buffered_without_bound(server):
             connections = server._uvicorn.server_state.connections
             waiting.append(max(one.transport.get_write_buffer_size() for one in tuple(connections)))
         assert max(waiting) < 4e6, "no more waits than a few steps"
-        assert len(student._wishes) <= 3
+        assert len(student._requests) <= 3
         await slow.close()
 
     meanwhile(server, attack)
@@ -189,15 +189,15 @@ def test_garbage_in_every_wish_is_ignored(server, verb, capfd):
 
 def test_a_click_is_three_numbers_and_three_numbers_or_nothing():
     good = {"p_origin": [0, 1.0, 2], "v_ray": [0.0, 0, -1]}
-    p_origin, v_ray = student_module._ray(good) or (None, None)
+    p_origin, v_ray = connection_module._ray(good) or (None, None)
     np.testing.assert_array_equal(p_origin, [0, 1, 2])  # type: ignore[arg-type]
     np.testing.assert_array_equal(v_ray, [0, 0, -1])  # type: ignore[arg-type]
     lists = ([], [0, 0], [0, 0, 0, 0], [0, 0, "1"], [True, 0, 0], [float("nan")] * 3, [2**70, 0, 0], [[1, 2, 3]] * 3)
     odd = (None, "x", {}, *lists)
     for key in good:
         for value in odd:
-            assert student_module._ray(good | {key: value}) is None, (key, value)
-    assert student_module._ray(good | {"v_ray": [0, 0, 0]}) is None
+            assert connection_module._ray(good | {key: value}) is None, (key, value)
+    assert connection_module._ray(good | {"v_ray": [0, 0, 0]}) is None
 
 
 def test_a_flood_of_wishes_is_one_of_each_kind(server, monkeypatch):

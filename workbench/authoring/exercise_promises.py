@@ -16,7 +16,7 @@ from workbench.authoring.promises import Found, Subject
 from workbench.authors import at
 from workbench.exercise.grading import Outcome, Report, grade_file, grade_function
 from workbench.exercise.model import Exercise, Function
-from workbench.exercise.starter import starter, write_starter
+from workbench.exercise.starter import sample, starter, write_starter
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson
 
@@ -107,6 +107,21 @@ def other_right_solutions_get_full_marks(subject: Subject, exercise: Exercise) -
             if report.is_full
             else f"{who(exercise)}{at(function)}{name} is right, and loses points: {_lost(report)}"
         )
+
+
+@promise
+def the_first_alternative_stands_alone(subject: Subject, exercise: Exercise) -> Found:
+    """The sample of handouts, a copy of the first alternative beside `import numpy as np`, gets full marks."""
+    if not exercise.alternatives:
+        return
+    subject.tell(f"the sample solution of exercise {exercise.name}")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"my_{exercise.name}.py"
+        path.write_text(sample(exercise), encoding="utf-8")
+        report = grade_file(path, exercise)
+    where = f"{who(exercise)}{at(exercise.alternatives[0])}{exercise.alternatives[0].__name__}"
+    why = "handouts copy the first alternative beside `import numpy as np`"
+    yield None if report.is_full else f"{where} does not earn full marks by itself ({why}): {_lost(report)}"
 
 
 @promise

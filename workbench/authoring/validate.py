@@ -24,8 +24,8 @@ from workbench.authoring.promises import OF_LESSONS, SECONDS, Found, Subject
 from workbench.authors import described, is_ours, place
 from workbench.errors import InputError, one_line
 from workbench.exercise.finding import exercises_of
-from workbench.flags import is_path, lesson_given
 from workbench.lesson import catalog, find
+from workbench.loading import is_path, lesson_given
 
 MEGABYTES = 6144
 _FRAME = re.compile(r'^  File "(.*)", line (\d+) in ', re.MULTILINE)

@@ -19,14 +19,14 @@ from typing import Any, TextIO
 from workbench.atomic import write_atomic
 from workbench.errors import InputError, one_line
 from workbench.exercise.classfiles import class_csv, is_full, matrix_csv, summary
-from workbench.exercise.handed import Handed, handed_in, with_roster
 from workbench.exercise.marking import Asked, Result, digest, empty, grade_student, summed
 from workbench.exercise.reports import SCHEMA_VERSION, ungraded
 from workbench.exercise.sandbox import best, named
+from workbench.exercise.submissions import HandIn, handed_in, with_roster
 from workbench.progress import Progress, bar
-from workbench.workers import shared_out
+from workbench.workers import parallel_map
 
-Task = tuple[Handed, Asked]
+Task = tuple[HandIn, Asked]
 LONGEST_SECONDS = 900.0
 """How long one student may take: far beyond what the limits of the exercises allow."""
 
@@ -90,7 +90,7 @@ def grade_class(
 
 def _graded(waiting: list[Task], executor: Executor | None, jobs: int) -> Generator[tuple[str, Result], None, None]:
     if executor is None:
-        graded = shared_out(_grade, waiting, jobs, seconds=LONGEST_SECONDS, lost=_lost, start="fork")
+        graded = parallel_map(_grade, waiting, jobs, seconds=LONGEST_SECONDS, lost=_lost, start="fork")
         with contextlib.closing(graded):  # type: ignore[type-var]
             yield from ((handed.student, result) for (handed, _), result in graded)
         return

@@ -7,7 +7,7 @@ from pathlib import Path
 from workbench.errors import InputError
 from workbench.exercise.driven import driven, first_difference
 from workbench.exercise.model import Exercise
-from workbench.exercise.sandbox import Student
+from workbench.exercise.sandbox import SandboxedFunction
 from workbench.lesson import Lesson, catalog
 from workbench.timeline import Timeline
 
@@ -35,7 +35,7 @@ def record_failing(
         from workbench.recording import record_bytes
     except ImportError:  # where there is only what grading needs
         return None
-    with Student(path, exercise.name, seconds=exercise.contract.seconds) as student:
+    with SandboxedFunction(path, exercise.name, seconds=exercise.contract.seconds) as student:
         found = failing_run(exercise, student, lesson)
         if found is None:
             return None
@@ -50,7 +50,9 @@ def record_failing(
     return out
 
 
-def failing_run(exercise: Exercise, student: Student, lesson: Lesson | None = None) -> tuple[Timeline, int] | None:
+def failing_run(
+    exercise: Exercise, student: SandboxedFunction, lesson: Lesson | None = None
+) -> tuple[Timeline, int] | None:
     """Return a run of the lesson in which a student's function differs from ours, and the first step that does.
 
     Args:

@@ -16,7 +16,7 @@ def forbidden_use(given: Submission, exercise: Exercise) -> str:
     if not forbid:
         return ""
     files = [(given.file, _counting(given.parts, exercise.name))]
-    files += [(f"{name}.py", list(parts)) for name, parts in given.beside.items()]
+    files += [(f"{name}.py", list(parts)) for name, parts in given.extra_files.items()]
     for file, parts in files:
         for path, line in (use for part in parts for use in part.uses):
             module = next((one for one in forbid if f"{path}.".startswith(f"{one}.")), None)

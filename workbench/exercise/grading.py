@@ -8,8 +8,8 @@ from workbench.exercise.candidate import Candidate
 from workbench.exercise.forbidden import forbidden_use
 from workbench.exercise.judging import changed
 from workbench.exercise.model import Check, Exercise, Function, Mistake, Verdict, fail
-from workbench.exercise.naming import concerned, recognised
-from workbench.exercise.sandbox import CallBudget, Student, StudentError, Wall
+from workbench.exercise.naming import concerned, diagnose
+from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError, Wall
 from workbench.exercise.seeds import drawn_from
 from workbench.exercise.submission import Submission
 
@@ -112,7 +112,9 @@ def grade_file(
     """
     seconds = exercise.contract.seconds
     room = {} if megabytes is None else {"megabytes": megabytes}
-    with Student(given, exercise.name, seconds=seconds, wall=wall, budget=CallBudget(seconds), **room) as student:
+    with SandboxedFunction(
+        given, exercise.name, seconds=seconds, wall=wall, budget=CallBudget(seconds), **room
+    ) as student:
         return grade_function(student, exercise, hidden=hidden, file=student.submission.file, seed=seed)
 
 
@@ -128,7 +130,7 @@ def grade_function(
         file: How the report names it.
         seed: What the hidden checks are drawn from, 0 or more; None takes their usual seeds.
     """
-    if isinstance(function, Student):
+    if isinstance(function, SandboxedFunction):
         said = forbidden_use(function.submission, exercise)
         if said:
             return _refused(said, exercise, hidden, file, function.wall, seed)
@@ -143,8 +145,8 @@ def grade_function(
     outcomes = _inputs_looked_at(outcomes, asked)
     failing = {outcome.check.name for outcome in outcomes if outcome.verdict.share < 1.0}
     calls = {name: candidate.calls for name, candidate in asked.items()}
-    mistake = recognised(calls, failing, exercise)
-    ours = not isinstance(function, Student)
+    mistake = diagnose(calls, failing, exercise)
+    ours = not isinstance(function, SandboxedFunction)
     return Report(
         exercise,
         file,

@@ -141,6 +141,8 @@ def beside(got: Any, right: Any, hint: str, name: str = "") -> str:
     with np.errstate(invalid="ignore"):
         off = np.abs(got - right)
     off = np.where(np.isnan(off), np.where(np.isnan(got) == np.isnan(right), 0.0, np.inf), off)
+    if not off.any():
+        return hint  # what is wrong is something else
     row = int(np.argmax(off.reshape(len(off), -1).max(axis=1))) if off.ndim else 0
     at = tuple(int(i) for i in np.unravel_index(int(np.argmax(off)), off.shape))
     where = f"{name}[{', '.join(map(str, at))}]"

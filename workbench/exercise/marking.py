@@ -15,12 +15,12 @@ import workbench
 from workbench.errors import InputError, one_line
 from workbench.exercise import finding
 from workbench.exercise.grading import Report, grade_file
-from workbench.exercise.handed import Handed
 from workbench.exercise.model import Exercise
 from workbench.exercise.reading import Reader
 from workbench.exercise.reports import SCHEMA_VERSION, as_dict, ungraded
 from workbench.exercise.sandbox import Wall, named
 from workbench.exercise.submission import Submission, submission
+from workbench.exercise.submissions import HandIn
 from workbench.lesson import Lesson
 from workbench.loading import load
 
@@ -124,7 +124,7 @@ def _text(folder: Path) -> str:
     return hashlib.sha256(b"\0".join(file.read_bytes() for file in files)).hexdigest()
 
 
-def grade_student(handed: Handed, asked: Asked) -> Result:
+def grade_student(handed: HandIn, asked: Asked) -> Result:
     """Grade what one student handed in and return the result as plain data; whatever goes wrong is part of it."""
     result = empty(handed, asked)
     try:
@@ -179,7 +179,7 @@ def _parts_of_lessons(result: Result, asked: Asked) -> list[str]:
     return [f"{lesson} {len(names & there)} of {len(names)}" for lesson, names in named.items() if names - there]
 
 
-def empty(handed: Handed, asked: Asked) -> Result:
+def empty(handed: HandIn, asked: Asked) -> Result:
     """Return a student's result before anything is graded."""
     return {
         "schema": SCHEMA_VERSION,
@@ -200,7 +200,7 @@ def summed(result: Result) -> Result:
     return result | {"error": "; ".join(said) or None}
 
 
-def chosen(handed: Handed, asked: Asked) -> Chosen:
+def chosen(handed: HandIn, asked: Asked) -> Chosen:
     """Return what is graded of what a student handed in, and what cannot be; what only helps other files is neither."""
     troubles = [ungraded(file, None, said) for file, said in handed.troubles]
     read: dict[str, Submission] = {}
@@ -253,7 +253,7 @@ def _defines_none(file: str, asked: Asked) -> str:
     return f"{file}: defines no function {' or '.join(asked.only)}"
 
 
-def read_one(handed: Handed, file: str) -> Submission:
+def read_one(handed: HandIn, file: str) -> Submission:
     """Return one file of what a student handed in, with the modules beside it that it imports.
 
     Raises:
@@ -263,14 +263,14 @@ def read_one(handed: Handed, file: str) -> Submission:
         return _read_one(handed, file, reader)
 
 
-def _read_one(handed: Handed, file: str, reader: Reader) -> Submission:
-    def beside(name: str) -> bytes | None:
+def _read_one(handed: HandIn, file: str, reader: Reader) -> Submission:
+    def extra_file(name: str) -> bytes | None:
         return handed.files.get(str(PurePosixPath(file).with_name(name)))
 
-    return submission(PurePosixPath(file).name, handed.files[file], beside, reader)
+    return submission(PurePosixPath(file).name, handed.files[file], extra_file, reader)
 
 
-def digest(handed: Handed, asked: Asked) -> str:
+def digest(handed: HandIn, asked: Asked) -> str:
     """Return what a kept result must agree with: what was handed in, what was asked for, and who graded it."""
     parts = [handed.student, handed.note, asked.digest(), repr(handed.troubles)]
     parts += [f"{name} {hashlib.sha256(data).hexdigest()}" for name, data in handed.files.items()]

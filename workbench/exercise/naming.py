@@ -50,7 +50,7 @@ class Evidence:
         return not self.other and bool(self.weight or not self.spared)
 
 
-def recognised(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> Mistake | None:
+def diagnose(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> Mistake | None:
     """Return the one mistake whose answers are those of the calls and are not the right ones; None if there is none.
 
     It is looked for in all calls first, then in those of each failing check alone: who makes two mistakes makes one of

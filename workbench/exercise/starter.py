@@ -1,4 +1,4 @@
-"""Writes what a student starts from: a file with the signature, the contract and two examples."""
+"""Writes what a student starts from, a file with the signature, the contract and two examples, and a sample solution."""
 
 import inspect
 import textwrap
@@ -12,9 +12,9 @@ from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox.budget import CALLS
+from workbench.exercise.sandbox.function import MEGABYTES
+from workbench.exercise.sandbox.isolation import OUTPUT_BYTES
 from workbench.exercise.sandbox.python import ALLOWED
-from workbench.exercise.sandbox.student import MEGABYTES
-from workbench.exercise.sandbox.walls import OUTPUT_BYTES
 from workbench.lesson import catalog
 from workbench.loading import word_for
 
@@ -57,6 +57,30 @@ def {exercise.name}({arguments}) -> {returned}:
     """{indented}
     """
     raise NotImplementedError
+'''
+
+
+def sample(exercise: Exercise) -> str:
+    """Return the text of a file that earns full marks: a copy of the first alternative, which needs numpy alone.
+
+    Raises:
+        InputError: If the exercise has no alternative.
+    """
+    if not exercise.alternatives:
+        raise InputError(f"exercise {exercise.name} has no @alternative, which would be the sample solution")
+    function = exercise.alternatives[0]
+    source = inspect.getsource(function).removeprefix("@alternative\n")
+    return f'''"""Exercise {exercise.name}, lesson {exercise.lesson}.
+
+A sample that earns full marks, for the teacher: do not hand it out.
+"""
+
+import numpy as np
+
+
+{source}
+
+{exercise.name} = {function.__name__}
 '''
 
 

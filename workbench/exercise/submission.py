@@ -46,7 +46,7 @@ class Submission:
         defines: The names that it gives a value.
         broken: Why it is not Python, with the line; nothing where it is.
         parts: Its statements.
-        beside: Those of the modules, by name.
+        extra_files: Those of the modules, by name.
     """
 
     file: str
@@ -56,7 +56,7 @@ class Submission:
     defines: frozenset[str] = frozenset()
     broken: str = ""
     parts: tuple[Part, ...] = ()
-    beside: dict[str, tuple[Part, ...]] = field(default_factory=dict)
+    extra_files: dict[str, tuple[Part, ...]] = field(default_factory=dict)
 
 
 def read_submission(path: Path) -> Submission:
@@ -66,21 +66,21 @@ def read_submission(path: Path) -> Submission:
         InputError: If it is no file, is too large, is no text, or takes too long to read; one line.
     """
 
-    def beside(name: str) -> bytes | None:
+    def extra_file(name: str) -> bytes | None:
         found = path.with_name(name)
         return content(found) if os.path.lexists(found) else None
 
     with Reader() as reader:
-        return submission(path.name, content(path), beside, reader)
+        return submission(path.name, content(path), extra_file, reader)
 
 
-def submission(file: str, data: bytes, beside: Callable[[str], bytes | None], reader: Reader) -> Submission:
+def submission(file: str, data: bytes, extra_file: Callable[[str], bytes | None], reader: Reader) -> Submission:
     """Return what the bytes of a file are.
 
     Args:
         file: Its name; a notebook ends in .ipynb.
         data: What is in it.
-        beside: Gives what is in a file beside it by its name, None where there is none.
+        extra_file: Gives what is in a file beside it by its name, None where there is none.
         reader: What reads them.
 
     Raises:
@@ -92,7 +92,7 @@ def submission(file: str, data: bytes, beside: Callable[[str], bytes | None], re
     waiting = list(found.get("imports", []))
     while waiting and len(modules) < MOST_MODULES:
         name = waiting.pop(0)
-        content_beside = None if name in modules else beside(f"{name}.py")
+        content_beside = None if name in modules else extra_file(f"{name}.py")
         if content_beside is not None:
             module = reader.read(f"{name}.py", content_beside)
             modules[name], parts[name] = module["source"], _parts(module)
@@ -105,7 +105,7 @@ def submission(file: str, data: bytes, beside: Callable[[str], bytes | None], re
         defines=frozenset(found.get("defines", [])),
         broken=found.get("broken", ""),
         parts=_parts(found),
-        beside=parts,
+        extra_files=parts,
     )
 
 

@@ -9,7 +9,7 @@ from workbench.exercise.driven import driven
 from workbench.exercise.finding import exercises_in
 from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise
-from workbench.exercise.sandbox import Student
+from workbench.exercise.sandbox import SandboxedFunction
 from workbench.lesson import Lesson, Preset
 
 RUNNING = "The checks are running …"
@@ -103,8 +103,8 @@ class Watched:
         """End the child process."""
         self._student.close()
 
-    def _new(self) -> Student:
-        return Student(self.path, self.exercise.name, seconds=self.exercise.contract.seconds)
+    def _new(self) -> SandboxedFunction:
+        return SandboxedFunction(self.path, self.exercise.name, seconds=self.exercise.contract.seconds)
 
     def _stamp_now(self) -> tuple[int, int] | None:
         try:

@@ -10,7 +10,7 @@ from pathlib import Path
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of, find_exercise
 from workbench.exercise.model import Exercise
-from workbench.exercise.sandbox.walls import NAMES
+from workbench.exercise.sandbox.isolation import NAMES
 from workbench.lesson import catalog
 
 MOST_POINTS = 1e6

@@ -4,16 +4,16 @@ import base64
 import io
 
 from workbench.exercise.failing import failing_run
-from workbench.exercise.handed import Handed
 from workbench.exercise.marking import read_one
 from workbench.exercise.model import Exercise
-from workbench.exercise.sandbox import Student, Wall
+from workbench.exercise.sandbox import SandboxedFunction, Wall
+from workbench.exercise.submissions import HandIn
 from workbench.scene import caption_of
 
 SIZE = 640, 400
 
 
-def pictured(exercise: Exercise, handed: Handed, file: str, wall: Wall) -> list[dict[str, str]]:
+def pictured(exercise: Exercise, handed: HandIn, file: str, wall: Wall) -> list[dict[str, str]]:
     """Return a picture of the failing case as a label and a data URL; none where the lesson's run shows none.
 
     Args:
@@ -28,7 +28,9 @@ def pictured(exercise: Exercise, handed: Handed, file: str, wall: Wall) -> list[
         from workbench.page.thumbnail import drawn
     except ImportError:  # drawing is more than grading needs
         return []
-    with Student(read_one(handed, file), exercise.name, seconds=exercise.contract.seconds, wall=wall) as student:
+    with SandboxedFunction(
+        read_one(handed, file), exercise.name, seconds=exercise.contract.seconds, wall=wall
+    ) as student:
         found = failing_run(exercise, student)
         if found is None:
             return []

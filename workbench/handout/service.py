@@ -14,10 +14,10 @@ from typing import Any
 from workbench.atomic import write_atomic
 from workbench.errors import InputError, one_line
 from workbench.exercise.grading import Report
-from workbench.exercise.handed import handed_by
 from workbench.exercise.marking import Asked, chosen, marked, not_handed_in
 from workbench.exercise.reports import gradescope, ungraded
 from workbench.exercise.sandbox import Wall, best, named
+from workbench.exercise.submissions import handed_by
 from workbench.handout.assignment import Assignment, read
 from workbench.handout.picture import pictured
 from workbench.handout.results import prairielearn

@@ -11,14 +11,14 @@ from pathlib import Path
 
 from workbench.atomic import write_atomic
 from workbench.errors import InputError
-from workbench.exercise.sandbox.student import MEGABYTES
-from workbench.exercise.starter import commands, starter
+from workbench.exercise.sandbox.function import MEGABYTES
+from workbench.exercise.starter import commands, sample, starter
 from workbench.handout import gradescope, prairielearn
 from workbench.handout.assignment import Assignment
-from workbench.handout.samples import empty, right
 
 SECONDS = 560.0
-KINDS = {"full": right, "none": empty}
+KINDS = {"full": sample, "none": starter}
+"""What each folder of the teacher's holds: a file that earns everything, and one that earns nothing."""
 
 
 def files(assignment: Assignment) -> dict[str, bytes]:

@@ -17,7 +17,7 @@ THIRD_PARTIES = "third-parties.txt"
 """Whose work is in our pages, and its licences."""
 STYLES = ("page.css", "ending.css", "course.css")
 SCRIPTS = (
-    "tools.js", "curves.js", "stage.js", "transport.js", "beside.js", "article.js", "knobs.js", "exercise.js",
+    "tools.js", "curves.js", "stage.js", "transport.js", "panels.js", "article.js", "knobs.js", "exercise.js",
     "run.js", "progress.js", "text.js", "page.js",
 )  # fmt: skip
 SCENE = ("wire.js", "looks.js", "feed.js", "labels.js", "handles.js", "sceneview.js")

@@ -38,7 +38,7 @@ class Steps:
         self._lock = threading.Lock()
 
     @classmethod
-    def beside(cls, timeline: Timeline) -> "Steps":
+    def weakly(cls, timeline: Timeline) -> "Steps":
         """Return the data of a run that somebody else holds: kept beside it, they do not keep it."""
         made = cls(timeline)
         made._run = weakref.ref(timeline)

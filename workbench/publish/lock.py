@@ -16,40 +16,32 @@ def only_writer(out: Path) -> Iterator[None]:
     """Hold a folder for the length of the block. The system lets go of it when the process ends, however it ends.
 
     Raises:
-        InputError: If another process holds it.
+        InputError: If another process holds it, or let go of it at this moment.
     """
     path = out / LOCK
-    file = _opened(path)
+    file = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
     try:
-        yield
+        if not _held(file) or not path.exists() or not os.path.samestat(os.fstat(file), path.stat()):
+            raise InputError(f"{out}: another publish is writing here; wait until it is done")
+        try:
+            yield
+        finally:
+            if os.fstat(file).st_size == 0:  # else it is somebody else's file
+                path.unlink(missing_ok=True)
     finally:
-        if os.fstat(file).st_size == 0:  # else it is somebody else's file
-            path.unlink(missing_ok=True)
         os.close(file)
 
 
-def _opened(path: Path) -> int:
-    while True:
-        file = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
-        try:
-            _hold(file)
-            if path.exists() and os.path.samestat(os.fstat(file), path.stat()):
-                return file
-        except (BlockingIOError, PermissionError):
-            os.close(file)
-            raise InputError(f"{path.parent}: another publish is writing here; wait until it is done") from None
-        except BaseException:
-            os.close(file)
-            raise
-        os.close(file)  # who held it before has removed it meanwhile
+def _held(file: int) -> bool:
+    try:
+        if sys.platform == "win32":
+            import msvcrt
 
+            msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
+        else:
+            import fcntl
 
-def _hold(file: int) -> None:
-    if sys.platform == "win32":
-        import msvcrt
-
-        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
-    else:
-        import fcntl
-
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except (BlockingIOError, PermissionError):
+        return False
+    return True

@@ -11,7 +11,7 @@ from workbench.page.article import article_html
 from workbench.page.course import Card, course_document
 from workbench.page.document import in_script, lesson_document
 from workbench.page.exercise import exercises_html
-from workbench.publish.ledger import Listed
+from workbench.publish.manifest import Listed
 from workbench.publish.runs import PAGE, question_run
 from workbench.questions import answer
 from workbench.timeline import Timelines

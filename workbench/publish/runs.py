@@ -10,8 +10,8 @@ from typing import Any
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.flags import show_command
 from workbench.lesson import Lesson, Question, Sweep, catalog
+from workbench.links import show_command
 from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
 from workbench.publish.sources import sources_digest
@@ -19,7 +19,7 @@ from workbench.recording import file_name, record_bytes
 from workbench.timeline import Timeline
 from workbench.wire.client import client_html
 from workbench.wire.packing import run_text
-from workbench.workers import WorkerLostError, shared_out
+from workbench.workers import WorkerLostError, parallel_map
 
 CLIENT = "viser.js"
 """The file of a site with viser's client, which draws the scenes of all runs."""
@@ -164,7 +164,7 @@ def render_all(runs: Sequence[tuple[Lesson, Run]]) -> Iterator[tuple[Lesson, Run
         return
     waiting = {(lesson.name, run.name): (lesson, run) for lesson, run in runs}
     try:
-        for names, files in shared_out(_render_named, list(waiting), cores):
+        for names, files in parallel_map(_render_named, list(waiting), cores):
             yield *waiting[names], files
     except WorkerLostError:
         raise InputError("a process that renders runs was ended from outside; publishing again goes on") from None

@@ -13,8 +13,8 @@ from workbench.lesson import Lesson
 from workbench.page.document import MATH, RECORDED, SCRIPTS, STATIC, STYLES, THIRD_PARTIES, bare
 from workbench.page.thumbnail import thumbnail
 from workbench.progress import Progress
-from workbench.publish.ledger import NAME, Ledger, Listed
 from workbench.publish.lock import only_writer
+from workbench.publish.manifest import NAME, Listed, Manifest
 from workbench.publish.pages import LESSONS, answers, course_page, lesson_page, lessons_script
 from workbench.publish.runs import (
     CLIENT,
@@ -88,12 +88,12 @@ def _publish(
     remove_others: bool,
     progress: Progress | None,
 ) -> list[tuple[str, int]]:
-    ledger = Ledger(out)
-    ledger.remove_leftovers()
+    manifest = Manifest(out)
+    manifest.remove_leftovers()
     names = {lesson.name for lesson in lessons}
-    others = {} if remove_others else {name: one for name, one in ledger.lessons.items() if name not in names}
+    others = {} if remove_others else {name: one for name, one in manifest.lessons.items() if name not in names}
     made_by = f"workbench {workbench.__version__}, viser {viser.__version__}"
-    if others and ledger.made_by != made_by:
+    if others and manifest.made_by != made_by:
         raise InputError(f"{out}: its other lessons were published by another version; publish all of them again")
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]
     shared = {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *RECORDED, *SCRIPTS)}
@@ -103,66 +103,65 @@ def _publish(
     wanted = {COURSE_PAGE, LESSONS, *shared}
     wanted |= {f"{name}/{file}" for name in names for file in (COURSE_PAGE, PICTURE)}
     wanted |= {name for lesson, run in work for name in files_of(lesson, run)}
-    ledger.check(wanted, force=force)
+    manifest.check(wanted, force=force)
 
-    ledger.made_by = made_by
-    _render(ledger, work, progress)
-    ledger.write(shared)
+    manifest.made_by = made_by
+    _render(manifest, work, progress)
+    manifest.write(shared)
     timelines = Timelines()
     for lesson in lessons:
-        _write_page(ledger, lesson, timelines, canonical(base_url, f"{lesson.name}/"))
+        _write_page(manifest, lesson, timelines, canonical(base_url, f"{lesson.name}/"))
     listed = others | {
         lesson.name: Listed(lesson.title, lesson.summary, lesson.order, lesson.needs) for lesson in lessons
     }
-    ledger.lessons = dict(sorted(listed.items(), key=lambda item: (item[1].order, item[0])))
+    manifest.lessons = dict(sorted(listed.items(), key=lambda item: (item[1].order, item[0])))
     course = {
-        COURSE_PAGE: course_page(ledger.lessons, canonical(base_url, "")),
-        LESSONS: lessons_script(ledger.lessons),
+        COURSE_PAGE: course_page(manifest.lessons, canonical(base_url, "")),
+        LESSONS: lessons_script(manifest.lessons),
     }
-    ledger.write({name: text.encode() for name, text in course.items()})
-    ledger.remove(name for name in ledger.files if name not in wanted and name.partition("/")[0] not in others)
-    ledger.runs = {key: value for key, value in ledger.runs.items() if key.partition("/")[0] in ledger.lessons}
-    ledger.save()
-    return checked(out, ledger.files)
+    manifest.write({name: text.encode() for name, text in course.items()})
+    manifest.remove(name for name in manifest.files if name not in wanted and name.partition("/")[0] not in others)
+    manifest.runs = {key: value for key, value in manifest.runs.items() if key.partition("/")[0] in manifest.lessons}
+    manifest.save()
+    return checked(out, manifest.files)
 
 
-def _render(ledger: Ledger, work: Sequence[tuple[Lesson, Run]], progress: Progress | None) -> None:
+def _render(manifest: Manifest, work: Sequence[tuple[Lesson, Run]], progress: Progress | None) -> None:
     """Write the files of those runs that are not there as they should be."""
     digests = {(lesson.name, run.name): digest_of(lesson, run) for lesson, run in work}
     stale = [
         (lesson, run)
         for lesson, run in work
-        if ledger.runs.get(f"{lesson.name}/{run.name}") != digests[lesson.name, run.name]
-        or not all(map(ledger.is_ours, files_of(lesson, run)))
+        if manifest.runs.get(f"{lesson.name}/{run.name}") != digests[lesson.name, run.name]
+        or not all(map(manifest.is_ours, files_of(lesson, run)))
     ]
     done = len(work) - len(stale)
     for lesson, run, files in render_all(stale):
-        ledger.runs.pop(f"{lesson.name}/{run.name}", None)
-        ledger.write({name: data for name, data in files.items() if not _is_equal(ledger, name, data)})
-        ledger.runs[f"{lesson.name}/{run.name}"] = digests[lesson.name, run.name]
-        ledger.save()  # who stops here goes on here
+        manifest.runs.pop(f"{lesson.name}/{run.name}", None)
+        manifest.write({name: data for name, data in files.items() if not _is_equal(manifest, name, data)})
+        manifest.runs[f"{lesson.name}/{run.name}"] = digests[lesson.name, run.name]
+        manifest.save()  # who stops here goes on here
         done += 1
         if progress is not None:
             progress(f"{lesson.name}/{run.name}", done, len(work))
 
 
-def _write_page(ledger: Ledger, lesson: Lesson, timelines: Timelines, address: str) -> None:
+def _write_page(manifest: Manifest, lesson: Lesson, timelines: Timelines, address: str) -> None:
     """Write a lesson's page if it is not there as it should be: its questions need runs."""
     key, names = f"{lesson.name}/", [f"{lesson.name}/{file}" for file in (COURSE_PAGE, PICTURE)]
     digest = page_digest(lesson, address)
-    if ledger.runs.get(key) == digest and all(map(ledger.is_ours, names)):
+    if manifest.runs.get(key) == digest and all(map(manifest.is_ours, names)):
         return
     known = recorded(lesson, runs_of(lesson)[0], root="../", runs="runs/", answers=answers(lesson, timelines))
     picture = thumbnail(lesson, timelines.get(lesson, lesson.params()))
-    ledger.runs.pop(key, None)
-    ledger.write(dict(zip(names, (lesson_page(lesson, known, address).encode(), picture), strict=True)))
-    ledger.runs[key] = digest
+    manifest.runs.pop(key, None)
+    manifest.write(dict(zip(names, (lesson_page(lesson, known, address).encode(), picture), strict=True)))
+    manifest.runs[key] = digest
 
 
-def _is_equal(ledger: Ledger, name: str, data: bytes) -> bool:
+def _is_equal(manifest: Manifest, name: str, data: bytes) -> bool:
     """Return whether our file there is a recording of equal content: its bytes may differ all the same."""
-    before = ledger.content(name) if name.endswith(".rrd") else None
-    return before is not None and equal_content(before, data)
+    return name.endswith(".rrd") and manifest.is_ours(name) and equal_content(manifest.read(name), data)
 
 
 def canonical(base_url: str | None, path: str) -> str:

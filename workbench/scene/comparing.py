@@ -6,8 +6,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from workbench.scene.beside import Caption, Curve, Scalar, Table
 from workbench.scene.colors import Classes, Field
+from workbench.scene.side_panels import Caption, Curve, Scalar, Table
 from workbench.scene.spatial import Axes, Camera, Label, Mesh, Picture, Points, Segments, Spatial
 
 Primitive: TypeAlias = Spatial | Scalar | Curve | Table | Caption

@@ -104,7 +104,7 @@ class Runs:
         with self._lock:
             steps = self._steps.get(timeline)
             if steps is None:
-                steps = self._steps[timeline] = Steps.beside(timeline)
+                steps = self._steps[timeline] = Steps.weakly(timeline)
             return steps
 
     def close(self) -> None:

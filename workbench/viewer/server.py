@@ -31,13 +31,13 @@ from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES, THIRD_PARTIES
 from workbench.page.thumbnail import thumbnail
 from workbench.typeset import math_font_css
 from workbench.viewer.addresses import Doors
+from workbench.viewer.connection import PageConnection
 from workbench.viewer.documents import LessonPages, course_page, lesson_page, start_address
 from workbench.viewer.following import Following
 from workbench.viewer.pace import FIRST_WORD, Pace
 from workbench.viewer.patience import Patience, more_files
 from workbench.viewer.rules import Gate, Rules, page_response
 from workbench.viewer.runs import MOST_BYTES, Runs
-from workbench.viewer.student import Student
 from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
 
@@ -45,7 +45,7 @@ FILES = (*STYLES, *LIVE, *SCRIPTS, THIRD_PARTIES)
 MOST_PAGES = 400
 """Pages at once; whoever comes later is told so."""
 MOST_A_SECOND = 200
-"""Wishes of a page; what is more waits, and of its kind the latest is what counts."""
+"""Requests of a page; what is more waits, and of its kind the latest is what counts."""
 ROOM = 3.0
 """Seconds between two looks at what is held in memory."""
 EMPTY = 30.0
@@ -97,7 +97,7 @@ class Server:
         self.doors = Doors(host, self.port, self.rules.token)
         self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
         self._lesson_pages = LessonPages()
-        self.students: dict[str, Student] = {}
+        self.students: dict[str, PageConnection] = {}
         self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
         self.following = start and Following(start.lesson, watched, edited, self._replace, self._pages)
         config = uvicorn.Config(
@@ -203,7 +203,7 @@ class Server:
     def _new_token(self) -> str:
         return secrets.token_hex(12)
 
-    def _pages(self) -> list[Student]:
+    def _pages(self) -> list[PageConnection]:
         return list(self.students.values())
 
     def _replace(self, before: Lesson, after: Lesson) -> None:
@@ -248,7 +248,7 @@ class Server:
         if not _TOKEN.fullmatch(token) or token in self.students or len(self.students) >= self._most_pages:
             await socket.close(4409)
             return
-        student = self.students[token] = Student(self.lessons, self.runs, functools.partial(_send, socket))
+        student = self.students[token] = PageConnection(self.lessons, self.runs, functools.partial(_send, socket))
         student.start, student.following = self._start, self.following
         working = asyncio.create_task(student.work())
         try:
@@ -264,7 +264,7 @@ class Server:
             await socket.close()
 
     @staticmethod
-    async def _listen(socket: WebSocket, student: Student) -> None:
+    async def _listen(socket: WebSocket, student: PageConnection) -> None:
         pace, said = Pace(MOST_A_SECOND), False
         while True:
             message = await asyncio.wait_for(socket.receive(), None if said else FIRST_WORD)

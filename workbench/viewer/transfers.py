@@ -7,7 +7,7 @@ from starlette.responses import PlainTextResponse, Response
 
 from workbench.errors import InputError
 from workbench.timeline import Timeline
-from workbench.viewer.student import Student
+from workbench.viewer.connection import PageConnection
 from workbench.viewer.terminal import tell_terminal
 
 
@@ -21,7 +21,7 @@ def scene_response(request: Request, plain: bytes, compressed: bytes, etag: str)
     return Response(plain, headers=headers, media_type="text/html")
 
 
-async def recording(student: Student | None) -> Response:
+async def recording(student: PageConnection | None) -> Response:
     """Return the run that a page shows as a recording."""
     if student is None or student.session is None:
         return PlainTextResponse("This page is not open any more; reload it.", 404)
@@ -43,7 +43,7 @@ def _recorded(timeline: Timeline) -> tuple[str, bytes]:
     return file_name(timeline.lesson, name), record_bytes(timeline.complete(), preset=name)
 
 
-async def receive(request: Request, student: Student | None) -> Response:
+async def receive(request: Request, student: PageConnection | None) -> Response:
     """Take a person's own file for a field of Params of the lesson that their page shows."""
     if student is None or "origin" not in request.headers:
         return PlainTextResponse("This page is not open any more; reload it.", 404)

@@ -228,7 +228,7 @@ def axes_by_svd(p: np.ndarray) -> np.ndarray:
     """The right singular vectors of the centred points, which come in falling order."""
     if len(p) == 0:
         raise ValueError("a cloud without points has no axes")
-    V = np.linalg.svd(p - np.mean(p, axis=0))[2].T if len(p) < 400 else np.linalg.svd(covariance(p))[0]
+    V = np.linalg.svd(p - np.mean(p, axis=0), full_matrices=len(p) < 3)[2].T
     V = V * np.sign(V[np.abs(V).argmax(axis=0), range(3)])
     V[:, 2] *= np.sign(np.linalg.det(V))
     return V

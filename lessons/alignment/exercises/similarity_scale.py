@@ -230,17 +230,6 @@ def divided_once(p_target: np.ndarray, p_source: np.ndarray) -> float:
 
 
 @alternative
-def scale_by_rotation(p_target: np.ndarray, p_source: np.ndarray) -> float:
-    """Finds R first, and projects the target onto the turned source."""
-    a, b = centred(p_target, p_source)
-    if np.allclose(b, 0.0, atol=1e-12):
-        return 1.0
-    U, _, Vt = np.linalg.svd(b.T @ a)
-    R = Vt.T @ np.diag([1.0, 1.0, np.sign(np.linalg.det(Vt.T @ U.T))]) @ U.T
-    return float(np.sum(a * (b @ R.T)) / np.sum(b * b))
-
-
-@alternative
 def scale_by_quaternion(p_target: np.ndarray, p_source: np.ndarray) -> float:
     """Horn: the largest eigenvalue of the quaternion matrix is tr(D S)."""
     if not len(p_target):
@@ -254,3 +243,14 @@ def scale_by_quaternion(p_target: np.ndarray, p_source: np.ndarray) -> float:
     N[0, 0], N[0, 1:], N[1:, 0] = np.trace(M), v, v
     N[1:, 1:] = M + M.T - np.trace(M) * np.eye(3)
     return float(np.linalg.eigvalsh(N)[-1] / (b**2).sum())
+
+
+@alternative
+def scale_by_rotation(p_target: np.ndarray, p_source: np.ndarray) -> float:
+    """Finds R first, and projects the target onto the turned source."""
+    a, b = centred(p_target, p_source)
+    if np.allclose(b, 0.0, atol=1e-12):
+        return 1.0
+    U, _, Vt = np.linalg.svd(b.T @ a)
+    R = Vt.T @ np.diag([1.0, 1.0, np.sign(np.linalg.det(Vt.T @ U.T))]) @ U.T
+    return float(np.sum(a * (b @ R.T)) / np.sum(b * b))

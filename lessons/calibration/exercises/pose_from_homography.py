@@ -197,17 +197,6 @@ def transposed(K: np.ndarray, H: np.ndarray) -> np.ndarray:
 
 
 @alternative
-def by_polar_decomposition(K: np.ndarray, H: np.ndarray) -> np.ndarray:
-    """Scipy's polar factor, scaled by r1 alone as in Zhang's paper."""
-    A = np.linalg.inv(K) @ H
-    A = A / (np.linalg.norm(A[:, 0]) * np.sign(A[2, 2]))
-    R, _ = scipy.linalg.polar(np.column_stack([A[:, 0], A[:, 1], np.cross(A[:, 0], A[:, 1])]))
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = R, A[:, 2]
-    return T
-
-
-@alternative
 def by_gram_schmidt(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """r1 as it is, and what of r2 is at right angles to it."""
     A = np.linalg.inv(K) @ H
@@ -216,3 +205,14 @@ def by_gram_schmidt(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     r2 = A[:, 1] - (A[:, 1] @ r1) * r1
     r2 /= np.linalg.norm(r2)
     return np.block([[np.column_stack([r1, r2, np.cross(r1, r2)]), A[:, 2:]], [np.zeros((1, 3)), np.ones((1, 1))]])
+
+
+@alternative
+def by_polar_decomposition(K: np.ndarray, H: np.ndarray) -> np.ndarray:
+    """Scipy's polar factor, scaled by r1 alone as in Zhang's paper."""
+    A = np.linalg.inv(K) @ H
+    A = A / (np.linalg.norm(A[:, 0]) * np.sign(A[2, 2]))
+    R, _ = scipy.linalg.polar(np.column_stack([A[:, 0], A[:, 1], np.cross(A[:, 0], A[:, 1])]))
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = R, A[:, 2]
+    return T

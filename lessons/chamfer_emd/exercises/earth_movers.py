@@ -291,6 +291,34 @@ def between_centroids(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @alternative
+def by_shortest_ways(p_a: np.ndarray, p_b: np.ndarray) -> float:
+    """Matches row after row: each takes the shortest way to a free column, over columns that change their rows (Kuhn)."""
+    if min(len(p_a), len(p_b)) == 0:
+        raise ValueError("no points")
+    n = int(np.lcm(len(p_a), len(p_b)))
+    a, b = np.repeat(p_a, n // len(p_a), axis=0), np.repeat(p_b, n // len(p_b), axis=0)
+    D = np.sqrt(((a[:, None] - b) ** 2).sum(axis=-1))
+    row_of, price, paid = np.full(n, -1), np.zeros(n), np.zeros(n)
+    for row in range(n):
+        way, before, done = np.full(n, np.inf), np.full(n, -1), np.zeros(n, bool)
+        here, column, length = row, -1, 0.0
+        while here >= 0:
+            further = length + D[here] - paid[here] - price
+            shorter = ~done & (further < way)
+            way[shorter], before[shorter] = further[shorter], column
+            column = int(np.where(done, np.inf, way).argmin())
+            length, here, done[column] = way[column], row_of[column], True
+        paid[row] += length
+        changed = done & (row_of >= 0)
+        paid[row_of[changed]] += length - way[changed]
+        price[done] += way[done] - length
+        while column >= 0:
+            row_of[column] = row if before[column] < 0 else row_of[before[column]]
+            column = before[column]
+    return float(D[row_of, np.arange(n)].mean())
+
+
+@alternative
 def earth_movers_of_copies(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Repeats points until the counts are equal, then assigns."""
     from scipy.optimize import linear_sum_assignment

@@ -196,7 +196,8 @@ def angle_in_degrees(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
 @alternative
 def haversine(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Takes the arc sine of a root."""
-    lat_a, lon_a, lat_b, lon_b = radians(a, b)
+    lat_a, lon_a = np.radians(a).T
+    lat_b, lon_b = np.radians(b).T
     h = np.sin((lat_b - lat_a) / 2) ** 2 + np.cos(lat_a) * np.cos(lat_b) * np.sin((lon_b - lon_a) / 2) ** 2
     return 2 * radius * np.arcsin(np.sqrt(np.clip(h, 0.0, 1.0)))
 

@@ -225,7 +225,7 @@ def by_complex_numbers(p: np.ndarray) -> np.ndarray:
     p = p + 0.0  # -0.0 becomes 0
     flat = p[:, 0] + 1j * p[:, 1]
     up = p[:, 2] + 1j * np.abs(flat)
-    return columns(np.abs(up), np.angle(up), np.angle(flat))
+    return np.column_stack([np.abs(up), np.angle(up), np.angle(flat)])
 
 
 @alternative

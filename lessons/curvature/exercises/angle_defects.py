@@ -231,17 +231,6 @@ def cosine_beyond_1(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @alternative
-def defects_by_cosines(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """The arccos of clipped cosines; the border from the edges that only one face has."""
-    total = np.zeros(len(p))
-    for k in range(3):
-        a, b = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
-        cosine = (a * b).sum(axis=1) / np.sqrt((a * a).sum(axis=1) * (b * b).sum(axis=1))
-        np.add.at(total, faces[:, k], np.arccos(np.clip(cosine, -1, 1)))
-    return np.where(border_of(len(p), faces), np.pi, 2 * np.pi) - total
-
-
-@alternative
 def defects_in_loops(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Face by face, the angle as that of two directions in the complex plane of the face."""
     left = [2 * np.pi] * len(p)
@@ -255,3 +244,14 @@ def defects_in_loops(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     for i in {i for edge, times in seen.items() if times == 1 for i in edge}:
         left[i] -= np.pi
     return np.array(left)
+
+
+@alternative
+def defects_by_cosines(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """The arccos of clipped cosines; the border from the edges that only one face has."""
+    total = np.zeros(len(p))
+    for k in range(3):
+        a, b = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
+        cosine = (a * b).sum(axis=1) / np.sqrt((a * a).sum(axis=1) * (b * b).sum(axis=1))
+        np.add.at(total, faces[:, k], np.arccos(np.clip(cosine, -1, 1)))
+    return np.where(border_of(len(p), faces), np.pi, 2 * np.pi) - total

@@ -222,7 +222,10 @@ def gaussian_by_corners(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
         to_j, to_o = ((p[j] - p[i]) ** 2).sum(axis=1), ((p[o] - p[i]) ** 2).sum(axis=1)
         voronoi = (to_j * dots[(k + 2) % 3] + to_o * dots[(k + 1) % 3]) / some / 8
         np.add.at(area, i, np.where(obtuse, double / np.where(dots[k] < 0, 4, 8), voronoi))
-    return np.where(border_of(len(p), faces), np.nan, defect / area)
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges, times = np.unique(edges, axis=0, return_counts=True)
+    on_border = np.isin(np.arange(len(p)), edges[times == 1])
+    return np.where(on_border, np.nan, defect / area)
 
 
 @alternative

@@ -265,7 +265,9 @@ def gradient_of_area(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
         voronoi = (((one - at) ** 2).sum(axis=1) * far + ((two - at) ** 2).sum(axis=1) * there) / (8 * double)
         obtuse = np.minimum(there, far) < 0
         np.add.at(area, faces[:, k], np.where(here < 0, double / 4, np.where(obtuse, double / 8, voronoi)))
-    total[border_of(len(p), faces)] = np.nan
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges, times = np.unique(edges, axis=0, return_counts=True)
+    total[np.unique(edges[times == 1])] = np.nan
     return total / area[:, None]
 
 

@@ -335,23 +335,6 @@ def even_windows(left: np.ndarray, right: np.ndarray, max_disparity: int, window
 
 
 @alternative
-def volume_by_running_sums(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
-    """Differences of the sums over all cells above and to the left."""
-    h, w = left.shape
-    if right.shape != (h, w) or window % 2 != 1 or window < 1 or max_disparity < 0 or max_disparity >= w:
-        raise ValueError("pictures of one size, an odd window, and shifts within the picture")
-    cost = np.full((max_disparity + 1, h, w), np.inf)
-    for d in range(max_disparity + 1):
-        off = np.abs(left[:, d:].astype(float) - right[:, : w - d].astype(float))
-        off = np.pad(off, window // 2, mode="edge")
-        sums = np.pad(off.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
-        cost[d, :, d:] = (
-            sums[window:, window:] - sums[:-window, window:] - sums[window:, :-window] + sums[:-window, :-window]
-        )
-    return cost
-
-
-@alternative
 def volume_by_shifts(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
     """One pixel of the window after the other, indices kept inside the slice."""
     (h, w), reach = left.shape, window // 2
@@ -369,4 +352,21 @@ def volume_by_shifts(left: np.ndarray, right: np.ndarray, max_disparity: int, wi
                 row, column = np.clip(y + up, 0, h - 1), np.clip(x + aside, d, w - 1)
                 cost[d] += abs(a[row, column] - b[row, column - d])
         cost[d, x < d] = np.inf
+    return cost
+
+
+@alternative
+def volume_by_running_sums(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+    """Differences of the sums over all cells above and to the left."""
+    h, w = left.shape
+    if right.shape != (h, w) or window % 2 != 1 or window < 1 or max_disparity < 0 or max_disparity >= w:
+        raise ValueError("pictures of one size, an odd window, and shifts within the picture")
+    cost = np.full((max_disparity + 1, h, w), np.inf)
+    for d in range(max_disparity + 1):
+        off = np.abs(left[:, d:].astype(float) - right[:, : w - d].astype(float))
+        off = np.pad(off, window // 2, mode="edge")
+        sums = np.pad(off.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
+        cost[d, :, d:] = (
+            sums[window:, window:] - sums[:-window, window:] - sums[window:, :-window] + sums[:-window, :-window]
+        )
     return cost

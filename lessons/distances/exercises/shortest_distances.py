@@ -196,6 +196,20 @@ def next_edge_only(edges: np.ndarray, lengths: np.ndarray, count: int, source: i
 
 
 @alternative
+def in_rounds(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
+    """Bellman and Ford: all edges again and again, until nothing falls."""
+    d = np.full(count, np.inf)
+    d[source] = 0.0
+    a, b = edges.T
+    while True:
+        before = d.copy()
+        np.minimum.at(d, b, d[a] + lengths)
+        np.minimum.at(d, a, d[b] + lengths)
+        if np.array_equal(before, d):
+            return d
+
+
+@alternative
 def with_a_heap(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
     """Dijkstra with a heap."""
     beside, d = _beside(edges, lengths, count), np.full(count, np.inf)
@@ -209,17 +223,3 @@ def with_a_heap(edges: np.ndarray, lengths: np.ndarray, count: int, source: int)
                 d[other] = way + w
                 heapq.heappush(heap, (d[other], other))
     return d
-
-
-@alternative
-def in_rounds(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
-    """Bellman and Ford: all edges again and again, until nothing falls."""
-    d = np.full(count, np.inf)
-    d[source] = 0.0
-    a, b = edges.T
-    while True:
-        before = d.copy()
-        np.minimum.at(d, b, d[a] + lengths)
-        np.minimum.at(d, a, d[b] + lengths)
-        if np.array_equal(before, d):
-            return d

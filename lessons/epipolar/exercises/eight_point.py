@@ -249,12 +249,19 @@ def by_eigenvectors(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Takes the eigenvector of A^T A, and builds the rows one by one."""
     if len(uv_first) < 8:
         raise ValueError("eight matches are needed")
-    T, S = similarity(uv_first), similarity(uv_second)
+    maps = []
+    for uv in (uv_first, uv_second):
+        mean = uv.mean(axis=0)
+        scale = np.sqrt(2) / np.linalg.norm(uv - mean, axis=1).mean()
+        maps.append(np.array([[scale, 0, -scale * mean[0]], [0, scale, -scale * mean[1]], [0, 0, 1]]))
     A = []
-    for (u, v, _), (s, t, _) in zip(homogeneous(uv_first) @ T.T, homogeneous(uv_second) @ S.T, strict=True):
+    for first, second in zip(uv_first, uv_second, strict=True):
+        u, v, _ = maps[0] @ [*first, 1]
+        s, t, _ = maps[1] @ [*second, 1]
         A.append([s * u, s * v, s, t * u, t * v, t, u, v, 1])
     F = np.linalg.eigh(np.array(A).T @ np.array(A))[1][:, 0].reshape(3, 3)
-    F = -S.T @ dropped(F) @ T
+    U, values, Vt = np.linalg.svd(F)
+    F = -maps[1].T @ U @ np.diag([*values[:2], 0]) @ Vt @ maps[0]
     return F / np.linalg.norm(F)
 
 

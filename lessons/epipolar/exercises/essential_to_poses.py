@@ -225,8 +225,12 @@ def t_scaled(E: np.ndarray) -> np.ndarray:
 def signs_of_rotations(E: np.ndarray) -> np.ndarray:
     """Turns the sign of R round where it mirrors."""
     U, _, Vt = np.linalg.svd(E)
-    one, two = (R * np.sign(np.linalg.det(R)) for R in (U @ W.T @ Vt, U @ W @ Vt))
-    return four((one, two), -U[:, 2])
+    W = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    Ts = np.tile(np.eye(4), (4, 1, 1))
+    for k, R in enumerate((U @ W.T @ Vt, U @ W @ Vt)):
+        Ts[2 * k : 2 * k + 2, :3, :3] = R * np.sign(np.linalg.det(R))
+    Ts[:, :3, 3] = -U[:, 2], U[:, 2], -U[:, 2], U[:, 2]
+    return Ts
 
 
 @alternative

@@ -195,16 +195,12 @@ def by_cross_products(
     """Takes all six equations of both cross products, point by point."""
     found = []
     for (u, v), (s, t) in zip(uv_first, uv_second, strict=True):
-        A = np.concatenate([cross_rows(u, v, P_first), cross_rows(s, t, P_second)])
-        x_h = np.linalg.svd(A)[2][-1]
+        first = np.array([[0, -1, v], [1, 0, -u], [-v, u, 0]]) @ P_first
+        second = np.array([[0, -1, t], [1, 0, -s], [-t, s, 0]]) @ P_second
+        A = np.concatenate([first, second])
+        x_h = np.linalg.svd(A / np.linalg.norm(A, axis=1, keepdims=True))[2][-1]
         found.append(x_h[:3] / x_h[3])
     return np.array(found)
-
-
-def cross_rows(u: float, v: float, P: np.ndarray) -> np.ndarray:
-    """Return [(u, v, 1)]x P with rows of length one."""
-    rows = np.array([[0, -1, v], [1, 0, -u], [-v, u, 0]]) @ P
-    return rows / np.linalg.norm(rows, axis=1, keepdims=True)
 
 
 @alternative

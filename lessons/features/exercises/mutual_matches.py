@@ -175,14 +175,6 @@ def second_of_the_wrong_set(a: np.ndarray, b: np.ndarray, ratio: float) -> np.nd
 
 
 @alternative
-def with_all_distances(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
-    """All distances at once."""
-    D = distances(a, b)
-    low = np.sort(D, axis=1)
-    return kept(D, low[:, 0] < ratio * low[:, 1])
-
-
-@alternative
 def in_loops(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """One row after the other."""
     found = []
@@ -193,3 +185,11 @@ def in_loops(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
         back = int(np.argmin([float(np.linalg.norm(z - b[j])) for z in a]))
         found.append(j if back == i and d[j] < ratio * second else -1)
     return np.array(found)
+
+
+@alternative
+def with_all_distances(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
+    """All distances at once."""
+    D = distances(a, b)
+    low = np.sort(D, axis=1)
+    return kept(D, low[:, 0] < ratio * low[:, 1])

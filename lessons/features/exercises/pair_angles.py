@@ -199,12 +199,6 @@ def cross_exchanged(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.n
 
 
 @alternative
-def by_frames(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
-    """The frame as the task has it."""
-    return angles_in(*framed(p_i, n_i, p_j, n_j))
-
-
-@alternative
 def by_rows(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """One pair after the other."""
     rows = []
@@ -216,3 +210,9 @@ def by_rows(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) 
         v /= np.linalg.norm(v)
         rows.append([np.arctan2(np.cross(u, v) @ n, u @ n), v @ n, u @ d])
     return np.array(rows)
+
+
+@alternative
+def by_frames(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
+    """The frame as the task has it."""
+    return angles_in(*framed(p_i, n_i, p_j, n_j))

@@ -196,17 +196,17 @@ def first_column_dropped(p: np.ndarray, k: int) -> np.ndarray:
 
 
 @alternative
-def by_sorting(p: np.ndarray, k: int) -> np.ndarray:
-    """All distances, infinite to oneself."""
-    apart = np.linalg.norm(p[:, None] - p, axis=2)
-    np.fill_diagonal(apart, np.inf)
-    return joined(np.argsort(apart, axis=1)[:, :k])
-
-
-@alternative
 def by_kth_distance(p: np.ndarray, k: int) -> np.ndarray:
     """Everything up to the k-th smallest distance, of either end."""
     apart = ((p[:, None] - p) ** 2).sum(axis=2)
     np.fill_diagonal(apart, np.inf)
     named = apart <= np.partition(apart, k - 1, axis=1)[:, k - 1 : k]
     return (named | named.T).astype(float)
+
+
+@alternative
+def by_sorting(p: np.ndarray, k: int) -> np.ndarray:
+    """All distances, infinite to oneself."""
+    apart = np.linalg.norm(p[:, None] - p, axis=2)
+    np.fill_diagonal(apart, np.inf)
+    return joined(np.argsort(apart, axis=1)[:, :k])

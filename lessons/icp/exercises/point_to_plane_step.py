@@ -240,7 +240,8 @@ def centroid_forgotten(p_target: np.ndarray, p_source: np.ndarray, n_target: np.
 def step_about_the_origin(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
     """Low's product of three turns, about the origin."""
     A = np.hstack([np.cross(p_source, n_target), n_target])
-    a, b, c, *v = np.linalg.lstsq(A, gaps(p_target, p_source, n_target), rcond=1e-9)[0]
+    gap = np.sum((p_target - p_source) * n_target, axis=1)
+    a, b, c, *v = np.linalg.lstsq(A, gap, rcond=1e-9)[0]
     Rx = np.array([[1, 0, 0], [0, np.cos(a), -np.sin(a)], [0, np.sin(a), np.cos(a)]])
     Ry = np.array([[np.cos(b), 0, np.sin(b)], [0, 1, 0], [-np.sin(b), 0, np.cos(b)]])
     Rz = np.array([[np.cos(c), -np.sin(c), 0], [np.sin(c), np.cos(c), 0], [0, 0, 1]])

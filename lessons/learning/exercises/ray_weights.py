@@ -167,13 +167,6 @@ def over_the_rays(density: np.ndarray, spacing: float) -> np.ndarray:
 
 
 @alternative
-def with_products(density: np.ndarray, spacing: float) -> np.ndarray:
-    """A running product of what passes."""
-    stopped = _stopped(density, spacing)
-    return _before(1 - stopped) * stopped
-
-
-@alternative
 def sample_by_sample(density: np.ndarray, spacing: float) -> np.ndarray:
     """Follows the light."""
     w = np.zeros(density.shape)
@@ -183,6 +176,13 @@ def sample_by_sample(density: np.ndarray, spacing: float) -> np.ndarray:
             stays = light * np.exp(-density[r, s] * spacing)
             w[r, s], light = light - stays, stays
     return w
+
+
+@alternative
+def with_products(density: np.ndarray, spacing: float) -> np.ndarray:
+    """A running product of what passes."""
+    stopped = _stopped(density, spacing)
+    return _before(1 - stopped) * stopped
 
 
 @alternative

@@ -243,17 +243,6 @@ def digits_lost(inlier_ratio: float, sample_size: int, confidence: float) -> flo
 
 
 @alternative
-def needed_with_math(inlier_ratio: float, sample_size: int, confidence: float) -> float:
-    """Uses Python's own logarithms and whole numbers."""
-    clean = inlier_ratio**sample_size
-    if clean == 0:
-        return math.inf
-    if clean == 1:
-        return 1
-    return math.ceil(math.log(1 - confidence) / math.log1p(-clean))
-
-
-@alternative
 def needed_by_halving(inlier_ratio: float, sample_size: int, confidence: float) -> int | float:
     """Looks for the smallest number of samples that is enough, without dividing logarithms."""
     if inlier_ratio == 0.0:
@@ -271,3 +260,14 @@ def needed_by_halving(inlier_ratio: float, sample_size: int, confidence: float) 
         else:
             enough = middle
     return enough
+
+
+@alternative
+def needed_with_math(inlier_ratio: float, sample_size: int, confidence: float) -> float:
+    """Uses Python's own logarithms and whole numbers."""
+    clean = inlier_ratio**sample_size
+    if clean == 0:
+        return math.inf
+    if clean == 1:
+        return 1
+    return math.ceil(math.log(1 - confidence) / math.log1p(-clean))

@@ -362,6 +362,20 @@ def line_given_zeros(p: np.ndarray) -> np.ndarray:
 
 
 @alternative
+def plane_by_minors(p: np.ndarray) -> np.ndarray:
+    """Takes the areas of the triangle's three shadows, one per axis."""
+    q = p - p.mean(axis=0)
+    sides = np.array([q[1] - q[0], q[2] - q[0]])
+    shadows = [sides[:, axes] for axes in ([1, 2], [2, 0], [0, 1])]
+    normal = np.array([s[0, 0] * s[1, 1] - s[0, 1] * s[1, 0] for s in shadows])
+    length = np.sqrt(normal @ normal)
+    if length <= 1e-9 * max(np.sum((p[i] - p[j]) ** 2) for i, j in ((0, 1), (0, 2), (1, 2))):
+        return np.array([np.nan] * 4)
+    normal = normal / length
+    return np.concatenate([normal, [-(p @ normal).mean()]])
+
+
+@alternative
 def plane_by_svd(p: np.ndarray) -> np.ndarray:
     """Finds the direction in which the centred points do not extend; its largest entry is positive."""
     centre = p.mean(axis=0)
@@ -383,17 +397,3 @@ def plane_by_hand(p: np.ndarray) -> list[float]:
         return [math.nan] * 4
     n = [float(c / length) for c in n]
     return [*n, -float(sum(c * x for c, x in zip(n, p[2], strict=True)))]
-
-
-@alternative
-def plane_by_minors(p: np.ndarray) -> np.ndarray:
-    """Takes the areas of the triangle's three shadows, one per axis."""
-    q = p - p.mean(axis=0)
-    sides = np.array([q[1] - q[0], q[2] - q[0]])
-    shadows = [sides[:, axes] for axes in ([1, 2], [2, 0], [0, 1])]
-    normal = np.array([s[0, 0] * s[1, 1] - s[0, 1] * s[1, 0] for s in shadows])
-    length = np.sqrt(normal @ normal)
-    if length <= 1e-9 * max(np.sum((p[i] - p[j]) ** 2) for i, j in ((0, 1), (0, 2), (1, 2))):
-        return np.array([np.nan] * 4)
-    normal = normal / length
-    return np.concatenate([normal, [-(p @ normal).mean()]])

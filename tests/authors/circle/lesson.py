@@ -14,7 +14,7 @@ from workbench.tracing import traced
 
 from .draw import draw
 from .exercises.fit_circle import fit_circle
-from .experiments import PRESETS, QUESTIONS
+from .presets import PRESETS, QUESTIONS
 from .state import TRUE, Params, State
 
 

@@ -3,8 +3,8 @@
 from workbench.geometry.polylines import between
 from workbench.scene import Chart, Points, Scene, Segments
 
+from .captions import caption
 from .state import P_TRUE, State
-from .words import caption
 
 DISTANCE = Chart("Distance", unit="m")
 

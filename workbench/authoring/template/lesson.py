@@ -3,8 +3,8 @@
 What it teaches: weights of one over the variance give the best mean there is, equal weights waste the better sensor, and
 no weights protect from a measurement that is of something else.
 
-`state.py` has the inputs and the state, `fixes.py` the made data, `draw.py` and `words.py` the picture and its sentences,
-`experiments.py` the presets and questions, `exercises/` what students write.
+`state.py` has the inputs and the state, `fixes.py` the made data, `draw.py` and `captions.py` the picture and its sentences,
+`presets.py` the presets and questions, `exercises/` what students write.
 """
 
 from collections.abc import Callable, Iterator
@@ -17,8 +17,8 @@ from workbench.tracing import traced
 
 from .draw import draw
 from .exercises.weighted_centroid import weighted_centroid
-from .experiments import PRESETS, QUESTIONS
 from .fixes import measured
+from .presets import PRESETS, QUESTIONS
 from .state import P_TRUE, Params, State
 
 Centroid = Callable[[np.ndarray, np.ndarray], np.ndarray]

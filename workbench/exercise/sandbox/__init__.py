@@ -1,11 +1,11 @@
 """Runs a student's function in a process of its own that the kernel shuts in; what comes back is plain values or a reason.
 
 `walls` says what shuts a process in on this machine, `bubblewrap` and `python` how, `pipe` carries the messages, `student`
-is the function as the grader calls it. What runs on the other side is in `workbench.exercise.inside`.
+is the function as the grader calls it. What runs on the other side is in `workbench.exercise.child`.
 """
 
 from workbench.exercise.sandbox.budget import CallBudget
-from workbench.exercise.sandbox.student import Student, StudentError
-from workbench.exercise.sandbox.walls import Wall, best, named
+from workbench.exercise.sandbox.function import SandboxedFunction, StudentError
+from workbench.exercise.sandbox.isolation import Wall, best, named
 
-__all__ = ["CallBudget", "Student", "StudentError", "Wall", "best", "named"]
+__all__ = ["CallBudget", "SandboxedFunction", "StudentError", "Wall", "best", "named"]

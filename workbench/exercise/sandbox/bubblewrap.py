@@ -5,10 +5,10 @@ import os
 import shutil
 import subprocess
 
-from workbench.exercise.sandbox.python import DEVICES, FILES, INSIDE, Python
+from workbench.exercise.sandbox.python import CHILD_FILES, DEVICES, FILES, Python
 
 FOLDER, FOLDER_BYTES = "/.student", 16 << 20
-CHILD = "/.inside"  # names that no folder of packages has
+CHILD = "/.child"  # names that no folder of packages has
 SECONDS = 10.0
 
 
@@ -18,7 +18,7 @@ def program() -> str | None:
 
 
 def arguments(python: Python) -> list[str]:
-    """Return the command that shuts in what follows it; nothing of ours is in sight but `inside`."""
+    """Return the command that shuts in what follows it; nothing of ours is in sight but `child`."""
     command = [program() or "bwrap", "--unshare-all", "--die-with-parent", "--new-session", "--cap-drop", "ALL"]
     command += ["--uid", "65534", "--gid", "65534", "--hostname", "student"]
     for tree in python.trees:
@@ -30,7 +30,7 @@ def arguments(python: Python) -> list[str]:
         command += ["--tmpfs", folder]
     for path in (python.executable, *python.packages, *(file for file in FILES if os.path.exists(file))):
         command += ["--ro-bind", path, path]
-    command += ["--ro-bind", str(INSIDE), CHILD]
+    command += ["--ro-bind", str(CHILD_FILES), CHILD]
     for device in DEVICES:
         command += ["--dev-bind", device, device]
     if _knows_sizes():

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from workbench.exercise.inside.wire import WireError, lengths, pack, unpack
+from workbench.exercise.child.wire import WireError, lengths, pack, unpack
 
 MOST_TIMES = 10.0
 """How many times as long a busy machine may make anything take."""

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-INSIDE = Path(__file__).resolve().parents[1] / "inside"
+CHILD_FILES = Path(__file__).resolve().parents[1] / "child"
 ALLOWED = ("numpy", "scipy")
 """The packages that a student's function may import, beside Python's own library."""
 SYSTEM = ("/lib", "/lib64", "/usr/lib", "/usr/lib64")
@@ -43,7 +43,7 @@ class Python:
 
     def listed(self) -> Iterator[str]:
         """Yield what the trees hold without what is masked: for Landlock, which can only add."""
-        yield from (self.executable, str(INSIDE), *FILES, *DEVICES, *self.packages)
+        yield from (self.executable, str(CHILD_FILES), *FILES, *DEVICES, *self.packages)
         for tree in self.trees:
             yield from _without(tree, self.masked)
 
@@ -77,7 +77,7 @@ def here() -> Python:
 
 def ours() -> list[str]:
     """Return the folders that hold our solutions and checks."""
-    return [str(INSIDE.parents[1]), *_folder("lessons")]
+    return [str(CHILD_FILES.parents[1]), *_folder("lessons")]
 
 
 def _libraries(folder: str) -> str:

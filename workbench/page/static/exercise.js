@@ -30,7 +30,7 @@ const exercise = {
       element("ul", {}, ...checks),
       ...[["In this run your code printed:", report.ran], ["In the checks it printed:", report.printed]].flatMap(
         ([where, text]) => (text ? [element("p", { textContent: where }), element("pre", { textContent: text })] : [])));
-    beside.show();
+    panels.show();
   },
 
   marks(run) { return run.mark == null ? [] : [{ at: run.mark, title: "first difference" }]; },

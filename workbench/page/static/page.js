@@ -73,7 +73,7 @@ const page = {
     if (!step) return;
     this.say(step.caption, step.tone);
     stage.legend(this.run.things[step.legend] ?? "");
-    beside.show();
+    panels.show();
     text.show();
   },
 
@@ -124,11 +124,11 @@ document.addEventListener("DOMContentLoaded", () => {
   const dark = () => document.documentElement.dataset.theme === "dark";
   const wanted = kept.get("dark") ?? matchMedia("(prefers-color-scheme: dark)").matches;
   const switched = () => { page.theme(!dark()); kept.set("dark", dark()); };
-  $("#help").onclick = keys.others["?"] = () => beside.lay("Keys", keys.told());
+  $("#help").onclick = keys.others["?"] = () => panels.lay("Keys", keys.told());
   $("#theme").onclick = keys.others.t = switched;
   keys.others.i = () => source.pin?.();
   keys.others.r = () => source.reset?.();
-  keys.others.escape = () => beside.enlarge(null);
+  keys.others.escape = () => panels.enlarge(null);
   if (!$("#move").hidden) $("#move").onclick = keys.others.h = () => {
     const on = $("#move").getAttribute("aria-pressed") !== "true";
     $("#move").setAttribute("aria-pressed", String(on));

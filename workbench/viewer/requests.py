@@ -1,4 +1,4 @@
-"""What a page wishes for and has not got yet: of each kind the latest, so that a flood of wishes is one of each kind."""
+"""What a page requests for and has not got yet: of each kind the latest, so that a flood of requests is one of each kind."""
 
 import json
 from collections.abc import Mapping
@@ -9,12 +9,12 @@ LONGEST = 20_000
 MOST_ANSWERS = 8
 """Predictions that wait, of different questions; of everything else the latest waits."""
 ANEW = frozenset({"open", "run", "reset"})
-"""Wishes after which it no longer matters where a page was."""
+"""Requests after which it no longer matters where a page was."""
 MOVES = frozenset({"seek", "change", "click"})
 
 
-def read_wish(text: str) -> dict[str, Any] | None:
-    """Return the wish that a message from a browser holds, None when it holds none."""
+def read_request(text: str) -> dict[str, Any] | None:
+    """Return the request that a message from a browser holds, None when it holds none."""
     if len(text) > LONGEST:
         return None
     try:
@@ -24,24 +24,27 @@ def read_wish(text: str) -> dict[str, Any] | None:
     return message if isinstance(message, dict) and isinstance(message.get("verb"), str) else None
 
 
-class Wishes:
-    """The wishes of one page, in the order in which they came."""
+class Requests:
+    """The requests of one page, in the order in which they came."""
 
     def __init__(self) -> None:
         self._waiting: dict[tuple[str, str], dict[str, Any]] = {}
 
-    def add(self, wish: Mapping[str, Any]) -> None:
-        """Note a wish; it takes the place of an earlier one of its kind."""
-        verb = wish["verb"]
-        if verb in ANEW and (verb != "run" or wish.get("run")):
+    def add(self, request: Mapping[str, Any]) -> None:
+        """Note a request; it takes the place of an earlier one of its kind."""
+        verb = request["verb"]
+        if verb in ANEW and (verb != "run" or request.get("run")):
             self._waiting = {kind: one for kind, one in self._waiting.items() if kind[0] not in ANEW | MOVES}
-        kind = verb, str(wish.get("question", ""))[:100] if verb == "predict" else ""
+        kind = verb, str(request.get("question", ""))[:100] if verb == "predict" else ""
         before = self._waiting.pop(kind, None)
         if verb == "change" and before is not None:
-            values = before.get("values"), wish.get("values")
-            wish = {**wish, "values": {k: v for part in values if isinstance(part, dict) for k, v in part.items()}}
+            values = before.get("values"), request.get("values")
+            request = {
+                **request,
+                "values": {k: v for part in values if isinstance(part, dict) for k, v in part.items()},
+            }
         if verb != "predict" or sum(one == verb for one, _ in self._waiting) < MOST_ANSWERS:
-            self._waiting[kind] = dict(wish)
+            self._waiting[kind] = dict(request)
 
     def take(self) -> list[dict[str, Any]]:
         """Return what is wished for; then nothing is."""
@@ -49,5 +52,5 @@ class Wishes:
         return list(waiting.values())
 
     def __len__(self) -> int:
-        """Return how many wishes wait."""
+        """Return how many requests wait."""
         return len(self._waiting)

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from lessons.learning.captions import shares_right
 from lessons.learning.state import Clouds, Looks, Params, State, Turns
-from lessons.learning.words import shares_right
 from workbench.algorithms.point_net import Classified
 from workbench.algorithms.rotation_regression import Regressed
 from workbench.algorithms.set_regression import SetLearned

@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import IO, Any
 
 from workbench.errors import InputError
-from workbench.exercise.inside.wire import WireError
+from workbench.exercise.child.wire import WireError
 from workbench.exercise.sandbox.budget import CallBudget
+from workbench.exercise.sandbox.isolation import START_SECONDS, Wall, anonymous, best
 from workbench.exercise.sandbox.pipe import Pipe
 from workbench.exercise.sandbox.waiting import waited
-from workbench.exercise.sandbox.walls import START_SECONDS, Wall, anonymous, best
 from workbench.exercise.submission import Submission, read_submission
 
 MEGABYTES = 2048
@@ -40,7 +40,7 @@ class StudentError(InputError):
         self.kind, self.error, self.line, self.errors = kind, error, line, errors or (error,)
 
 
-class Student:
+class SandboxedFunction:
     """A student's function, callable; every call crosses to a process of its own, which is started when it is needed.
 
     Args:
@@ -162,7 +162,7 @@ class Student:
         if self._closed:
             raise StudentError(f"{self.name} was not called: its file is no longer in use", "died")
 
-    def __enter__(self) -> "Student":
+    def __enter__(self) -> "SandboxedFunction":
         """Return itself; leaving the block ends the process."""
         return self
 

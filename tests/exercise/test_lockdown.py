@@ -23,7 +23,7 @@ MACHINES = ("x86_64", "aarch64")
 @pytest.fixture(scope="module")
 def syscalls() -> Iterator[ModuleType]:
     with pytest.MonkeyPatch.context() as patched:
-        patched.syspath_prepend(str(python.INSIDE))
+        patched.syspath_prepend(str(python.CHILD_FILES))
         yield importlib.import_module("syscalls")
         sys.modules.pop("syscalls")
 
@@ -143,11 +143,12 @@ def shut(tmp_path):
         "megabytes": 2048, "cpu": 60, "user": None, "closed": [], "grader": None, "filter": True, "writes": False,
         "landlock": list(python.here().listed()),
     }  # fmt: skip
-    head = "import ctypes, json, os, sys; sys.path.insert(0, sys.argv[1]); import seal; settings = json.loads(sys.argv[2])\n"
+    head = "import ctypes, json, os, sys; sys.path.insert(0, sys.argv[1]); import lockdown\n"
+    head += "settings = json.loads(sys.argv[2])\n"
 
     def run(lines: str, *words: str) -> list[str]:
         command = [python.here().executable, "-I", "-S", "-B", "-c", head + textwrap.dedent(lines)]
-        command += [str(python.INSIDE), json.dumps(settings), *words]
+        command += [str(python.CHILD_FILES), json.dumps(settings), *words]
         done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, cwd="/")
         assert done.returncode == 0, done.stderr
         return done.stdout.split()
@@ -172,7 +173,7 @@ def test_a_thread_that_was_there_before_is_filtered_too(shut):
         tried(socket.socket)
     thread = threading.Thread(target=later)
     thread.start()
-    seal.shut(settings)
+    lockdown.shut(settings)
     go.set()
     thread.join()
     """
@@ -182,9 +183,9 @@ def test_a_thread_that_was_there_before_is_filtered_too(shut):
 def test_landlock_alone_holds_signals_and_ports_where_it_knows_them(shut):
     lines = """
     import socket
-    seal._prctl(seal.PR_SET_NO_NEW_PRIVS, 1)
-    print(seal._call(seal.CREATE_RULESET, None, 0, seal.ASK_VERSION))
-    seal._landlock(settings["landlock"])
+    lockdown._prctl(lockdown.PR_SET_NO_NEW_PRIVS, 1)
+    print(lockdown._call(lockdown.CREATE_RULESET, None, 0, lockdown.ASK_VERSION))
+    lockdown._landlock(settings["landlock"])
     tried(lambda: os.kill(int(sys.argv[3]), 0))
     tried(lambda: socket.create_server(("127.0.0.1", 0)))
     """
@@ -200,9 +201,9 @@ def test_landlock_s_first_versions_hold_files_with_the_filter(shut, tmp_path, ve
     mine.write_text("full")
     lines = f"""
     import ctypes
-    seal.HANDLED = {{{version}: seal.HANDLED[{version}]}}
+    lockdown.HANDLED = {{{version}: lockdown.HANDLED[{version}]}}
     name = sys.argv[3]
-    seal.shut(settings)
+    lockdown.shut(settings)
     tried(lambda: os.open(name, os.O_RDONLY | os.O_TRUNC))
     tried(lambda: os.truncate(name, 0))
     tried(lambda: os.open(name, os.O_WRONLY))

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.icp.basin import ANGLES
+from lessons.icp.captions import off
 from lessons.icp.state import Params, State
-from lessons.icp.words import off
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import length, percent
 

@@ -1,7 +1,8 @@
-"""One person's page on the live server: hears its wishes, computes what they need, and tells what came of them.
+"""One person's page on the live server: hears its requests, computes what they need, and tells what came of them.
 
 Messages are JSON. From the page: {"verb": ..., ...} with the verbs of VERBS. To the page: {"tell": "run" | "step" |
-"answer" | "trouble", ...}. A wish is only noted; one task per page computes off the event loop, and the latest wish wins.
+"answer" | "trouble", ...}, and scenes as bytes. A request is only noted; one task per page computes off the event loop, and
+the latest request wins.
 """
 
 import asyncio
@@ -25,10 +26,10 @@ from workbench.session import Session
 from workbench.timeline import Timeline
 from workbench.viewer.following import Following
 from workbench.viewer.own_files import OwnFiles
+from workbench.viewer.requests import Requests, read_request
 from workbench.viewer.runs import Runs
-from workbench.viewer.telling import Telling, packed
 from workbench.viewer.terminal import tell_terminal
-from workbench.viewer.wishes import Wishes, read_wish
+from workbench.viewer.updates import PageUpdates, packed
 
 LARGEST = 1e9
 """Of the numbers of a click, metres."""
@@ -36,7 +37,7 @@ AWAITED = 30.0
 """Seconds that a page whose step is being computed keeps its run, however little room there is."""
 
 
-class Student:
+class PageConnection:
     """What one page sees.
 
     Args:
@@ -57,19 +58,19 @@ class Student:
         self.asleep = False  # whether its run was let go to make room
         self._waits = False  # whether what was wished for is still to be shown
         self._wake = asyncio.Event()
-        self._told = Telling(runs)
-        self._wishes = Wishes()
+        self._updates = PageUpdates(runs)
+        self._requests = Requests()
 
     def hear(self, text: str) -> bool:
-        """Note a wish, and tell whether it is one; what is none is ignored."""
-        wish = read_wish(text)
-        if wish is None or wish["verb"] not in VERBS:
+        """Note a request, and tell whether it is one; what is none is ignored."""
+        request = read_request(text)
+        if request is None or request["verb"] not in VERBS:
             return False
-        self._wish(wish)
+        self._request(request)
         return True
 
-    def _wish(self, wish: Mapping[str, Any]) -> None:
-        self._wishes.add(wish)
+    def _request(self, request: Mapping[str, Any]) -> None:
+        self._requests.add(request)
         self.acted, self._waits = self._loop.time(), True
         self._wake.set()
 
@@ -80,7 +81,7 @@ class Student:
     def sleep(self) -> bool:
         """Let go of the run, to make room, until something is wished for; tell whether there was one. From any thread."""
         is_awaited = self._waits and self._loop.time() - self.acted < AWAITED
-        if self.asleep or self.session is None or self._wishes or is_awaited:
+        if self.asleep or self.session is None or self._requests or is_awaited:
             return False
         self.asleep = True
         self._loop.call_soon_threadsafe(self._sleep)
@@ -90,7 +91,7 @@ class Student:
         self.runs.scheduler.leave(self)
         if self.session is not None:
             self.session.let_go()
-        self._told.forget()
+        self._updates.forget()
 
     def close(self) -> None:
         """Remove what is kept for this page alone."""
@@ -104,17 +105,17 @@ class Student:
             try:
                 await self._do_what_is_wished()
             except Exception as error:  # a defect of ours: it is told, and the page goes on
-                tell_terminal(AuthorError(f"a wish could not be fulfilled: {error!r}", traceback.format_exc()))
+                tell_terminal(AuthorError(f"a request could not be fulfilled: {error!r}", traceback.format_exc()))
                 await self._tell(tell="trouble", text="Something went wrong; the terminal of the server says what.")
 
     async def _do_what_is_wished(self) -> None:
-        wishes = self._wishes.take()
-        if self.asleep and wishes and self.session is not None:
+        requests = self._requests.take()
+        if self.asleep and requests and self.session is not None:
             self.asleep = False
             self.session.take_up()
-        for wish in wishes:
+        for request in requests:
             try:
-                await VERBS[wish["verb"]](self, wish)
+                await VERBS[request["verb"]](self, request)
             except InputError as error:
                 tell_terminal(error)
                 await self._tell(tell="trouble", text=str(error))
@@ -125,11 +126,11 @@ class Student:
         if session is None or self.asleep:
             return
         self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
-        crew = self.runs.stepping if session.timeline is self._told.timeline else self.runs.showing
-        for part in await crew.do(self._show, session, bool(wishes)):
+        crew = self.runs.stepping if session.timeline is self._updates.timeline else self.runs.showing
+        for part in await crew.do(self._show, session, bool(requests)):
             await self._send(part)
         timeline = session.timeline
-        self._waits = bool(self._wishes) or not (timeline.finished or 0 <= session.wanted < len(timeline))
+        self._waits = bool(self._requests) or not (timeline.finished or 0 <= session.wanted < len(timeline))
 
     def _show(self, session: Session, tell: bool) -> list[str | bytes]:
         """Return what the page is to be sent so that it shows what is to be seen now. Not on the event loop."""
@@ -137,7 +138,7 @@ class Student:
         if look is None or session is not self.session:
             return []
         watched = None if self.following is None else self.following.watched
-        return self._told.show(session, look, tell=tell, watched=watched)
+        return self._updates.show(session, look, tell=tell, watched=watched)
 
     def _came(self) -> None:
         """Look again: steps have come. Called in a thread that computes."""
@@ -164,7 +165,7 @@ class Student:
         session = self.session or Session(place.lesson, self.runs.timelines)
         session.open(place.lesson, params, place.step)
         session.message, self.session = trouble, session
-        self._told.aim.open(session.lesson, params)
+        self._updates.aim.open(session.lesson, params)
         if self.following is not None:
             self._news += self.following.news(place.lesson)
 
@@ -184,7 +185,7 @@ class Student:
         elif name:
             session.use_preset(name)
         if name:
-            self._told.aim.open(session.lesson, session.params)
+            self._updates.aim.open(session.lesson, session.params)
         if isinstance(step, int):
             session.open(session.lesson, session.params, step)
 
@@ -199,7 +200,7 @@ class Student:
         """Go back to the default run."""
         if self.session is not None:
             self.session.reset()
-            self._told.aim.open(self.session.lesson, self.session.params)
+            self._updates.aim.open(self.session.lesson, self.session.params)
 
     async def forget(self, message: Mapping[str, Any]) -> None:
         """Go on without a file of one's own."""
@@ -227,7 +228,7 @@ class Student:
         told = {"right": found.right, "truth": found.truth, "why": found.why, "reply": found.reply}
         await self._tell(tell="answer", question=question.name, **told)
         session.open(lesson, question.params, found.step)
-        self._told.aim.open(lesson, question.params)
+        self._updates.aim.open(lesson, question.params)
 
     async def click(self, message: Mapping[str, Any]) -> None:
         """Set the params that a click in the scene picks: the ray of `p_origin` (3,) and `v_ray` (3,), in the world."""
@@ -263,7 +264,7 @@ class Student:
         view = session.lesson.view_of(session.params)
         session.change(**{field: path})
         if view != session.lesson.view_of(session.params):  # a stage that shows the file
-            self._told.aim.open(session.lesson, session.params)
+            self._updates.aim.open(session.lesson, session.params)
         self._wake.set()
 
     def go_on(self, before: Lesson, after: Lesson, news: Mapping[str, Any] | None) -> None:
@@ -285,7 +286,7 @@ class Student:
         view = before.view_of(session.params)
         session.go_on(after, carried(session.params, after), carried(session.own, after))
         if view != after.view_of(session.params):
-            self._told.aim.open(after, session.params)
+            self._updates.aim.open(after, session.params)
         self._tell_where(after, news or {"tell": "notice", "text": ""})
 
     def _tell_where(self, lesson: Lesson, news: Mapping[str, Any]) -> None:
@@ -309,13 +310,13 @@ def _ray(message: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray] | None:
     return (found[0], found[1]) if found[1].any() else None
 
 
-VERBS: Mapping[str, Callable[[Student, Mapping[str, Any]], Awaitable[None]]] = {
-    "open": Student.open,
-    "seek": Student.seek,
-    "run": Student.run,
-    "change": Student.change,
-    "reset": Student.reset,
-    "forget": Student.forget,
-    "predict": Student.predict,
-    "click": Student.click,
+VERBS: Mapping[str, Callable[[PageConnection, Mapping[str, Any]], Awaitable[None]]] = {
+    "open": PageConnection.open,
+    "seek": PageConnection.seek,
+    "run": PageConnection.run,
+    "change": PageConnection.change,
+    "reset": PageConnection.reset,
+    "forget": PageConnection.forget,
+    "predict": PageConnection.predict,
+    "click": PageConnection.click,
 }

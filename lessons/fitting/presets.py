@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from lessons.fitting.captions import square
 from lessons.fitting.state import Params, State
-from lessons.fitting.words import square
 from workbench.algorithms.fit_studies import AWAY
 from workbench.algorithms.least_squares import Walked
 from workbench.lesson import Choice, Preset, Question, View

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from lessons.chamfer_emd.captions import metres, squared
 from lessons.chamfer_emd.state import Params, Side, State
-from lessons.chamfer_emd.words import metres, squared
 from workbench.lesson import Choice, Preset, Question
 from workbench.numerals import counted, percent
 

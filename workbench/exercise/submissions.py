@@ -20,7 +20,7 @@ COLUMNS = ("student", "name", "login", "username", "id", "sid", "email")
 
 
 @dataclass(frozen=True)
-class Handed:
+class HandIn:
     """What one student handed in.
 
     Attributes:
@@ -36,7 +36,7 @@ class Handed:
     note: str = ""
 
 
-def handed_in(folder: Path, out: Path | None = None) -> dict[str, Handed]:
+def handed_in(folder: Path, out: Path | None = None) -> dict[str, HandIn]:
     """Return what each student handed in: `NAME.py`, `NAME.ipynb`, or a folder `NAME` with files at any depth.
 
     Args:
@@ -48,7 +48,7 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, Handed]:
     """
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder")
-    found: dict[str, Handed] = {}
+    found: dict[str, HandIn] = {}
     for path in sorted(folder.iterdir()):
         if path.name.startswith((".", "__")) or (out is not None and path.absolute() == out.absolute()):
             continue
@@ -58,9 +58,9 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, Handed]:
             student = path.name.partition(".")[0]
             if any((folder / f"{student}{end}").exists() for end in ("", *SUFFIXES)):
                 continue  # what was in it lies beside it
-            handed = Handed(student, {}, ((path.name, f"{path.name}: {NOT_READ}"),))
+            handed = HandIn(student, {}, ((path.name, f"{path.name}: {NOT_READ}"),))
         elif path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
-            handed = Handed(path.name, {}, ((path.name, "a link that leads out of the folder"),))
+            handed = HandIn(path.name, {}, ((path.name, "a link that leads out of the folder"),))
         elif path.is_dir():
             handed = handed_by(path.name, path)
         else:
@@ -77,7 +77,7 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, Handed]:
     }
 
 
-def handed_by(student: str, folder: Path) -> Handed:
+def handed_by(student: str, folder: Path) -> HandIn:
     """Return what one student handed in: the files of a folder, at any depth."""
     paths = list(_below(folder))
     others = [path.relative_to(folder).as_posix() for path in paths if path.suffix.lower() not in SUFFIXES]
@@ -88,7 +88,7 @@ def handed_by(student: str, folder: Path) -> Handed:
     return _noted(handed, f"not read, since neither .py nor .ipynb: {', '.join(others[:MOST_NAMED])}{more}")
 
 
-def _noted(handed: Handed, said: str) -> Handed:
+def _noted(handed: HandIn, said: str) -> HandIn:
     return replace(handed, note="; ".join(filter(None, [handed.note, said])))
 
 
@@ -98,7 +98,7 @@ def _was_meant(path: Path) -> bool:
     return name.endswith(ARCHIVES) or any(f"{suffix}." in name for suffix in SUFFIXES)
 
 
-def with_roster(found: dict[str, Handed], roster: Path) -> dict[str, Handed]:
+def with_roster(found: dict[str, HandIn], roster: Path) -> dict[str, HandIn]:
     """Return what was handed in by those of a roster, in its order, then by those who are not in it.
 
     Raises:
@@ -106,7 +106,7 @@ def with_roster(found: dict[str, Handed], roster: Path) -> dict[str, Handed]:
     """
     names = _names(roster)
     by_name = {name.casefold(): handed for name, handed in found.items()}
-    listed = {name: by_name.pop(name.casefold(), Handed(name, {}, (("", "handed in nothing"),))) for name in names}
+    listed = {name: by_name.pop(name.casefold(), HandIn(name, {}, (("", "handed in nothing"),))) for name in names}
     others = {handed.student: _noted(handed, NOT_IN_ROSTER) for handed in by_name.values()}
     return {handed.student: handed for handed in (*listed.values(), *others.values())}
 
@@ -126,7 +126,7 @@ def _names(roster: Path) -> list[str]:
     return list(dict.fromkeys(name for name in names if name))
 
 
-def _read(student: str, root: Path, paths: list[Path]) -> Handed:
+def _read(student: str, root: Path, paths: list[Path]) -> HandIn:
     files: dict[str, bytes] = {}
     troubles: list[tuple[str, str]] = []
     left = MOST_TOGETHER
@@ -141,7 +141,7 @@ def _read(student: str, root: Path, paths: list[Path]) -> Handed:
             left -= len(files[name])
         except InputError as error:
             troubles.append((name, str(error)))
-    return Handed(student, files, tuple(troubles[:20]))
+    return HandIn(student, files, tuple(troubles[:20]))
 
 
 def _below(folder: Path) -> Iterator[Path]:
@@ -150,7 +150,7 @@ def _below(folder: Path) -> Iterator[Path]:
         yield from (Path(place, name) for name in sorted(names) if not name.startswith("."))
 
 
-def _clashing(one: Handed, other: Handed) -> Handed:
+def _clashing(one: HandIn, other: HandIn) -> HandIn:
     files = sorted({*one.files, *other.files, *(file for each in (one, other) for file, _ in each.troubles)})
     said = f"two things here are named {one.student} ({', '.join(files)[:200]}): leave one of them"
-    return Handed(one.student, {}, (("", said),))
+    return HandIn(one.student, {}, (("", said),))

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from lessons.coordinates.captions import CAPS_AREA, in_caps, kilometres, per_second
 from lessons.coordinates.state import Params, State
-from lessons.coordinates.words import CAPS_AREA, in_caps, kilometres, per_second
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import fixed, percent
 

@@ -14,7 +14,7 @@ from workbench import atomic
 from workbench.cli import main
 from workbench.errors import InputError
 from workbench.publish import site
-from workbench.publish.ledger import KEPT
+from workbench.publish.manifest import KEPT
 
 OTHER = replace(TINY, name="other", title="Another")
 
@@ -28,22 +28,37 @@ def digest(data: bytes) -> str:
 
 
 def told(out, **changes) -> None:
-    """Write a ledger that says what somebody else wants it to say."""
+    """Write a manifest that says what somebody else wants it to say."""
     state = json.loads((out / KEPT).read_text())
     (out / KEPT).write_text(json.dumps(state | changes))
+
+
+def test_a_site_whose_manifest_has_the_format_before_is_gone_on_with(out, rendered):
+    """Format 2 had one digest for each file, and another list of those that were being written."""
+    state = json.loads((out / KEPT).read_text())
+    files = {name: digests[0] for name, digests in state["files"].items()}
+    writing = {"lessons.js": files["lessons.js"]}
+    told(out, format=2, files=files | {"lessons.js": digest(b"before")}, writing=writing)
+    (out / "notes.txt").write_text("mine")
+    site.publish(out, [TINY])
+    assert rendered == []
+    assert json.loads((out / KEPT).read_text()) == state
+    assert (out / "notes.txt").read_text() == "mine"
 
 
 HOSTILE = ("../x/keep", "../x", "ABSOLUTE", "link/keep", "a\0b/keep", "", ".", "..", "fake/../../x/keep", "fake/../x")
 
 
-@pytest.mark.parametrize("shape", ["as it was written before", "files", "lessons"])
-def test_nothing_outside_of_a_site_is_removed_whatever_its_ledger_says(out, shape):
+@pytest.mark.parametrize("shape", ["as it was written before", "files", "a file behind a link", "lessons"])
+def test_nothing_outside_of_a_site_is_removed_whatever_its_manifest_says(out, shape):
     outside = out.parent / "x"
     outside.mkdir()
     (outside / "keep").write_text("precious")
     (out / "link").symlink_to(outside)
     keys = [str(outside / "keep") if key == "ABSOLUTE" else key for key in HOSTILE]
-    if shape == "files":
+    if shape == "a file behind a link":
+        keys = ["link/keep"]
+    if "file" in shape:
         told(out, files=dict.fromkeys(keys, digest(b"precious")) | json.loads((out / KEPT).read_text())["files"])
     elif shape == "lessons":
         listed = {"title": "x", "summary": "x", "order": 1}
@@ -67,10 +82,12 @@ def test_nothing_outside_of_a_site_is_removed_whatever_its_ledger_says(out, shap
         '{"format": 2, "files": {"index.html": {}}, "lessons": {"fake": {"title": [], "summary": 1, "order": "x"}}}',
         '{"format": 2, "lessons": {"b": {"title": "<script>", "summary": "x", "order": 1e999}}}',
         "x" * 5_000_000,
+        '{"format": 3, "made_by": "", "lessons": {}, "runs": {"fake/default": 1}, "files": {"index.html": ["1"]}}',
+        '{"format": 3, "made_by": "", "lessons": {}, "runs": [["a", "b"]], "files": {}}',
         '{"format": ' + "9" * 5000 + "}",
     ],
 )
-def test_a_ledger_that_is_none_gives_no_rights(out, text):
+def test_a_manifest_that_is_none_gives_no_rights(out, text):
     (out / KEPT).write_text(text)
     before = contents(out)
     with pytest.raises(InputError, match=r"was not written by publish.*--force"):
@@ -184,25 +201,28 @@ def test_a_link_to_a_file_elsewhere_is_replaced_not_followed(tmp_path):
     assert not (out / "lessons.js").is_symlink()
 
 
-def test_who_is_stopped_in_the_middle_of_writing_goes_on(out, monkeypatch, rendered):
+@pytest.mark.parametrize("moment", ["before", "after"])
+def test_who_is_stopped_in_the_middle_of_writing_goes_on(out, monkeypatch, rendered, moment):
     """Neither the old content of a file nor the new one is taken for somebody else's."""
-    from workbench.publish import ledger
+    from workbench.publish import manifest
 
     (out / "fake" / "runs" / "default.js").unlink()
     written = []
 
     def stops(path, data):
         if path.name == "default.html" or written:
+            if moment == "after" and not written:
+                real(path, data)
             written.append(path)
             raise KeyboardInterrupt
         real(path, data)
 
-    real = ledger.write_atomic
-    monkeypatch.setattr(ledger, "write_atomic", stops)
+    real = manifest.write_atomic
+    monkeypatch.setattr(manifest, "write_atomic", stops)
     loud = replace(TINY, title="Loud")
     with pytest.raises(KeyboardInterrupt):
         site.publish(out, [loud])
-    monkeypatch.setattr(ledger, "write_atomic", real)
+    monkeypatch.setattr(manifest, "write_atomic", real)
     site.publish(out, [loud])
     assert "Loud" in (out / "fake" / "runs" / "default.html").read_text()
 

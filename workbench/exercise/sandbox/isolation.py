@@ -67,7 +67,7 @@ class Wall:
             "landlock": list(files.listed()) if self.name == "landlock" else None,
             "user": NOBODY if self.name == "user" else None, "closed": python.ours(),
         }  # fmt: skip
-        child = f"{bubblewrap.CHILD}/child.py" if boxed else str(python.INSIDE / "child.py")
+        child = f"{bubblewrap.CHILD}/main.py" if boxed else str(python.CHILD_FILES / "main.py")
         quiet = ["-W", "ignore::RuntimeWarning"]  # numpy's are not what the student printed
         environment = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": bubblewrap.FOLDER if boxed else folder}
         environment |= as_here()  # so that a mistake which hangs on the last bit is known for what it is

@@ -9,8 +9,8 @@ from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
 from workbench.exercise.driven import Pair, calls_it, first_difference
 from workbench.exercise.watching import Watched
-from workbench.flags import show_command
 from workbench.lesson import Lesson, View
+from workbench.links import show_command
 from workbench.page.lessons import files_of, values_of
 from workbench.page.steps import Steps
 from workbench.session import Look, Session
@@ -21,7 +21,7 @@ from workbench.wire.packing import PageWire
 from workbench.wire.stage import Aim
 
 
-class Telling:
+class PageUpdates:
     """What a page has been told, and what is new to it.
 
     Args:

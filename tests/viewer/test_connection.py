@@ -1,4 +1,4 @@
-"""A page's wishes on the live server, without a browser: what comes from another thread wakes a page that is at rest."""
+"""A page's requests on the live server, without a browser: what comes from another thread wakes a page that is at rest."""
 
 import asyncio
 import json
@@ -12,8 +12,8 @@ from tests.loops import run_apart
 from workbench import links
 from workbench.lesson import Lesson, Preset, View
 from workbench.timeline import Timeline
+from workbench.viewer.connection import PageConnection
 from workbench.viewer.runs import Runs
-from workbench.viewer.student import Student
 
 
 class Talk:
@@ -24,7 +24,7 @@ class Talk:
         self.scenes: list[dict] = []  # what was said before their arrays
         self._heard = asyncio.Event()
         self.runs = Runs()
-        self.student = Student({"fake": lesson}, self.runs, self._hear)
+        self.student = PageConnection({"fake": lesson}, self.runs, self._hear)
         self._work = asyncio.create_task(self.student.work())
 
     async def _hear(self, part: str | bytes) -> None:

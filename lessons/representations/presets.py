@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from lessons.representations.captions import field_error
 from lessons.representations.state import Params, State
-from lessons.representations.words import field_error
 from workbench.algorithms.octree import Level
 from workbench.certain import sure
 from workbench.lesson import Choice, Preset, Question, View

@@ -1,7 +1,7 @@
 // What stands beside the scene: tiles of curves, pictures, tables and code, each of which can be enlarged.
 "use strict";
 
-const beside = {
+const panels = {
   large: null,  // the key of what is enlarged
   laid: false,  // whether something is shown that belongs to no step
 

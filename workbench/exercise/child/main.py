@@ -1,6 +1,6 @@
 """The student's side of the pipe: started as `python -I -S -B child.py SETTINGS`, never imported.
 
-It bounds itself (`seal`), then loads the student's source and answers calls. It holds no expected answer, check or seed:
+It bounds itself (`lockdown`), then loads the student's source and answers calls. It holds no expected answer, check or seed:
 those stay with the grader. What the student's code does to this process it does to itself: what comes out of the pipe is
 read as bytes of somebody else.
 """
@@ -91,7 +91,7 @@ def main() -> None:
     pipe_in, pipe_out = settings["in"], settings["out"]
     here = os.path.dirname(os.path.abspath(__file__))
     sys.path.insert(0, here)
-    import seal  # type: ignore[import-not-found]
+    import lockdown  # type: ignore[import-not-found]
 
     sys.meta_path.append(Allowed(settings["packages"]))  # type: ignore[arg-type]
     import wire  # type: ignore[import-not-found]
@@ -102,7 +102,7 @@ def main() -> None:
     sys.stdout = sys.stderr = io.TextIOWrapper(
         io.BufferedWriter(Kept(settings["output"])), "utf-8", "backslashreplace", line_buffering=True
     )
-    seal.shut(settings)
+    lockdown.shut(settings)
 
     def read(count: int) -> bytes:
         parts = []
