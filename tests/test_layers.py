@@ -24,7 +24,7 @@ ALLOWED = {
     "workbench.apart": {"workbench.errors", "workbench.threads"},
     "workbench.axis": {"workbench.numerals"},
     "workbench.errors": set(),
-    "workbench.hosts": set(),
+    "workbench.hosts": {"workbench.errors"},
     "workbench.tracing": set(),
     "workbench.authors": {"workbench", "workbench.errors"},
     "workbench.questions": LESSON,

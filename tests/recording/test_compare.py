@@ -1,5 +1,6 @@
 """Two recordings as one: everything of both, on one timeline, curves in the same plots."""
 
+import json
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +11,9 @@ import pytest
 from tests import fake
 from tests.recording.latest_at import rows, shown_at
 from workbench.errors import InputError
+from workbench.recording.chart import Canvas
 from workbench.recording.compare import compare_bytes, differences_of
+from workbench.recording.contents import from_json, to_json
 from workbench.recording.read import open_recording, read_chunks
 from workbench.recording.viewer_files import binary
 from workbench.recording.write import record
@@ -94,6 +97,8 @@ def test_runs_of_two_lessons_are_refused(files, tmp_path):
         "3",
         "{}",
         "[" * 9000,
+        '{"view": {"x": 1}, "legend_height": 0, "canvases": {}}',
+        '{"view": {}, "legend_height": 0, "canvases": {"/charts/a": {"title": 1, "width": "x", "height": 0, "first": 0}}}',
         '{"view": {"x": 1}, "tables": null, "legend_height": 0, "charts": {}, "pictures": {}}',
         '{"view": {}, "tables": "a", "legend_height": 0, "charts": {}, "pictures": {}}',
         '{"view": {}, "tables": null, "legend_height": 0, "pictures": {},'
@@ -106,3 +111,18 @@ def test_a_layout_that_is_none_is_damage(files, tmp_path, monkeypatch, odd):
     for pair in ((bad, files[0]), (files[0], bad)):
         with pytest.raises(InputError, match=r"bad\.rrd: is damaged"):
             compare_bytes(*pair)
+
+
+def test_what_older_versions_said_is_read():
+    canvas = {"title": "Basin · m", "width": 300.0, "height": 186.0, "first": 3}
+    old = {"charts": {"a/b": canvas}, "pictures": {"photo": canvas}, "tables": 1, "legend_height": 38.0, "view": {}}
+    contents, view = from_json(json.dumps(old), {})
+    assert contents.canvases == {
+        "/charts/a\\/b": Canvas("Basin · m", 300.0, 186.0, 3),
+        "/pictures/photo": Canvas("Basin · m", 300.0, 186.0, 3),
+        "/tables": Canvas("Numbers", 0.0, 0.0, 1),
+    }
+    assert from_json(to_json(contents, view), {}) == (contents, view)
+    assert from_json(json.dumps(old | {"tables": None}), {})[0].canvases.keys() == contents.canvases.keys() - {
+        "/tables"
+    }

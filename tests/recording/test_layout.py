@@ -5,7 +5,8 @@ import pytest
 import rerun.blueprint as rrb
 
 from workbench.lesson import View, catalog
-from workbench.recording.contents import Canvas, Contents
+from workbench.recording.chart import Canvas
+from workbench.recording.contents import Contents
 from workbench.recording.layout import HALF_TITLE, RERUN_FOV, one_run, scene_view
 from workbench.scene import Scalar
 
@@ -60,8 +61,8 @@ def test_a_recording_is_seen_the_way_round_in_which_the_page_shows_it(view):
 @pytest.mark.parametrize(("length", "at_once"), [(HALF_TITLE, 2), (HALF_TITLE + 1, 1)])
 def test_charts_stand_beside_each_other_where_their_titles_can_be_read(length, at_once):
     titles = ["A".ljust(length, "x"), "B".ljust(length, "x")]
-    charts = {title: Canvas(title, 100.0, 60.0, 0) for title in titles}
-    column = one_run(View(), Contents(charts=charts), {"a": np.zeros(3)}).root_container.contents[1]
+    charts = {f"/charts/{title}": Canvas(title, 100.0, 60.0, 0) for title in titles}
+    column = one_run(View(), Contents(canvases=charts), {"a": np.zeros(3)}).root_container.contents[1]
     rows = column.contents[0].contents if at_once == 2 else column.contents
     assert [view.name for view in rows] == titles
 

@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from tests import fake
 from tests.fake import test_nothing_is_left_out as test_nothing_is_left_out
 from tests.recording.latest_at import rows, shown_at
-from workbench.recording.contents import contents_of, places
-from workbench.recording.sink import Place, RerunSink, legend_of
+from workbench.recording.chart import Canvas
+from workbench.recording.contents import contents_of
+from workbench.recording.sink import RerunSink, legend_of
 from workbench.recording.spatial import FADED
 from workbench.recording.streams import stream_bytes
 from workbench.scene import PALETTE, Axes, Camera, Classes, Field, Mesh, Picture, Points, Scene, Segments, Table
@@ -226,7 +227,9 @@ def test_another_kind_of_thing_at_a_path_leaves_nothing_of_the_one_before(tmp_pa
 
 def test_what_is_not_there_at_every_step_is_announced(tmp_path):
     def fill(stream) -> None:
-        sink = RerunSink(stream, {"/charts/Basin": Place(1, (10.0, 10.0)), "/tables": Place(1)})
+        sink = RerunSink(
+            stream, {"/charts/Basin": Canvas("Basin", 20.0, 20.0, 1), "/tables": Canvas("Numbers", 0.0, 0.0, 1)}
+        )
         sink.show(0, {})
         sink.show(1, SCENES[0])
         sink.show(2, {})
@@ -242,14 +245,13 @@ def test_what_is_not_there_at_every_step_is_announced(tmp_path):
     assert shown_at(path, 2)["/tables"]["TextDocument:text"] == ["not in this step"]
 
 
-def test_places_are_known_with_the_first_step_of_what_they_show():
+def test_what_is_beside_the_scene_is_known_with_its_first_step():
     table = Table("Numbers", ("a",), (("1",),))
-    found = places(contents_of([{}, SCENES[0], {"t": table}, {"t": table}]))
-    without = {entity: place for entity, place in found.items() if entity != "/tables"}
-    assert without
-    assert all(place.first == 1 and place.middle is not None for place in without.values())
-    late = places(contents_of([{}, {}, {"t": table}]))
-    assert late == {"/tables": Place(2)}
+    found = contents_of([{}, SCENES[0], {"t": table}, {"t": table}]).canvases
+    assert {"/charts/Basin", "/pictures/beside\\/photo", "/tables"} <= found.keys()
+    assert all(canvas.first == 1 for canvas in found.values())
+    late = contents_of([{}, {}, {"t": table}]).canvases
+    assert late == {"/tables": Canvas("Numbers", 0.0, 0.0, 2)}
 
 
 def rgb(color: int) -> tuple[int, int, int]:
@@ -259,5 +261,5 @@ def rgb(color: int) -> tuple[int, int, int]:
 def test_a_picture_of_a_field_in_space_has_its_bar_in_the_legend():
     field = Field(np.zeros((2, 3)), 0.0, 31.0, "Disparity", "px")
     standing, beside = Picture(field, width=1.0), Picture(field)
-    assert legend_of({"map": standing, "map/beside": beside}) == ((), (field,))
-    assert legend_of({"map": beside}) == ((), ())  # it has a bar of its own
+    assert legend_of({"map": standing, "map/beside": beside}) == ((), [field])
+    assert legend_of({"map": beside}) == ((), [])  # it has a bar of its own

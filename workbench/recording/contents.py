@@ -8,19 +8,9 @@ from typing import Any
 
 from workbench.errors import InputError
 from workbench.lesson import View
-from workbench.recording.chart import HEIGHT, WIDTH, legend_height
-from workbench.recording.sink import Place, chart_entity, entity_of, legend_of
+from workbench.recording.chart import HEIGHT, WIDTH, Canvas, legend_height
+from workbench.recording.sink import TABLES, chart_entity, entity_of, legend_of
 from workbench.scene import Curve, Field, Picture, Scalar, Scene, Table, in_space
-
-
-@dataclass(frozen=True)
-class Canvas:
-    """A view in two dimensions: its title, its size, and the step at which something appears on it."""
-
-    title: str
-    width: float
-    height: float
-    first: int
 
 
 @dataclass
@@ -29,16 +19,12 @@ class Contents:
 
     Attributes:
         scalars: By the title of their plot, then by path; how each is drawn.
-        charts: Charts of Curves, by title.
-        pictures: By path.
-        tables: At which step the first table appears, None where there is none.
+        canvases: Charts of Curves, pictures, and the document of tables, by entity.
         legend_height: The greatest height of the legend on its canvas.
     """
 
     scalars: dict[str, dict[str, Scalar]] = field(default_factory=dict)
-    charts: dict[str, Canvas] = field(default_factory=dict)
-    pictures: dict[str, Canvas] = field(default_factory=dict)
-    tables: int | None = None
+    canvases: dict[str, Canvas] = field(default_factory=dict)
     legend_height: float = 0.0
 
 
@@ -50,36 +36,24 @@ def contents_of(scenes: Sequence[Scene]) -> Contents:
             if isinstance(primitive, Scalar):
                 found.scalars.setdefault(primitive.chart, {}).setdefault(path, primitive)
             elif isinstance(primitive, Curve):
-                found.charts.setdefault(primitive.chart, Canvas(_chart_title(primitive), WIDTH, HEIGHT, k))
+                canvas = Canvas(_chart_title(primitive), WIDTH, HEIGHT, k)
+                found.canvases.setdefault(chart_entity(primitive.chart), canvas)
             elif isinstance(primitive, Picture) and not in_space(primitive):
-                known = found.pictures.setdefault(path, _picture_canvas(path, primitive, k))
-                found.pictures[path] = replace(known, title=_common(known.title, primitive.title or path, path))
-            elif isinstance(primitive, Table) and found.tables is None:
-                found.tables = k
+                entity = entity_of("pictures", path)
+                known = found.canvases.setdefault(entity, _picture_canvas(path, primitive, k))
+                title = _common(known.title, primitive.title or path, path)
+                found.canvases[entity] = replace(known, title=title)
+            elif isinstance(primitive, Table):
+                found.canvases.setdefault(TABLES, Canvas("Numbers", 0.0, 0.0, k))
         entries, fields = legend_of(scene)
         found.legend_height = max(found.legend_height, legend_height(entries, len(fields)))
     return found
 
 
-def canvases(contents: Contents) -> dict[str, Canvas]:
-    """Return all charts and pictures by their entities."""
-    charts = {chart_entity(title): canvas for title, canvas in contents.charts.items()}
-    return charts | {entity_of("pictures", path): canvas for path, canvas in contents.pictures.items()}
-
-
-def places(contents: Contents) -> dict[str, Place]:
-    """Return where charts, pictures and tables are shown, by entity: enough to say so while there are none."""
-    tables = {} if contents.tables is None else {"/tables": Place(contents.tables)}
-    return tables | {
-        entity: Place(canvas.first, (canvas.width / 2, canvas.height / 2))
-        for entity, canvas in canvases(contents).items()
-    }
-
-
 def to_json(contents: Contents, view: View) -> str:
     """Return everything but the scalars, which stand in a recording themselves, and how the scene is first seen."""
-    plain = {name: value for name, value in asdict(contents).items() if name != "scalars"}
-    return json.dumps(plain | {"view": asdict(view)})
+    canvases = {entity: asdict(canvas) for entity, canvas in contents.canvases.items()}
+    return json.dumps({"canvases": canvases, "legend_height": contents.legend_height, "view": asdict(view)})
 
 
 def from_json(text: str, curves: Mapping[str, Scalar]) -> tuple[Contents, View]:
@@ -89,22 +63,28 @@ def from_json(text: str, curves: Mapping[str, Scalar]) -> tuple[Contents, View]:
         InputError: If the text is not what `to_json` wrote.
     """
     try:
-        return _from_json(json.loads(text), curves)
+        plain = json.loads(text)
+        canvases = _canvases_of_format_1(plain) if "canvases" not in plain else plain["canvases"]
+        found = Contents(legend_height=float(plain["legend_height"]))
+        found.canvases = {entity: _canvas(**canvas) for entity, canvas in canvases.items()}
+        looks: dict[str, Any] = {
+            name: tuple(map(float, one)) if isinstance(one, list) else one for name, one in plain["view"].items()
+        }
+        view = View(**looks)
     except Exception:  # text out of a file may be anything
         raise InputError("what it shows beside the scene is not understood") from None
-
-
-def _from_json(plain: Mapping[str, Any], curves: Mapping[str, Scalar]) -> tuple[Contents, View]:
-    tables = None if plain["tables"] is None else int(plain["tables"])
-    found = Contents(tables=tables, legend_height=float(plain["legend_height"]))
-    found.charts = {title: _canvas(**canvas) for title, canvas in plain["charts"].items()}
-    found.pictures = {path: _canvas(**canvas) for path, canvas in plain["pictures"].items()}
     for path, scalar in curves.items():
         found.scalars.setdefault(scalar.chart, {})[path] = scalar
-    view: dict[str, Any] = {
-        name: tuple(map(float, value)) if isinstance(value, list) else value for name, value in plain["view"].items()
-    }
-    return found, View(**view)
+    return found, view
+
+
+def _canvases_of_format_1(plain: Mapping[str, Any]) -> dict[str, Any]:
+    tables = {"title": "Numbers", "width": 0.0, "height": 0.0, "first": plain["tables"]}
+    return (
+        {chart_entity(title): canvas for title, canvas in plain["charts"].items()}
+        | {entity_of("pictures", path): canvas for path, canvas in plain["pictures"].items()}
+        | ({} if plain["tables"] is None else {TABLES: tables})
+    )
 
 
 def _canvas(title: str, width: float, height: float, first: int) -> Canvas:
@@ -113,13 +93,8 @@ def _canvas(title: str, width: float, height: float, first: int) -> Canvas:
 
 def both(a: Contents, b: Contents) -> Contents:
     """Return what either of two runs shows."""
-    return Contents(
-        scalars={chart: a.scalars.get(chart, {}) | b.scalars.get(chart, {}) for chart in {**a.scalars, **b.scalars}},
-        charts=b.charts | a.charts,
-        pictures=b.pictures | a.pictures,
-        tables=a.tables if a.tables is not None else b.tables,
-        legend_height=max(a.legend_height, b.legend_height),
-    )
+    scalars = {chart: a.scalars.get(chart, {}) | b.scalars.get(chart, {}) for chart in {**a.scalars, **b.scalars}}
+    return Contents(scalars, b.canvases | a.canvases, max(a.legend_height, b.legend_height))
 
 
 def _chart_title(curve: Curve) -> str:

@@ -73,15 +73,7 @@ def _union(clouds: Sequence[Points]) -> Union | None:
 
 def gathered(cloud: Points, union: Union) -> Iterator[Aspect]:
     """Return the aspects of a cloud that is part of a union."""
-    there, radius = union.shown[id(cloud)], cloud.radius * union.swell
-    yield Aspect(
-        "all places",
-        (union.p,),
-        lambda: [rr.Points3D.from_fields(positions=union.p, colors=union.colors, show_labels=False)],
-    )
-    yield Aspect(
-        "shown",
-        (there, radius),
-        lambda: [rr.Points3D.from_fields(radii=np.where(there, radius, 0.0).astype(np.float32))],
-    )
+    radii = np.where(union.shown[id(cloud)], cloud.radius * union.swell, 0.0).astype(np.float32)
+    yield Aspect(rr.Points3D.from_fields, {"positions": union.p, "colors": union.colors, "show_labels": False})
+    yield Aspect(rr.Points3D.from_fields, {"radii": radii})
     yield pose(affine(cloud).T_world_object)

@@ -10,10 +10,10 @@ import rerun.blueprint as rrb
 
 from workbench.axis import value_axis
 from workbench.lesson import View
-from workbench.recording.chart import LEGEND_WIDTH
-from workbench.recording.contents import Canvas, Contents, canvases
+from workbench.recording.chart import LEGEND_WIDTH, Canvas
+from workbench.recording.contents import Contents
 from workbench.recording.glyphs import safe
-from workbench.recording.sink import entity_of
+from workbench.recording.sink import TABLES, entity_of
 from workbench.scene import Scalar
 from workbench.timeline import plotted_values
 
@@ -131,19 +131,16 @@ def _beside(contents: Contents, runs: Mapping[str, Values], *, late: bool = Fals
     """
     steps = max((len(values) for run in runs.values() for values in run.values()), default=0)
     plots = [] if late else [_curve_view(chart, scalars, runs) for chart, scalars in contents.scalars.items()]
-    beside = {
-        entity: [_canvas_view(root + entity, canvas, root) for root in runs]
-        for entity, canvas in canvases(contents).items()
-        if (canvas.first > LATE * steps) == late
-    }
-    charts = [view for entity, views in beside.items() if entity.startswith("/charts/") for view in views]
-    pictures = [view for entity, views in beside.items() if entity.startswith("/pictures/") for view in views]
-    tables = [rrb.TextDocumentView(origin=f"{root}/tables", name=_titled("Numbers", root)) for root in runs]
+    views: dict[str, list[Any]] = {"pictures": [], "charts": [], "tables": []}
+    for entity, canvas in contents.canvases.items():
+        if (canvas.first > LATE * steps) == late:
+            views[entity.split("/")[1]] += [_canvas_view(root + entity, canvas, root) for root in runs]
+    beside_each_other = len(runs) > 1 or all(len(str(view.name)) <= HALF_TITLE for view in views["charts"])
     return [
-        *_rows(pictures, 1.4, 2),
+        *_rows(views["pictures"], 1.4, 2),
         *_rows(plots, 1.0, 1 if len(plots) < 3 else 2),
-        *_rows(charts, 1.3, 2 if len(runs) > 1 or all(len(str(view.name)) <= HALF_TITLE for view in charts) else 1),
-        *_rows(tables if contents.tables is not None and (contents.tables > LATE * steps) == late else [], 1.3, 2),
+        *_rows(views["charts"], 1.3, 2 if beside_each_other else 1),
+        *_rows(views["tables"], 1.3, 2),
     ]
 
 
@@ -228,11 +225,10 @@ def _eye(view: View) -> np.ndarray:
 
 
 def _canvas_view(entity: str, canvas: Canvas, root: str = "") -> Any:
+    name = safe(f"{root.strip('/').upper()} · {canvas.title}" if root else canvas.title)
+    if entity == root + TABLES:
+        return rrb.TextDocumentView(origin=entity, name=name)
     bounds = rrb.VisualBounds2D(
         x_range=[-0.01 * canvas.width, 1.01 * canvas.width], y_range=[-0.01 * canvas.height, canvas.height]
     )
-    return rrb.Spatial2DView(origin=entity, name=_titled(canvas.title, root), visual_bounds=bounds)
-
-
-def _titled(name: str, root: str) -> str:
-    return safe(f"{root.strip('/').upper()} · {name}" if root else name)
+    return rrb.Spatial2DView(origin=entity, name=name, visual_bounds=bounds)

@@ -21,7 +21,7 @@ from workbench.recording.viewer_files import binary, quiet_environment
 from workbench.scene import Scalar
 
 FOREIGN = "is no Rerun recording, or is damaged"
-FORMAT = 1
+FORMAT = 2
 """What this version writes and reads; it grows when an older version could not read a new recording."""
 
 

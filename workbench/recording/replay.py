@@ -1,22 +1,22 @@
 """Plays recordings in Rerun's viewer: in the browser, under the names of this machine only, or in Rerun's own window."""
 
-import contextlib
-import errno
 import html
 import json
-import shutil
-import socket
 import subprocess
-import sys
 import threading
 import webbrowser
 from collections.abc import Mapping, Sequence
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import ClassVar
+from string import Template
+
+import uvicorn
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import FileResponse, Response
+from starlette.routing import Route
 
 from workbench.errors import InputError
-from workbench.hosts import Hosts
+from workbench.hosts import Hosts, listening
 from workbench.recording.viewer_files import binary, quiet_environment, rerun_version, web_viewer
 
 POLICY = (
@@ -76,7 +76,7 @@ def _play_native(paths: Sequence[Path]) -> None:
 
 
 class Replay:
-    """A web server that hands out a page with Rerun's viewer, and recordings. Serves from its own threads.
+    """A web server that hands out a page with Rerun's viewer, and recordings. Serves from a thread of its own.
 
     Args:
         files: Recordings by file name: a path, or the bytes.
@@ -90,17 +90,19 @@ class Replay:
     def __init__(self, files: Mapping[str, Path | bytes], title: str, *, host: str = "127.0.0.1", port: int = 8080):
         viewer = {f"/viewer-{rerun_version()}/{name}": file for name, file in web_viewer().items()}
         recordings = {f"/{i}.rrd": content for i, content in enumerate(files.values())}
-        page = _page(title, list(viewer), list(recordings))
-        contents: dict[str, Path | bytes] = {"/": page.encode(), **viewer, **recordings}
-        handler = type("Handler", (_Handler,), {"contents": contents, "hosts": Hosts(host)})
-        try:
-            self._server = _server_class(host)((host, port), handler)
-        except OSError as error:
-            raise InputError(_why_not(error, host, port)) from None
-        self.port = self._server.server_address[1]
+        self._contents = {"/": _page(title, list(viewer), list(recordings)), **viewer, **recordings}
+        self._hosts = Hosts(host)
+        self._listener = listening(host, port)
+        self.port = self._listener.getsockname()[1]
         self.address = f"http://{f'[{host}]' if ':' in host else host}:{self.port}"
-        self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
+        app = Starlette(routes=[Route("/{path:path}", self._answer)])
+        self._server = uvicorn.Server(
+            uvicorn.Config(app, http="h11", log_level="critical", timeout_graceful_shutdown=2)
+        )
+        self._thread = threading.Thread(target=self._server.run, args=([self._listener],), daemon=True)
         self._thread.start()
+        while self._thread.is_alive() and not self._server.started:
+            self._thread.join(0.01)
 
     def __enter__(self) -> "Replay":
         """Return itself."""
@@ -108,110 +110,30 @@ class Replay:
 
     def __exit__(self, *exc: object) -> None:
         """Stop serving."""
-        self._server.shutdown()
-        self._server.server_close()
+        self._server.should_exit = True
         self._thread.join()
 
-
-class _Handler(BaseHTTPRequestHandler):
-    """Answers with one of a fixed set of files, and nothing else, where it is asked by this machine's name."""
-
-    contents: ClassVar[Mapping[str, Path | bytes]] = {}
-    hosts: ClassVar[Hosts] = Hosts("localhost")
-    protocol_version = "HTTP/1.1"
-
-    def do_GET(self) -> None:
-        """Send a file."""
-        self._answer(body=True)
-
-    def do_HEAD(self) -> None:
-        """Say how large a file is."""
-        self._answer(body=False)
-
-    def _answer(self, *, body: bool) -> None:
-        if not self.hosts.know(self.headers.get("Host", "")):
-            self.send_error(403, explain="This server is not known under that name.")
-            return
-        name = self.path.partition("?")[0]
-        content = self.contents.get(name)
-        try:
-            size = len(content) if isinstance(content, bytes) else content.stat().st_size if content else None
-        except OSError:
-            size = None
-        if content is None or size is None:
-            self.send_error(404)
-            return
-        self.send_response(200)
-        self.send_header("Content-Type", KINDS.get(Path(name).suffix or ".html", "application/octet-stream"))
-        self.send_header("Content-Length", str(size))
-        self.send_header("Content-Security-Policy", POLICY)
-        self.send_header("X-Content-Type-Options", "nosniff")
-        forever = name.startswith("/viewer-")
-        self.send_header("Cache-Control", "public, max-age=31536000, immutable" if forever else "no-store")
-        self.end_headers()
-        if not body:
-            return
-        with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # the browser went away
-            if isinstance(content, bytes):
-                self.wfile.write(content)
-            else:
-                with content.open("rb") as file:
-                    shutil.copyfileobj(file, self.wfile)
-
-    def log_message(self, format: str, *args: object) -> None:  # noqa: A002
-        """Keep quiet: the terminal belongs to the command."""
+    def _answer(self, request: Request) -> Response:
+        """Return one of a fixed set of files, and nothing else, where it is asked for by this machine's name."""
+        if not self._hosts.know(request.headers.get("host", "")):
+            return Response("This server is not known under that name.", 403)
+        name = request.url.path
+        content = self._contents.get(name)
+        if content is None or (isinstance(content, Path) and not content.is_file()):
+            return Response(status_code=404)
+        headers = {
+            "Content-Security-Policy": POLICY,
+            "X-Content-Type-Options": "nosniff",
+            "Cache-Control": "public, max-age=31536000, immutable" if name.startswith("/viewer-") else "no-store",
+        }
+        kind = KINDS.get(Path(name).suffix or ".html", "application/octet-stream")
+        make = FileResponse if isinstance(content, Path) else Response
+        return make(content, headers=headers, media_type=kind)
 
 
-def _server_class(host: str) -> type[ThreadingHTTPServer]:
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    options = {"address_family": family, "daemon_threads": True, "allow_reuse_address": sys.platform != "win32"}
-    return type("Server", (ThreadingHTTPServer,), options)
-
-
-def _why_not(error: OSError, host: str, port: int) -> str:
-    if error.errno == errno.EADDRINUSE:
-        return f"port {port} is in use: stop the other program, or choose another with --port (0 picks a free one)"
-    if isinstance(error, PermissionError):
-        return f"port {port} needs more rights than this user has: choose one above 1023"
-    if isinstance(error, socket.gaierror):
-        return f"host {host!r} is no address of this machine"
-    return f"cannot listen on {host}:{port}: {error.strerror or error}"
-
-
-def _page(title: str, viewer: Sequence[str], recordings: Sequence[str]) -> str:
+def _page(title: str, viewer: Sequence[str], recordings: Sequence[str]) -> bytes:
     script, program = viewer
     options = {"hide_welcome_screen": True, "theme": "light", "enable_history": False, "manifest_url": None}
-    return f"""<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{html.escape(title)}</title>
-<link rel="icon" href="data:,">
-<style>
-html, body {{ margin: 0; height: 100%; overflow: hidden; background: #fff; color: #24292f;
-  font: 16px/1.5 system-ui, sans-serif; }}
-canvas {{ position: absolute; width: 100%; height: 100%; }}
-#note {{ position: absolute; inset: 0; display: grid; place-content: center; text-align: center; padding: 1rem; }}
-</style>
-</head>
-<body>
-<canvas id="canvas"></canvas>
-<div id="note" role="status"><p><b>{html.escape(title)}</b></p><p id="words">Starting the viewer …</p>
-<noscript>The viewer needs JavaScript.</noscript></div>
-<script src="{script}"></script>
-<script>
-const note = document.getElementById("note"), words = document.getElementById("words");
-const recordings = {json.dumps(list(recordings))}.map((name) => new URL(name, location.href).href);
-(async () => {{
-  await wasm_bindgen({{ module_or_path: fetch("{program}") }});
-  window.viewer = new wasm_bindgen.WebHandle({{ ...{json.dumps(options)}, url: recordings }});
-  await viewer.start(document.getElementById("canvas"));
-  note.remove();
-}})().catch((error) => {{
-  words.textContent = "The viewer could not start in this browser (it needs WebGL 2 or WebGPU): " + error;
-}});
-</script>
-</body>
-</html>
-"""
+    page = Template(Path(__file__).with_name("replay.html").read_text(encoding="utf-8"))
+    names = {"title": html.escape(title), "script": script, "program": program}
+    return page.substitute(names, recordings=json.dumps(list(recordings)), options=json.dumps(options)).encode()

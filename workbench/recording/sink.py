@@ -1,13 +1,24 @@
 """Makes a Rerun stream equal to scenes, one step after another, and says only what has changed since the step before."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
 import rerun as rr
 
-from workbench.recording.chart import GREY, chart_curves, chart_frame, color_bar, frame_key, legend_bar, legend_names
+from workbench.recording.chart import (
+    Canvas,
+    Legend,
+    Rgb,
+    absence,
+    bar_of,
+    chart_curves,
+    chart_frame,
+    color_bar,
+    legend_bar,
+    legend_names,
+    scales,
+)
 from workbench.recording.gather import Union, gathered
 from workbench.recording.glyphs import safe
 from workbench.recording.png import IMAGE, encoded, gone
@@ -25,16 +36,10 @@ from workbench.scene import (
     Segments,
     Table,
     in_space,
-    same,
 )
 
-
-@dataclass(frozen=True)
-class Place:
-    """Where something is shown that is not there at every step: its first step, and the canvas's middle if it has one."""
-
-    first: int
-    middle: tuple[float, float] | None = None
+TABLES = "/tables"
+"""Where all tables stand, in one document."""
 
 
 class RerunSink:
@@ -45,18 +50,18 @@ class RerunSink:
 
     Args:
         stream: Rerun's recording stream.
-        places: Where charts, pictures and tables are shown, by entity. While there are none, it says so there.
+        canvases: Where charts, pictures and tables are shown, by entity. While there are none, it says so there.
         unions: Clouds that are said once for all steps, by path.
     """
 
     def __init__(
         self,
         stream: Any,
-        places: Mapping[str, Place] = MappingProxyType({}),
+        canvases: Mapping[str, Canvas] = MappingProxyType({}),
         unions: Mapping[str, Union] = MappingProxyType({}),
     ):
         self._stream = stream
-        self._places = places
+        self._canvases = canvases
         self._unions = unions
         self._said: dict[str, dict[str, Aspect]] = {}
         self._numbers = ClassNumbers()
@@ -69,12 +74,12 @@ class RerunSink:
             if not said.keys() <= wanted.get(entity, {}).keys():  # it, or a part of it, is gone
                 for suffix in dict.fromkeys(aspect.suffix for aspect in said.values()):  # in the same order every time
                     self._stream.log(entity + suffix, gone(suffix))
-        for entity, aspects_now in wanted.items():
+        for entity, now in wanted.items():
             before = self._said.get(entity, {})
-            before = before if before.keys() <= aspects_now.keys() else {}
+            before = before if before.keys() <= now.keys() else {}
             news: dict[str, list[Any]] = {}
-            for name, aspect in aspects_now.items():
-                if name not in before or not _same_key(before[name].key, aspect.key):
+            for name, aspect in now.items():
+                if name not in before or not aspect.same(before[name]):
                     news.setdefault(entity + aspect.suffix, []).extend(aspect.say())
             for where, archetypes in news.items():
                 self._stream.log(where, *archetypes)
@@ -84,20 +89,19 @@ class RerunSink:
 
     def _entities(self, k: int, scene: Scene) -> Iterator[tuple[str, Iterable[Aspect]]]:
         for path, primitive in scene.items():
-            if not in_space(primitive):
-                continue
-            union = self._unions.get(path)
-            if isinstance(primitive, Points) and union is not None and id(primitive) in union.shown:
-                said = gathered(primitive, union)
-            else:
-                said = aspects(primitive, self._numbers)
-            kind = type(primitive).__name__  # another kind at this path has no aspect in common with it
-            yield entity_of("world", path), [replace(aspect, name=f"{kind} {aspect.name}") for aspect in said]
+            if in_space(primitive):
+                union = self._unions.get(path)
+                if isinstance(primitive, Points) and union is not None and id(primitive) in union.shown:
+                    yield entity_of("world", path), gathered(primitive, union)
+                else:
+                    yield entity_of("world", path), aspects(primitive, self._numbers)
         beside = dict(_beside(scene))
         yield from beside.items()
-        for entity, place in self._places.items():
+        for entity, canvas in self._canvases.items():
             if entity not in beside:
-                yield entity, (_absence(k, place),)
+                word = f"from step {canvas.first} on" if k < canvas.first else "not in this step"
+                values = {"markdown": word} if entity == TABLES else {"word": word, "canvas": canvas}
+                yield entity, (Aspect(document if entity == TABLES else absence, values),)
 
 
 def entity_of(*parts: str) -> str:
@@ -118,18 +122,18 @@ def _beside(scene: Scene) -> Iterator[tuple[str, Iterable[Aspect]]]:
         elif isinstance(primitive, Curve):
             charts.setdefault(primitive.chart, []).append(primitive)
     for title, curves in charts.items():
-        yield chart_entity(title), _chart(tuple(curves))
-    tables = tuple(primitive for primitive in scene.values() if isinstance(primitive, Table))
+        yield chart_entity(title), _chart(curves)
+    tables = [table_text(primitive) for primitive in scene.values() if isinstance(primitive, Table)]
     if tables:
-        yield "/tables", (Aspect("text", tables, lambda: [document("\n\n".join(map(table_text, tables)))]),)
+        yield TABLES, (Aspect(document, {"markdown": "\n\n".join(tables)}),)
     entries, fields = legend_of(scene)
     if entries or fields:
         yield "/legend", _legend(entries, fields)
 
 
-def legend_of(scene: Scene) -> tuple[tuple[tuple[str, tuple[int, int, int]], ...], tuple[Field, ...]]:
+def legend_of(scene: Scene) -> tuple[Legend, list[Field]]:
     """Return the names in the picture with their colours, and the fields that need a colour bar."""
-    names: dict[tuple[str, tuple[int, int, int]], None] = {}
+    names: dict[tuple[str, Rgb], None] = {}
     fields: list[Field] = []
     for primitive in scene.values():
         if isinstance(primitive, Picture) and in_space(primitive):
@@ -142,9 +146,9 @@ def legend_of(scene: Scene) -> tuple[tuple[tuple[str, tuple[int, int, int]], ...
             names |= {(word, PALETTE[role]): None for role, word in color.present()}
         elif isinstance(color, str) and name:
             names[name, PALETTE[color]] = None
-        elif isinstance(color, Field) and all(_bar_key(color) != _bar_key(field) for field in fields):
+        elif isinstance(color, Field) and all(bar_of(color) != bar_of(field) for field in fields):
             fields.append(color)
-    return tuple(names), tuple(fields)
+    return tuple(names), fields
 
 
 def table_text(table: Table) -> str:
@@ -162,48 +166,28 @@ def markdown(text: str) -> str:
     return text
 
 
-def _absence(k: int, place: Place) -> Aspect:
-    """Return the words where something is shown at other steps than k."""
-    word = f"from step {place.first} on" if k < place.first else "not in this step"
-
-    def say() -> list[Any]:
-        if place.middle is None:
-            return [document(word)]
-        return [rr.Points2D([place.middle], labels=[word], colors=GREY, radii=0.01, show_labels=True)]
-
-    return Aspect("absence", (word,), say)
-
-
 def document(markdown: str) -> Any:
     """Return Markdown as a document of Rerun."""
     return rr.TextDocument(markdown, media_type=rr.MediaType.MARKDOWN)
 
 
-def _chart(curves: tuple[Curve, ...]) -> Iterator[Aspect]:
-    yield Aspect("frame", frame_key(curves), lambda: chart_frame(curves), "/frame")
-    yield Aspect("curves", curves, lambda: chart_curves(curves), "/curves")
+def _chart(curves: Sequence[Curve]) -> Iterator[Aspect]:
+    x, y = scales(curves)
+    names = [(curve.name, PALETTE[curve.color]) for curve in curves]
+    yield Aspect(chart_frame, {"x": x, "y": y, "x_label": curves[0].x_label, "names": names}, "/frame")
+    yield Aspect(chart_curves, {"x": x, "y": y, "curves": dict(enumerate(curves))}, "/curves")
 
 
 def _picture(picture: Picture) -> Iterator[Aspect]:
-    yield Aspect("image", (picture.image,), lambda: [encoded(picture.image)], IMAGE)
-    field = picture.image
-    if isinstance(field, Field):
-        h, w = field.values.shape
-        key = (*_bar_key(field), h, w)
-        yield Aspect("bar", key, lambda: color_bar(field, 0.0, h + 0.02 * w, float(w), 0.04 * w), "/bar")
+    yield Aspect(encoded, {"image": picture.image}, IMAGE)
+    if isinstance(picture.image, Field):
+        h, w = picture.image.values.shape
+        place = {"at": (0.0, h + 0.02 * w), "width": float(w), "height": 0.04 * w}
+        yield Aspect(color_bar, bar_of(picture.image) | place, "/bar")
 
 
-def _legend(entries: tuple[tuple[str, tuple[int, int, int]], ...], fields: tuple[Field, ...]) -> Iterator[Aspect]:
+def _legend(entries: Legend, fields: Sequence[Field]) -> Iterator[Aspect]:
     if entries:
-        yield Aspect("names", entries, lambda: legend_names(entries), "/names")
+        yield Aspect(legend_names, {"entries": entries}, "/names")
     for i, field in enumerate(fields):
-        key = (*_bar_key(field), len(fields), entries)
-        yield Aspect(f"bar{i}", key, lambda i=i, field=field: legend_bar(field, i, len(fields), entries), f"/bar{i}")
-
-
-def _bar_key(field: Field) -> tuple[Any, ...]:
-    return (field.low, field.high, field.title, field.unit, field.map)
-
-
-def _same_key(a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:
-    return len(a) == len(b) and all(same(x, y) for x, y in zip(a, b, strict=True))
+        yield Aspect(legend_bar, {"i": i, "bars": len(fields), "entries": entries, "bar": bar_of(field)}, f"/bar{i}")

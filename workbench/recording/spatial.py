@@ -1,10 +1,10 @@
 """How each primitive in space is said to Rerun, in aspects that change independently of each other.
 
-A moving cloud changes only its `pose`, classes that change send only ids, and so on: a sink keeps the key of every
-aspect it has sent, and sends an aspect again when its key is not the same any more.
+A moving cloud changes only its pose, classes that change send only ids, and so on: a sink keeps every aspect that it has
+sent, and sends one again when a value of it is not the same any more.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import singledispatch
 from typing import Any
@@ -27,27 +27,40 @@ from workbench.scene import (
     Role,
     Segments,
     color_rows,
+    same,
 )
 
 FADED = (168, 172, 178)
 """What faint points and lines are mixed with, on a white and on a black ground: Rerun draws them without transparency."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Aspect:
-    """Something about an entity: what it depends on, and how it is said.
+    """Something about an entity: how it is said, and the values it depends on.
 
     Args:
-        name: Its name among the aspects of the primitive.
-        key: Values that decide whether it has to be said again, compared by `workbench.scene.same`.
-        say: Makes the archetypes.
+        make: Makes Rerun's archetype, or a list of them, of the values.
+        values: By the names that `make` has for them; compared by `workbench.scene.same`.
         suffix: Behind the path of the primitive's entity: nothing for itself, `/image` for an entity below it.
     """
 
-    name: str
-    key: tuple[Any, ...]
-    say: Callable[[], list[Any]]
+    make: Callable[..., Any]
+    values: Mapping[str, Any]
     suffix: str = ""
+
+    @property
+    def name(self) -> str:
+        """Its name among the aspects of its entity: what says it, and of what."""
+        return f"{self.make.__qualname__} {' '.join(self.values)} {self.suffix}"
+
+    def same(self, other: "Aspect") -> bool:
+        """Tell whether an aspect of this name would say the same."""
+        return same(self.values, other.values)
+
+    def say(self) -> list[Any]:
+        """Return the archetypes."""
+        made = self.make(**self.values)
+        return made if isinstance(made, list) else [made]
 
 
 class ClassNumbers:
@@ -93,18 +106,18 @@ def aspects(primitive: Any, numbers: ClassNumbers) -> Iterator[Aspect]:
 @aspects.register
 def _points(primitive: Points, numbers: ClassNumbers) -> Iterator[Aspect]:
     points = affine(primitive)
-    yield Aspect("place", (points.p,), lambda: [rr.Points3D.from_fields(positions=points.p)])
-    yield Aspect("size", (points.radius,), lambda: [rr.Points3D.from_fields(radii=[points.radius], show_labels=False)])
-    yield from _colors(points.color, points.opacity, rr.Points3D, numbers)
+    yield Aspect(rr.Points3D.from_fields, {"positions": points.p})
+    yield Aspect(rr.Points3D.from_fields, {"radii": points.radius, "show_labels": False})
+    yield _colors(points, rr.Points3D, numbers)
     yield pose(points.T_world_object)
 
 
 @aspects.register
 def _segments(primitive: Segments, numbers: ClassNumbers) -> Iterator[Aspect]:
     segments = affine(primitive)
-    yield Aspect("place", (segments.ends,), lambda: [rr.LineStrips3D.from_fields(strips=segments.ends)])
+    yield Aspect(rr.LineStrips3D.from_fields, {"strips": segments.ends})
     yield _width(segments.width)
-    yield from _colors(segments.color, segments.opacity, rr.LineStrips3D, numbers)
+    yield _colors(segments, rr.LineStrips3D, numbers)
     yield pose(segments.T_world_object)
 
 
@@ -112,111 +125,65 @@ def _segments(primitive: Segments, numbers: ClassNumbers) -> Iterator[Aspect]:
 def _mesh(primitive: Mesh, numbers: ClassNumbers) -> Iterator[Aspect]:
     mesh = affine(primitive)
     if mesh.wireframe:
-        role: Any = mesh.color if isinstance(mesh.color, str) else "neutral"
-        yield Aspect(
-            "place", (mesh.p, mesh.faces), lambda: [rr.LineStrips3D.from_fields(strips=mesh.p[_edges(mesh.faces)])]
-        )
+        yield Aspect(_wires, {"p": mesh.p, "faces": mesh.faces})
         yield _width(1.0)
-        yield Aspect(
-            "color",
-            (role, mesh.opacity),
-            lambda: [rr.LineStrips3D.from_fields(colors=_faded(_rows(role), mesh.opacity))],
-        )
+        role = mesh.color if isinstance(mesh.color, str) else "neutral"
+        yield Aspect(_painted, {"archetype": rr.LineStrips3D, "color": role, "opacity": mesh.opacity})
     else:
-        kind = "surface" if isinstance(mesh.color, str) else "coloured surface"  # Rerun would multiply both's colours
-        yield Aspect(kind, (mesh.p, mesh.faces, mesh.flat, mesh.color, mesh.opacity), lambda: [_surface(mesh)])
+        make = _surface if isinstance(mesh.color, str) else _coloured_surface  # Rerun would multiply both's colours
+        yield Aspect(make, {"mesh": replace(mesh, T_world_object=None)})
     yield pose(mesh.T_world_object)
 
 
 @aspects.register
 def _axes(axes: Axes, numbers: ClassNumbers) -> Iterator[Aspect]:
-    colors = _faded(np.array([PALETTE[role] for role in ("x", "y", "z")]), axes.opacity)
-    yield Aspect(
-        "arrows",
-        (axes.length, axes.opacity),
-        lambda: [rr.Arrows3D(vectors=np.eye(3) * axes.length, colors=colors)],
-    )
+    yield Aspect(_arrows, {"length": axes.length, "opacity": axes.opacity})
     if axes.name:
-        yield Aspect("name", (axes.name,), lambda: [_name_tag(axes.name, PALETTE["neutral"])])
+        yield Aspect(_name_tag, {"text": axes.name, "color": "neutral", "p": np.zeros(3)})
     yield pose(axes.T_world_object)
 
 
 @aspects.register
 def _camera(camera: Camera, numbers: ClassNumbers) -> Iterator[Aspect]:
-    color = _faded(np.array(PALETTE[camera.color]), camera.opacity)
-    yield Aspect(
-        "frustum",
-        (camera.K, camera.width, camera.height, camera.depth, camera.color, camera.opacity),
-        lambda: [
-            rr.Pinhole(
-                image_from_camera=camera.K,
-                resolution=[camera.width, camera.height],
-                camera_xyz=rr.ViewCoordinates.RDF,
-                image_plane_distance=camera.depth,
-                color=color,
-                line_width=-1.5,  # negative: in pixels of the screen
-            )
-        ],
-    )
+    yield Aspect(_frustum, {"camera": replace(camera, T_world_object=None, image=None)})
     yield pose(camera.T_world_object)
-    image = camera.image
-    if image is not None:
-        yield Aspect("image", (image,), lambda: [encoded(image)], IMAGE)
+    if camera.image is not None:
+        yield Aspect(encoded, {"image": camera.image}, IMAGE)
 
 
 @aspects.register
 def _label(label: Label, numbers: ClassNumbers) -> Iterator[Aspect]:
-    yield Aspect(
-        "word",
-        (label.text, label.p, label.color, label.opacity),
-        lambda: [_name_tag(label.text, PALETTE[label.color], label.p)],
-    )
+    yield Aspect(_name_tag, {"text": label.text, "color": label.color, "p": label.p})
     yield pose(label.T_world_object)
 
 
 @aspects.register
 def _picture(picture: Picture, numbers: ClassNumbers) -> Iterator[Aspect]:
-    def plane() -> list[Any]:
-        image, width = picture.rgb(), picture.width or 1.0
-        x, y = width / 2, width / 2 * image.shape[0] / image.shape[1]
-        image = texture(image)
-        return [
-            rr.Mesh3D(
-                vertex_positions=[[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]],
-                triangle_indices=[[0, 1, 2], [0, 2, 3]],
-                vertex_texcoords=[[0, 0], [1, 0], [1, 1], [0, 1]],
-                albedo_texture=np.ascontiguousarray(image),
-                albedo_factor=[255, 255, 255, round(255 * picture.opacity)],
-            )
-        ]
-
-    yield Aspect("plane", (picture.image, picture.width, picture.opacity), plane)
+    yield Aspect(_plane, {"picture": replace(picture, T_world_object=None)})
     yield pose(picture.T_world_object)
 
 
 def pose(T_world_object: np.ndarray | None) -> Aspect:
     """Return where a primitive is."""
     T = np.eye(4) if T_world_object is None else T_world_object
-    return Aspect("pose", (T,), lambda: [rr.Transform3D(translation=T[:3, 3], mat3x3=T[:3, :3])])
+    return Aspect(rr.Transform3D, {"translation": T[:3, 3], "mat3x3": T[:3, :3]})
 
 
 def _width(pixels: float) -> Aspect:
-    radius = rr.Radius.ui_points(pixels / 2)
-    return Aspect("size", (pixels,), lambda: [rr.LineStrips3D.from_fields(radii=radius, show_labels=False)])
+    return Aspect(rr.LineStrips3D.from_fields, {"radii": -pixels / 2, "show_labels": False})  # negative: of the screen
 
 
-def _colors(color: Color, opacity: float, archetype: Any, numbers: ClassNumbers) -> Iterator[Aspect]:
+def _colors(primitive: Points | Segments, archetype: Any, numbers: ClassNumbers) -> Aspect:
     """Return how points or segments are coloured: by class ids where they have classes, else by colours."""
+    color, opacity = primitive.color, primitive.opacity
     if isinstance(color, Classes):
-        ids = numbers.ids(color, opacity)
-        yield Aspect("classes", (ids,), lambda: [archetype.from_fields(class_ids=ids)])
-    else:
-        yield Aspect("color", (color, opacity), lambda: [archetype.from_fields(colors=_faded(_rows(color), opacity))])
+        return Aspect(archetype.from_fields, {"class_ids": numbers.ids(color, opacity)})
+    return Aspect(_painted, {"archetype": archetype, "color": color, "opacity": opacity})
 
 
-def _rows(color: Color) -> np.ndarray:
+def _painted(archetype: Any, color: Color, opacity: float) -> Any:
     """Return one colour for all where all have the same, else one each."""
-    return color_rows(color, 1) if isinstance(color, str) else color_rows(color, 0)
+    return archetype.from_fields(colors=_faded(color_rows(color, 1 if isinstance(color, str) else 0), opacity))
 
 
 def _faded(colors: np.ndarray, opacity: float) -> np.ndarray:
@@ -225,12 +192,40 @@ def _faded(colors: np.ndarray, opacity: float) -> np.ndarray:
     return (colors * opacity + np.array(FADED) * (1.0 - opacity)).round().astype(np.uint8)
 
 
-def _name_tag(text: str, color: tuple[int, int, int], p: np.ndarray | None = None) -> Any:
-    place = np.zeros((1, 3)) if p is None else p[None]
-    return rr.Points3D(place, radii=rr.Radius.ui_points(1.0), colors=color, labels=[safe(text)], show_labels=True)
+def _name_tag(text: str, color: Role, p: np.ndarray) -> Any:
+    looks = {"radii": rr.Radius.ui_points(1.0), "colors": PALETTE[color], "show_labels": True}
+    return rr.Points3D(p[None], labels=[safe(text)], **looks)
 
 
-def _surface(mesh: Mesh) -> Any:
+def _arrows(length: float, opacity: float) -> Any:
+    colors = np.array([PALETTE[role] for role in ("x", "y", "z")])
+    return rr.Arrows3D(vectors=np.eye(3) * length, colors=_faded(colors, opacity))
+
+
+def _frustum(camera: Camera) -> Any:
+    return rr.Pinhole(
+        image_from_camera=camera.K,
+        resolution=[camera.width, camera.height],
+        camera_xyz=rr.ViewCoordinates.RDF,
+        image_plane_distance=camera.depth,
+        color=_faded(np.array(PALETTE[camera.color]), camera.opacity),
+        line_width=-1.5,  # negative: in pixels of the screen
+    )
+
+
+def _plane(picture: Picture) -> Any:
+    image, width = picture.rgb(), picture.width or 1.0
+    x, y = width / 2, width / 2 * image.shape[0] / image.shape[1]
+    return rr.Mesh3D(
+        vertex_positions=[[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]],
+        triangle_indices=[[0, 1, 2], [0, 2, 3]],
+        vertex_texcoords=[[0, 0], [1, 0], [1, 1], [0, 1]],
+        albedo_texture=np.ascontiguousarray(texture(image)),
+        albedo_factor=[255, 255, 255, round(255 * picture.opacity)],
+    )
+
+
+def _surface(mesh: Mesh, **colors: Any) -> Any:
     """Return a shaded surface: corners apart for a flat one, vertices with normals for a smooth one."""
     corners = mesh.p[mesh.faces]
     v_face = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -242,27 +237,22 @@ def _surface(mesh: Mesh) -> Any:
         for corner in range(3):
             np.add.at(normals, mesh.faces[:, corner], v_face)
     normals = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
-    alpha = round(255 * mesh.opacity)
     if isinstance(mesh.color, str):
-        return rr.Mesh3D(
-            vertex_positions=p,
-            triangle_indices=faces,
-            vertex_normals=normals,
-            albedo_factor=[*PALETTE[mesh.color], alpha],
-        )
+        colors = {"albedo_factor": [*PALETTE[mesh.color], round(255 * mesh.opacity)]}
+    return rr.Mesh3D(vertex_positions=p, triangle_indices=faces, vertex_normals=normals, **colors)
+
+
+def _coloured_surface(mesh: Mesh) -> Any:
     colors = color_rows(mesh.color, len(mesh.p))
     colors = colors[mesh.faces].reshape(-1, 3) if mesh.flat else colors
-    return rr.Mesh3D(
-        vertex_positions=p,
-        triangle_indices=faces,
-        vertex_normals=normals,
-        vertex_colors=np.column_stack([colors, np.full(len(colors), alpha, np.uint8)]),
-    )
+    alpha = np.full(len(colors), round(255 * mesh.opacity), np.uint8)
+    return _surface(mesh, vertex_colors=np.column_stack([colors, alpha]))
 
 
-def _edges(faces: np.ndarray) -> np.ndarray:
-    """Return every edge of a triangle mesh once, (e, 2)."""
-    return np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+def _wires(p: np.ndarray, faces: np.ndarray) -> Any:
+    """Return every edge of a triangle mesh once."""
+    edges = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+    return rr.LineStrips3D.from_fields(strips=p[edges])
 
 
 def affine(primitive: Any) -> Any:

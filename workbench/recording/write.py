@@ -17,7 +17,7 @@ from workbench.lesson import Lesson, find
 from workbench.loading import load
 from workbench.progress import Progress, bar
 from workbench.recording.columns import facts, send_captions, send_series
-from workbench.recording.contents import contents_of, places, to_json
+from workbench.recording.contents import contents_of, to_json
 from workbench.recording.gather import unions
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import one_run
@@ -154,7 +154,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         send_captions(stream, [step.caption for step in steps])
         for order, (path, one) in enumerate(series.items()):
             send_series(stream, path, one, order)
-        sink = RerunSink(stream, places(contents), clouds)
+        sink = RerunSink(stream, contents.canvases, clouds)
         for k, step in enumerate(steps):
             sink.show(k, step.scene)
             if progress is not None:

@@ -2,7 +2,6 @@
 
 import socket
 
-from workbench.errors import InputError
 from workbench.hosts import is_loopback
 
 KEY = "key"
@@ -37,31 +36,6 @@ class Doors:
             else "Whoever has this link is let in; give it to nobody else:"
         )
         return "\n".join([who, *self.links, "On this machine:", self.address])
-
-
-def listening(host: str, port: int) -> socket.socket:
-    """Return a socket that listens.
-
-    Raises:
-        InputError: If the port is taken or may not be used.
-    """
-    if not 0 <= port < 65536:
-        raise InputError(f"port {port}: a port is a whole number from 0 to 65535")
-    made = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
-    try:
-        made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        made.bind((host.strip("[]"), port))
-    except OSError as error:
-        made.close()
-        if isinstance(error, PermissionError):
-            raise InputError(f"port {port} needs more rights than this user has: choose one above 1023") from None
-        if isinstance(error, socket.gaierror) or error.errno == 99:
-            raise InputError(f"host {host!r} is no address of this machine") from None
-        if error.errno == 98 or "in use" in str(error):
-            free = "stop the other program, or choose another with --port (0 picks a free one)"
-            raise InputError(f"port {port} is in use: {free}") from None
-        raise InputError(f"cannot listen on {host}:{port}: {error.strerror or error}") from None
-    return made
 
 
 def addresses(host: str) -> list[str]:

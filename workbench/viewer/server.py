@@ -24,12 +24,13 @@ from workbench import links
 from workbench.authoring.reloading import Edited, carried
 from workbench.errors import InputError
 from workbench.exercise.watching import Watched
+from workbench.hosts import listening
 from workbench.lesson import Lesson, catalog
 from workbench.page.code import source_html
 from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES, THIRD_PARTIES
 from workbench.page.thumbnail import thumbnail
 from workbench.typeset import math_font_css
-from workbench.viewer.addresses import Doors, listening
+from workbench.viewer.addresses import Doors
 from workbench.viewer.connection import PageConnection
 from workbench.viewer.documents import LessonPages, course_page, lesson_page, start_address
 from workbench.viewer.following import Following
