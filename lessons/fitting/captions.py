@@ -119,12 +119,14 @@ def _spread(state: State, now: Spread) -> Caption:
     )
     if len(now.radii) < 100:
         return Caption(f"{text}.")
-    times = now.wider
-    if 1 / AGREE <= times <= AGREE:
+    times, is_possible = now.wider, now.predicted[0] >= 0.0
+    agrees = 1 / AGREE <= times <= AGREE
+    if agrees and is_possible:
         return Caption(f"{text}: about right.", "good")
-    off = f"narrow by a factor of {brief(times, 2)}" if times > 1.0 else f"wide by a factor of {brief(1 / times, 2)}"
-    nonsense = ", and no circle has a radius below 0" if now.predicted[0] < 0.0 else ""
-    return Caption(f"{text}, too {off}{nonsense}. It is wrong.", "wrong")
+    factor = f"narrow by a factor of {brief(times, 2)}" if times > 1.0 else f"wide by a factor of {brief(1 / times, 2)}"
+    off = ": about as wide" if agrees else f", too {factor}"
+    nonsense = "" if is_possible else ", and no circle has a radius below 0"
+    return Caption(f"{text}{off}{nonsense}. It is wrong.", "wrong")
 
 
 def _basin(state: State, now: Basin) -> Caption:

@@ -12,6 +12,8 @@ from workbench.numerals import brief, counted, fixed, fixed_or_power, percent
 from workbench.scene import Caption
 
 EXACT = 1e-9  # relative: what rounding may do to a sum
+ENOUGH = 1000
+"""Throws from which those that are spread evenly scatter less than random ones, whatever the shape."""
 
 
 def caption(state: State) -> Caption:
@@ -145,7 +147,8 @@ def _throws(state: State, now: Throws) -> Caption:
     text += f" The interval (95 %) {'holds' if held else 'misses'} the truth."
     if state.params.draw != "random":
         anew = " All are thrown anew, one in each small cube." if state.params.draw == "stratified" else ""
-        return Caption(f"{text} It is that of random throws: too wide here.{anew}")
+        wide = ": too wide here" if n >= ENOUGH else ""
+        return Caption(f"{text} It is that of random throws{wide}.{anew}")
     return Caption(text + _peeked(state, len(now.estimates.counts)))
 
 

@@ -23,6 +23,7 @@ from workbench.page.code import moment_data
 from workbench.questions import answer
 from workbench.scene import Picture
 from workbench.timeline import Timeline
+from workbench.viewer.connection import PageConnection
 
 pytestmark = pytest.mark.browser
 AGREES = """(captions) => page.run.finished && page.known() === captions.length &&
@@ -211,7 +212,7 @@ def drag(home: Home, field: Field, turn: int) -> None:
     home.page.mouse.up()
 
 
-def student(home: Home) -> Student:
+def student(home: Home) -> PageConnection:
     return home.server.students[home.ask("document.body.dataset.token")]
 
 

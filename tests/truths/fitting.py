@@ -80,7 +80,10 @@ def is_right(state: Any) -> bool | None:
             is_least = cost(state, now.now.unknown) <= 1.0011 * least(state)
             return None if is_least and abs(now.now.unknown[-1]) > FAR else bool(is_least)
         case "Spread":
-            return 1 / 1.5 <= wider(state) <= 1.5 if len(now.radii) > 100 else None
+            if len(now.radii) <= 100:
+                return None
+            low = abs(now.unknown[-1]) - 1.6449 * radius_deviation(state, now.unknown)
+            return bool(1 / 1.5 <= wider(state) <= 1.5 and low >= 0)
         case "Trusted":
             if not now.last or state.subject.truth is None:
                 return None

@@ -7,6 +7,7 @@ import numpy as np
 from lessons.curvature.captions import caption as caption
 from lessons.curvature.lesson import run as run_of
 from lessons.curvature.state import Params
+from tests.own_seed import of_preset
 from tests.readings import NUMBER, number, says_percent
 from tests.truths.curvature import (
     angle_K,
@@ -295,7 +296,7 @@ LINES = {
         Claim(r"A finer mesh makes it worse", lambda run, k, m: bool((np.diff(study(run).K) > 0).all())),
     ],
     "irregular": [Claim(r"along the surface, never off it", on_the_torus)],
-    "sphere-sum": [Claim(r"off by over five times its own size", off_by_five_times_itself)],
+    "sphere-sum": [Claim(r"off by over five times its own size", of_preset(off_by_five_times_itself))],
     "torus-sum": [
         Claim(r"cancel to the last digit", lambda run, k, m: abs(at(run, "total").now.defects.sum()) < 1e-9),
         Claim(r"a handle", lambda run, k, m: facts(run.states[0])[3] == 0),

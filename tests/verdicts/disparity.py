@@ -7,6 +7,7 @@ import numpy as np
 
 from lessons.disparity.captions import caption
 from lessons.disparity.lesson import lesson
+from tests.own_seed import of_preset
 from tests.readings import LENGTH, NUMBER, metres, number, says, says_length
 from tests.truths.disparity import (
     CHOSEN,
@@ -225,8 +226,8 @@ def four_times_too_far(run: Run, k: int, found: re.Match[str]) -> bool:
 
 LINES = {
     "spheres": (
-        Claim("74 % are wrong", lambda run, k, _: abs(wrong(of_stage(run, Stage.COMPARE)) - 74) < 1),
-        Claim("leave 12 %", lambda run, k, _: abs(wrong(of_stage(run, Stage.AGGREGATE)) - 12) < 1),
+        Claim("74 % are wrong", of_preset(lambda run, k, _: abs(wrong(of_stage(run, Stage.COMPARE)) - 74) < 1)),
+        Claim("leave 12 %", of_preset(lambda run, k, _: abs(wrong(of_stage(run, Stage.AGGREGATE)) - 12) < 1)),
         Claim("the paths 2 %", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 2) <= 0.7),
         Claim(
             "The check finds four fifths of what is hidden", lambda run, k, _: abs(given_up_of_hidden(run) - 0.8) < 0.04
@@ -258,7 +259,7 @@ LINES = {
         Claim("No answer there is right", None),
         Claim(
             "The check gives up about four fifths of it, not all",
-            lambda run, k, _: abs(given_up_of_hidden(run) - 0.8) < 0.05,
+            of_preset(lambda run, k, _: abs(given_up_of_hidden(run) - 0.8) < 0.05),
         ),
     ),
     "window-3": (
@@ -286,11 +287,11 @@ LINES = {
     "darker": (
         Claim("The right picture is darker", None),
         Claim("Another exposure changes every grey value by 30 %", darker),
-        Claim("94 % of the map is wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 94) < 1.5),
+        Claim("94 % of the map is wrong", of_preset(lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 94) < 1.5)),
     ),
     "darker-census": (Claim("about 2 % are wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 2) < 1),),
     "exchanged": (
-        Claim("94 % of the map is wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 94) < 1.5),
+        Claim("94 % of the map is wrong", of_preset(lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 94) < 1.5)),
         Claim("With left and right exchanged", None),
     ),
     "rows-off": (

@@ -6,6 +6,7 @@ import numpy as np
 
 from lessons.features.captions import caption
 from lessons.features.state import Outlined, Scanned
+from tests.own_seed import of_preset
 from tests.readings import LENGTH, near, near_length, number, says_percent
 from tests.truths.features import agreeing, home, nearer, off, share, turn
 from tests.verdicts import Claim, Run
@@ -100,7 +101,7 @@ CAPTIONS = (
 
 LINES = {
     "random": (
-        Claim(r"about one in seven of the kept matches is green", _green(0.1, 0.18)),
+        Claim(r"about one in seven of the kept matches is green", of_preset(_green(0.1, 0.18))),
         Claim(
             r"RANSAC draws over 1,000 samples",
             lambda run, k, m: max(s.now.iteration for s in run.states if s.now.phase == "refit") > 1000,
@@ -112,7 +113,7 @@ LINES = {
     "tilted": (Claim(r"The right photograph", None), Claim(r"87 % are green", _green(0.865, 0.875))),
     "turned": (Claim(r"The right photograph", None),),
     "sift": (Claim(r"82 % are green", _green(0.815, 0.825)),),
-    "outline-x": (Claim(r"fewer than a tenth of the lines are green", _green(below=0.1)),),
+    "outline-x": (Claim(r"fewer than a tenth of the lines are green", of_preset(_green(below=0.1))),),
 }
 
 WHYS: dict[str, tuple[Claim, ...]] = {}

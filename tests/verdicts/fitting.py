@@ -139,7 +139,7 @@ CAPTIONS = (
     ),
     Claim(
         rf"the middle 90 % of radii reach from ({LENGTH}) to ({LENGTH})\. The covariance said ({LENGTH}) to ({LENGTH})"
-        rf"(?:: about right|, too (narrow|wide) by a factor of ({NUMBER})"
+        rf"(?:: about right|(?:: about as wide|, too (narrow|wide) by a factor of ({NUMBER}))"
         r"(, and no circle has a radius below 0)?\. It is wrong)\.",
         repeated,
     ),
