@@ -13,7 +13,7 @@ import numpy as np
 from tests.exercise.batch import write_class
 from tests.exercise.centroid import EXERCISE
 from workbench.exercise import classroom, finding
-from workbench.exercise.sandbox import Student
+from workbench.exercise.sandbox import SandboxedFunction
 
 
 def main() -> None:
@@ -22,7 +22,7 @@ def main() -> None:
         path = Path(folder) / "my_centroid.py"
         path.write_text("def centroid(p):\n    return p\n")
         p = np.random.default_rng(0).normal(size=(2000, 3))
-        with Student(path, "centroid") as student:
+        with SandboxedFunction(path, "centroid") as student:
             student(p)
             times = []
             for _ in range(200):
