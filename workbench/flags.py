@@ -25,7 +25,6 @@ _WORDS = "lesson preset step out force host port browser with native help params
 RESERVED = frozenset(_WORDS.split())
 """Flags of the commands, words of links, keywords of `record`: no Params field may have one of these names."""
 
-MOST_WORKERS = 64
 HELP = {"-h", "--help"}
 
 
@@ -63,11 +62,6 @@ class ServingLive(Serving):
         str | None, Option("Name under which browsers find it, where it stands behind a proxy.", "NAME")
     ] = None
     workers: Annotated[int, Option("One process serves a class; says where more is told.", "N")] = 1
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not 1 <= self.workers <= MOST_WORKERS:
-            raise InputError(f"--workers {self.workers}: a number of processes is from 1 to {MOST_WORKERS}")
 
 
 @dataclass(frozen=True)

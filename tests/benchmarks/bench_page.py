@@ -27,22 +27,21 @@ WATCH = """if (self === parent) {
   new MutationObserver(() => {
     if (document.querySelector("#caption")?.textContent) seen.caption ??= performance.now();
   }).observe(document, { childList: true, subtree: true, characterData: true });
+  let feed; // what the page says to viser's client
+  Object.defineProperty(window, "feed", { configurable: true, get: () => feed, set(made) {
+    feed = made;
+    const say = made.say;
+    made.say = function (data) {
+      window.came ||= Boolean(data.messages?.some((one) => one.name?.startsWith("/scene/") && one.props));
+      return say.call(this, data);
+    };
+  } });
 } else if (location.pathname.includes("/scene/")) {
-  let came = false;
-  const Own = window.Worker;
-  window.Worker = class extends Own {
-    constructor(...all) {
-      super(...all);
-      this.addEventListener("message", ({ data }) => {
-        came ||= Boolean(data.messages?.some((one) => one.name?.startsWith("/scene/") && one.props));
-      });
-    }
-  };
   const context = WebGL2RenderingContext.prototype;
   for (const draw of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced"]) {
     const own = context[draw];
     context[draw] = function (...all) {
-      if (came) parent.seen.scene ??= parent.performance.now();
+      if (parent.came) parent.seen.scene ??= parent.performance.now();
       return own.apply(this, all);
     };
   }

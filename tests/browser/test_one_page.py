@@ -85,9 +85,17 @@ def test_what_one_points_at_in_the_text_stands_out(visit, server):
         assert me.page.locator("#legend .lit").count() == 0
 
 
-def until(me, holds) -> None:
-    for _ in range(600):
-        if holds():
-            return
-        me.page.wait_for_timeout(100)
-    raise AssertionError
+def test_news_of_a_run_ends_no_glide_unless_handles_follow_it(visit):
+    me = visit("?lesson=icp")
+    me.page.wait_for_function("page.run?.finished")
+    shown = """() => {
+      let count = 0;
+      const show = feed.show;
+      feed.show = (...all) => { count += 1; show.apply(feed, all); };
+      source.heard({ tell: "run", run: page.run.id, known: page.run.known });
+      feed.show = show;
+      return count;
+    }"""
+    assert me.page.evaluate(shown) == 0
+    me.page.evaluate("handles.on = true")
+    assert me.page.evaluate(shown) == 1

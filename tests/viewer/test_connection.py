@@ -90,6 +90,21 @@ def test_a_wish_of_another_thread_wakes_a_page_at_rest():
     talk(script)
 
 
+def test_another_caption_draws_no_scene_anew():
+    async def script(me: Talk) -> None:
+        me.say(verb="open", query="?lesson=fake", lesson="fake")
+        await me.at_rest()
+        assert me.scenes
+        me.scenes.clear()
+        me.say(verb="change", values={"angle": "steep"})
+        await me.until(lambda message: message["tell"] == "step" and message["step"]["tone"] == "wrong")
+        me.say(verb="seek", k=3)
+        await me.until(lambda message: message["tell"] == "step" and message["k"] == 3)
+        assert [head["k"] for head in me.scenes] == [3]
+
+    talk(script)
+
+
 def test_what_is_no_wish_is_ignored_and_files_are_not_set():
     async def script(me: Talk) -> None:
         me.say(verb="open", query="?lesson=fake", lesson="fake")

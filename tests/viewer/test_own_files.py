@@ -86,7 +86,7 @@ def test_a_file_sets_its_field_stays_through_reset_and_goes_with_its_page(server
     with opened(server) as page:
         assert page.give(points(7), "../scan of mine.npy").status_code == 204
         page.until(lambda told: told["tell"] == "run" and told["files"] == {"scan": "scan.npy"})
-        assert "7 points" in page.until(lambda told: told["tell"] == "step")["step"]["caption"]
+        page.until(lambda told: told["tell"] == "step" and "7 points" in told["step"]["caption"])
         page.say(verb="run", run="half")
         half = page.until(lambda told: told["tell"] == "run" and told["params"]["angle"] == 180.0)
         assert half["files"] == {"scan": "scan.npy"}

@@ -126,6 +126,7 @@ def test_a_scene_that_is_not_taken_is_not_buffered_without_bound(server):
         slow = await FakePage(f"{server.address}/", HERE).open(read=False)
         slow.live.transport.pause_reading()
         await slow.say(verb="change", values={"points": 20_000, "wobble": True})
+        await until(lambda: slow.token in server.students)
         student = server.students[slow.token]
         await until(lambda: student.session is not None and student.session.params.points == 20_000)
         waiting = []

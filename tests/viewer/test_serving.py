@@ -105,6 +105,12 @@ def test_no_collection_of_garbage_looks_at_what_a_server_is_made_of(monkeypatch)
         gc.unfreeze()
 
 
+@pytest.mark.parametrize("workers", [0, 2, 16])
+def test_more_processes_than_one_are_refused_in_one_line_that_says_where_more_is_told(workers):
+    with pytest.raises(InputError, match=rf"^--workers {workers}: one process .*docs/classroom.md$"):
+        serve(port=0, browser=False, workers=workers)
+
+
 def test_a_taken_port_is_told_before_anything_is_started():
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))

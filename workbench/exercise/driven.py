@@ -162,7 +162,9 @@ def calls_it(timeline: Timeline) -> bool | None:
     steps = timeline.known()
     if not steps or not isinstance(steps[-1].state, Pair):
         return None
-    return True if steps[-1].state.called else False if timeline.finished else None
+    if steps[-1].state.called:
+        return True
+    return False if timeline.finished else None
 
 
 def first_difference(steps: Iterable[Step]) -> int | None:

@@ -13,7 +13,7 @@ from typing import Any
 
 from workbench.errors import InputError
 
-CHILD_FILES = Path(__file__).with_name("child") / "reading.py"
+READING = Path(__file__).with_name("child") / "reading.py"
 MOST_SECONDS = 30.0
 """How long a reply is waited for where the machine is busy; the process itself may compute for three seconds a file."""
 MOST_LOST = 3
@@ -56,7 +56,7 @@ class Reader:
 
     def _asked(self, request: bytes) -> dict[str, Any]:
         if self._process is None:
-            command = [sys.executable, "-I", "-S", "-B", "-W", "ignore", str(CHILD_FILES)]
+            command = [sys.executable, "-I", "-S", "-B", "-W", "ignore", str(READING)]
             pipe, silent = subprocess.PIPE, subprocess.DEVNULL
             self._process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=silent, start_new_session=True)
             os.set_blocking(self._process.stdin.fileno(), False)  # type: ignore[union-attr]

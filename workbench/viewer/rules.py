@@ -27,7 +27,7 @@ _PAGE = (
 _SCENE = (  # viser's client is one file with its scripts, workers and compiled decoders in it
     "default-src 'none'; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob: data:; worker-src blob: data:; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
-    "connect-src 'self' data: blob:; form-action 'none'; base-uri 'none'; frame-ancestors 'self'"
+    "connect-src data: blob:; form-action 'none'; base-uri 'none'; frame-ancestors 'self'"
 )
 _SLASH = '<script>if (!location.pathname.endsWith("/")) location.pathname += "/";</script>'
 _HEADERS = {

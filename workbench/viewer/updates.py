@@ -41,11 +41,12 @@ class PageUpdates:
         self._told_steps = 0  # up to where its series were
         self._run = 0
         self._seen: Any = None  # what the page was shown last
+        self._drawn: Any = None  # of which its scene is
         self._view: tuple[Lesson, View] | None = None  # on which stage
 
     def forget(self) -> None:
         """Hold no run any more."""
-        self.timeline = self._steps = self._seen = None
+        self.timeline = self._steps = self._seen = self._drawn = None
 
     def show(self, session: Session, look: Look, *, tell: bool, watched: Watched | None) -> list[str | bytes]:
         """Return what the page is to be sent so that it shows a look: its scene as bytes, and texts.
@@ -64,7 +65,7 @@ class PageUpdates:
             self._sent, self._told, self._told_steps, self._run = set(), None, 0, self._run + 1
         now = self._run, look.k, look.known > 0, look.caption, timeline is session.timeline
         new = now != self._seen
-        drawn, trouble = self._drawn(look, current=timeline is session.timeline) if new else (None, None)
+        drawn, trouble = self._scene(look, current=timeline is session.timeline) if new else (None, None)
         told = [self._run_told(self._steps, look, watched)]
         again = new or tell or trouble is not None
         if look.known and again:
@@ -74,15 +75,24 @@ class PageUpdates:
         self._seen = now if trouble is None else None
         return [*([] if drawn is None else [drawn]), *(packed(message) for message in told if message is not None)]
 
-    def _drawn(self, look: Look, *, current: bool) -> tuple[bytes | None, str | None]:
-        """Return the bytes that the page lacks of a scene, or what went wrong; its view is of the run that is wanted."""
+    def _scene(self, look: Look, *, current: bool) -> tuple[bytes | None, str | None]:
+        """Return the bytes that the page lacks of a scene, or what went wrong; its view is of the run that is wanted.
+
+        Nothing where the page shows it: a caption that is another, or a run that is no longer wanted, draws nothing anew.
+        """
         lesson, head = look.lesson, {"run": self._run, "k": look.k}
         try:
             with Blaming(f"lesson {lesson.name}", lesson.draw):
                 if current or self._view is None or self._view[0] is not lesson:
                     self._view = lesson, self.aim.view(lesson, look.timeline.params)
-                return self._wire.step(head, look.scene, self._view[1], lesson.name), None
+                wanted = self._run, look.k, look.known > 0, self._view
+                if wanted == self._drawn:
+                    return None, None
+                content = self._wire.step(head, look.scene, self._view[1], lesson.name)
+                self._drawn = wanted
+                return content, None
         except InputError as error:
+            self._drawn = None
             tell_terminal(error)
             return None, str(error)
 

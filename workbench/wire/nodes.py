@@ -4,6 +4,7 @@ A node is made once, the same for all who ask, and lives as long as the primitiv
 key, so that a page is sent it once.
 """
 
+import functools
 import hashlib
 import json
 import threading
@@ -22,6 +23,8 @@ from workbench.wire.stage import add_stage, axis_names
 
 SCENE = "/scene/"
 """What the names of all that belongs to a step begin with; the rest is the stage."""
+MOST_STAGES = 256
+"""Stages that are kept: own scans bring views of their own."""
 
 
 class Content:
@@ -69,7 +72,7 @@ class Maker:
         self._lock = threading.Lock()
         self._made: weakref.WeakKeyDictionary[Spatial, dict[str, Node]] = weakref.WeakKeyDictionary()
         self._contents: weakref.WeakValueDictionary[str, Content] = weakref.WeakValueDictionary()
-        self._stages: dict[View, Stage] = {}
+        self.stage = functools.lru_cache(MOST_STAGES)(self._stage)
 
     def held(self) -> int:
         """Return how many bytes the arrays hold of all nodes that are still there."""
@@ -85,16 +88,13 @@ class Maker:
                 found |= {base + part: node for part, node in self._of(primitive).items()}  # type: ignore[arg-type]
         return found
 
-    def stage(self, view: View) -> Stage:
-        """Return the stage of a view."""
-        stage = self._stages.get(view)
-        if stage is None:
-            listener = self._listener()
-            nodes, light = self._nodes([*listener.at_first, *listener.heard(lambda scene: add_stage(scene, view))])
-            for name, place in axis_names(view):
-                nodes[f"/axis/{name}"] = self._word(name, small=True), place_of(place, None)
-            stage = self._stages[view] = Stage(nodes, tuple(light))
-        return stage
+    def _stage(self, view: View) -> Stage:
+        """Return the stage of a view; `stage` does, and keeps those that were wanted last."""
+        listener = self._listener()
+        nodes, light = self._nodes([*listener.at_first, *listener.heard(lambda scene: add_stage(scene, view))])
+        for name, place in axis_names(view):
+            nodes[f"/axis/{name}"] = self._word(name, small=True), place_of(place, None)
+        return Stage(nodes, tuple(light))
 
     def _listener(self) -> Listener:
         if not hasattr(self._own, "listener"):

@@ -17,6 +17,7 @@ const feed = window.feed = { // viser's client in the frame looks for it
   gliding: 0,          // the frame request of what glides
   stage: null,         // {light, camera} of the scene that is open
   keeps: NARROWEST,    // width by height of what stays in view
+  watching: null,      // tells of another size of the frame
   picks: false,        // whether clicks are heard
   dark: false,
   heard: {},           // what the client says -> function: who hears it
@@ -34,7 +35,7 @@ const feed = window.feed = { // viser's client in the frame looks for it
       this.aim(true);
     }
     this.show(this.wanted);
-    new ResizeObserver(() => this.fit()).observe(stage.frame);
+    (this.watching ??= new ResizeObserver(() => this.fit())).observe(stage.frame);
   },
 
   hear(message) { this.heard[message.type]?.(message); },

@@ -27,7 +27,7 @@ const source = {
     const { tell, run, ...more } = message;
     if (tell === "run") {
       page.told({ id: run, pinned: sceneView.series(), ...more });
-      sceneView.again(); // handles follow the params
+      if (handles.on) sceneView.again(); // they follow the params; what glides is left alone
       if (more.files) files.show(more.files, more.aside);
     } else if (tell === "step") page.came(run, more.k, more.step, more.things);
     else if (tell === "answer") article.answered({ ...more, given: this.given[more.question] ?? null });
