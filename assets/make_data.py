@@ -9,11 +9,11 @@ import numpy as np
 import trimesh
 from PIL import Image
 
-from workbench.data.clouds import pair
-from workbench.data.stereo import synthetic_pair
-from workbench.data.surfaces import torus
+from workbench.data.shapes.clouds import pair
+from workbench.data.shapes.surfaces import torus
+from workbench.data.views.stereo import synthetic_pair
+from workbench.geometry.cameras.stereo import StereoCamera
 from workbench.geometry.motions import exp_se3
-from workbench.geometry.stereo import StereoCamera
 
 DATA = Path(__file__).parent / "data"
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from workbench.threads import ONE_EACH
+from workbench.machinery.threads import ONE_EACH
 
 os.environ |= ONE_EACH  # before numpy is imported; workers inherit it
 

@@ -4,7 +4,7 @@ import functools
 from typing import Any
 
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 MOST = 48  # runs; all of a lesson's at once, with room for a second lesson's
 

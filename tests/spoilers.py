@@ -39,7 +39,7 @@ from typing import Any
 from tests.runs import finished
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, Preset, Question, catalog
-from workbench.typeset import inline_html, page_html
+from workbench.words.typeset import inline_html, page_html
 
 
 @dataclass(frozen=True)

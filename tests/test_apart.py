@@ -21,7 +21,7 @@ import pytest
 from workbench import apart
 from workbench.apart import COMMAND, PAGE, allowing, forgotten, handed_to_a_page
 from workbench.data.files import read_cloud, read_image, read_mesh, read_voxels
-from workbench.data.matches import read_matches
+from workbench.data.files.matches import read_matches
 from workbench.errors import InputError
 
 QUICK = 6.0

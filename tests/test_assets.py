@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 DATA = Path(__file__).resolve().parents[1] / "assets" / "data"
 

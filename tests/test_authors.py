@@ -11,10 +11,10 @@ import pytest
 from workbench.errors import InputError
 from workbench.knobs import Gizmo, Knob, Pick
 from workbench.lesson import Lesson, Preset, Question
-from workbench.loading import load
+from workbench.run.loading import load
+from workbench.run.session import Session
+from workbench.run.timeline import Timeline, Timelines
 from workbench.scene import Caption, Curve, Points, Scalar, Scene, Table
-from workbench.session import Session
-from workbench.timeline import Timeline, Timelines
 
 HERE = Path(__file__)
 P = np.zeros((3, 3))
@@ -240,7 +240,7 @@ def test_a_preset_that_opens_beyond_its_run_says_so(step):
     ],
 )
 def test_a_question_that_its_run_does_not_answer_says_so(asked, words):
-    from workbench.questions import answer
+    from workbench.run.questions import answer
 
     with pytest.raises(InputError) as told:
         answer(lesson(questions=(asked,)), asked, None, Timelines())

@@ -7,12 +7,12 @@ from types import ModuleType
 import pytest
 
 from tests import fake
-from workbench import listing
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
 from workbench.lesson import catalog, find
-from workbench.listing import listed
-from workbench.loading import load
+from workbench.run import listing
+from workbench.run.listing import listed
+from workbench.run.loading import load
 
 
 @pytest.fixture

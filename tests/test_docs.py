@@ -137,8 +137,10 @@ def test_the_architecture_names_every_package():
 
 def test_every_module_of_the_maths_is_in_the_reference():
     for part in ("geometry", "algorithms", "data"):
-        listed = re.findall(rf"^::: workbench\.{part}\.(\w+)$", read(f"docs/api/{part}.md"), re.MULTILINE)
-        there = [path.stem for path in (ROOT / "workbench" / part).glob("[!_]*.py")]
+        listed = re.findall(rf"^::: workbench\.{part}\.([\w.]+)$", read(f"docs/api/{part}.md"), re.MULTILINE)
+        folder = ROOT / "workbench" / part
+        paths = [path for path in folder.rglob("[!_]*.py") if "import *" not in path.read_text(encoding="utf-8")]
+        there = [".".join(path.relative_to(folder).with_suffix("").parts) for path in paths]
         assert sorted(listed) == sorted(there), part
 
 

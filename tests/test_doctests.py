@@ -20,11 +20,12 @@ def examples() -> list[tuple[str, str, str]]:
     """Every docstring with an example: module, name, text."""
     found = []
     for part in ("geometry", "algorithms"):
-        for path in sorted((ROOT / "workbench" / part).glob("*.py")):
+        for path in sorted((ROOT / "workbench" / part).rglob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 text = ast.get_docstring(node) if isinstance(node, WITH_DOCSTRING) else None
                 if text and ">>>" in text:
-                    found.append((f"workbench.{part}.{path.stem}", getattr(node, "name", path.stem), text))
+                    module = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+                    found.append((module, getattr(node, "name", path.stem), text))
     return found
 
 
@@ -51,4 +52,4 @@ def test_an_example_gives_what_it_shows(module, name, text):
 
 
 def test_an_example_that_does_not_hold_is_found():
-    assert "Expected:" in failures("workbench.geometry.motions", "wrong", ">>> rotation_angle(np.eye(3))\n1.0\n")
+    assert "Expected:" in failures("workbench.geometry.motions.rigid", "wrong", ">>> rotation_angle(np.eye(3))\n1.0\n")

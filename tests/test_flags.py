@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from tests import fake
 from workbench.cli import show
 from workbench.errors import InputError
-from workbench.flags import Chosen, parse
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, catalog
-from workbench.links import command_line, show_command
+from workbench.run.flags import Chosen, parse
+from workbench.run.links import command_line, show_command
 
 LESSONS = list(catalog().values())
 

@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests import fake
-from workbench import links
 from workbench.errors import InputError
+from workbench.run import links
 
 
 def read(query: str):

@@ -13,10 +13,10 @@ from workbench import open_recording
 from workbench.cli import main
 from workbench.errors import AuthorError, InputError
 from workbench.exercise.finding import exercises_of
-from workbench.links import show_command
-from workbench.loading import lesson_given, load
 from workbench.publish.sources import sources_of
-from workbench.timeline import Timeline
+from workbench.run.links import show_command
+from workbench.run.loading import lesson_given, load
+from workbench.run.timeline import Timeline
 
 ROOT = Path(__file__).resolve().parents[1]
 CIRCLE = ROOT / "tests" / "authors" / "circle"
@@ -85,7 +85,7 @@ def test_a_name_of_the_catalogue_is_refused_with_both_places(folder):
 def test_a_lesson_of_the_course_by_its_path_is_loaded_anew_with_all_its_modules():
     code = (
         "import sys; from pathlib import Path\n"
-        "from workbench.lesson import find; from workbench.loading import lesson_given\n"
+        "from workbench.lesson import find; from workbench.run.loading import lesson_given\n"
         "from workbench.exercise.finding import exercises_of\n"
         "old, new = find('ransac'), lesson_given(sys.argv[1])\n"
         "print(new.params.__module__ == old.params.__module__, new.params is not old.params, new.draw is not old.draw,"

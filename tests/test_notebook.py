@@ -18,7 +18,7 @@ from tests import fake
 from workbench.errors import InputError
 from workbench.lesson import catalog
 from workbench.notebook import HOW_TO_PLAY, STILL
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 
 @pytest.fixture(scope="module")

@@ -17,8 +17,8 @@ from tests.browser.feeding import Fed
 from tests.runs import finished
 from workbench.lesson import catalog
 from workbench.recording.sink import RerunSink
+from workbench.run.timeline import Timeline
 from workbench.scene import Camera, Classes, Field, Mesh, Picture, Points, Scene, Segments, in_space
-from workbench.timeline import Timeline
 
 LESSONS = list(catalog())
 MORE = 8  # steps

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.fake import Params
-from workbench.picking import picked, picked_params
+from workbench.run.picking import picked, picked_params
 from workbench.scene import Mesh, Picture, Points, Scalar
 
 rng = np.random.default_rng(3)

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from workbench.workers import WorkerLostError, parallel_map
+from workbench.machinery.workers import WorkerLostError, parallel_map
 
 ROOT = Path(__file__).resolve().parents[1]
 PATIENCE = 120.0
@@ -20,7 +20,7 @@ PATIENCE = 120.0
 RUNS_LONG = """
 import sys
 from tests.test_processes import begin_and_wait
-from workbench.workers import parallel_map
+from workbench.machinery.workers import parallel_map
 if __name__ == "__main__":
     for task in parallel_map(begin_and_wait, [sys.argv[1] + "/a", sys.argv[1] + "/b"], 2):
         pass

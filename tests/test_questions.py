@@ -3,8 +3,8 @@ import pytest
 from tests.fake import lesson
 from workbench.errors import InputError
 from workbench.lesson import course
-from workbench.questions import answer
-from workbench.timeline import Timelines
+from workbench.run.questions import answer
+from workbench.run.timeline import Timelines
 
 NUMBER, CHOICE = lesson.questions
 KEPT = Timelines()

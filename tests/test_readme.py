@@ -8,13 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from workbench import links, open_recording
+from workbench import open_recording
 from workbench.cli import main
 from workbench.errors import InputError
 from workbench.lesson import Lesson, course
-from workbench.loading import load
 from workbench.publish import site
-from workbench.session import Session
+from workbench.run import links
+from workbench.run.loading import load
+from workbench.run.session import Session
 from workbench.viewer.documents import lesson_page
 
 ROOT = Path(__file__).resolve().parents[1]

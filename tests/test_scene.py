@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.fake import lesson, test_nothing_is_left_out  # noqa: F401 (collected here)
+from workbench.run.timeline import Timeline
 from workbench.scene import (
     Axes,
     Camera,
@@ -28,7 +29,6 @@ from workbench.scene import (
     is_rigid,
     same,
 )
-from workbench.timeline import Timeline
 
 P = np.zeros((4, 3))
 BAD = np.array([[0, 0, np.nan]])

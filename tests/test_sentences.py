@@ -14,8 +14,8 @@ from workbench.exercise.finding import exercises_of
 from workbench.knobs import Field as KnobField
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, catalog
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Scene, Table
-from workbench.timeline import Timeline
 
 BAD = {
     "a number that is none": re.compile(r"\b(nan|inf|infinity)\b", re.IGNORECASE),

@@ -9,9 +9,9 @@ from tests.fake import Params, lesson
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import catalog
+from workbench.run.session import Look, Session
+from workbench.run.timeline import Timelines
 from workbench.scene import same
-from workbench.session import Look, Session
-from workbench.timeline import Timelines
 
 
 def settled(params=None) -> Session:

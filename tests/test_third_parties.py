@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 
 from tests import fake
-from workbench import listing
 from workbench.cli import main
 from workbench.errors import LeftOutWarning
 from workbench.exercise import finding
 from workbench.exercise.finding import exercises, exercises_of
 from workbench.lesson import catalog, course
+from workbench.run import listing
 
 ROOT = Path(__file__).resolve().parents[1]
 OURS = {name: lesson.order for name, lesson in course().items()}

@@ -10,8 +10,8 @@ from tests.fake import Params, lesson
 from workbench.errors import InputError
 from workbench.knobs import Knob
 from workbench.lesson import Lesson
+from workbench.run.timeline import Timeline, Timelines
 from workbench.scene import Caption, Points, Scalar, same
-from workbench.timeline import Timeline, Timelines
 
 
 @dataclass(frozen=True)

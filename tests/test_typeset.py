@@ -11,7 +11,7 @@ from fontTools.ttLib import TTFont
 
 from workbench.errors import InputError
 from workbench.lesson import catalog
-from workbench.typeset import LARGEST_PICTURE, inline_html, math_font_css, math_html, page_html, page_of
+from workbench.words.typeset import LARGEST_PICTURE, inline_html, math_font_css, math_html, page_html, page_of
 
 
 def test_maths_becomes_mathml_and_sections_are_named():
@@ -125,7 +125,7 @@ def test_a_picture_that_is_not_the_page_s_own_is_one_line(page, name, line):
 
 FIRST = """
 import sys, threading
-from workbench import typeset
+from workbench.words import typeset
 
 sys.setswitchinterval(1e-6)
 typeset._parser()

@@ -2,12 +2,12 @@
 
 from typing import TYPE_CHECKING, Any
 
+from workbench.machinery.version import __version__ as __version__
+
 if TYPE_CHECKING:
     from workbench.notebook import replay as replay
     from workbench.recording.read import open_recording as open_recording
     from workbench.recording.write import record as record
-
-__version__ = "0.1.0"
 
 
 def __getattr__(name: str) -> Any:

@@ -5,7 +5,7 @@ import sys
 import warnings
 from typing import Any
 
-from workbench.threads import one_each
+from workbench.machinery.threads import one_each
 
 
 def main() -> int:
@@ -18,7 +18,7 @@ def main() -> int:
 
 def _carry_out() -> int:
     if sys.argv[1:] == ["list"]:  # needs nothing of what the other commands import
-        from workbench.listing import listed
+        from workbench.run.listing import listed
 
         with contextlib.suppress(OSError):  # what cannot be written is told below
             sys.stdout.write(listed())

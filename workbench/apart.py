@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, cast
 
 from workbench.errors import InputError
-from workbench.threads import as_here
+from workbench.machinery.threads import as_here
 
 P = ParamSpec("P")
 R = TypeVar("R")

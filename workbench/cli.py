@@ -10,13 +10,13 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated, Any
 
-from workbench import __version__
 from workbench.errors import InputError, not_among, one_line
-from workbench.flags import Chosen, Option, Serving, ServingLive, parse
 from workbench.knobs import called_by_flags
 from workbench.lesson import catalog
-from workbench.links import command_line
-from workbench.loading import is_path, lesson_given
+from workbench.machinery.version import __version__
+from workbench.run.flags import Chosen, Option, Serving, ServingLive, parse
+from workbench.run.links import command_line
+from workbench.run.loading import is_path, lesson_given
 
 Command = Callable[..., int | None]
 """Does its work; returns the exit code where it is neither 0 nor, for an InputError, 2."""
@@ -48,7 +48,7 @@ def serve(serving: ServingLive) -> None:
 @command
 def list_() -> None:
     """List the lessons in course order."""
-    from workbench.listing import listed
+    from workbench.run.listing import listed
 
     sys.stdout.write(listed())
 
@@ -315,7 +315,7 @@ def publish(
     force: Annotated[bool, Option("Replace files that publish did not write, or that were changed since.")] = False,
 ) -> None:
     """Write static tutorial pages that play in any browser, without Python."""
-    from workbench.progress import bar
+    from workbench.machinery.progress import bar
     from workbench.publish.runs import swept_files
     from workbench.publish.site import publish as publish_site
     from workbench.publish.site import sizes_told
@@ -380,7 +380,7 @@ def _overview() -> str:
 
 def _try_first_step(lesson: Any, params: Any) -> None:
     """Raise InputError before a server starts where the run cannot give even its first step."""
-    from workbench.timeline import Timeline
+    from workbench.run.timeline import Timeline
 
     timeline = Timeline(lesson, params)
     with called_by_flags():

@@ -15,9 +15,9 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from workbench.authors import at
 from workbench.errors import AuthorError, InputError, LeftOutWarning, not_among
 from workbench.knobs import fields_of, validated
+from workbench.machinery.authors import at
 from workbench.scene import Scene
 
 P = TypeVar("P")

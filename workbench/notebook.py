@@ -14,13 +14,13 @@ import numpy as np
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
-from workbench.links import show_command
-from workbench.loading import load
 from workbench.numerals import brief, length
 from workbench.page.document import lesson_document
 from workbench.page.thumbnail import still_of
 from workbench.publish.runs import Run, client_script, run_script
-from workbench.timeline import Timeline
+from workbench.run.links import show_command
+from workbench.run.loading import load
+from workbench.run.timeline import Timeline
 
 LEAST_HEIGHT = 320
 STILL = 640, 400

@@ -8,13 +8,12 @@ import scipy
 
 from lessons.alignment.scans import box_sides, scans_of, second_scan
 from lessons.alignment.state import AxesState, Outcome, Params, Scans, Turns
-from workbench.algorithms.jacobi import jacobi
+from workbench.algorithms.registration.jacobi import jacobi
 from workbench.certain import sure
 from workbench.data.thinning import every
-from workbench.geometry.alignment import degrees_between, nearest_rotation
-from workbench.geometry.metrics import rms
 from workbench.geometry.motions import apply, motion
-from workbench.geometry.principal_axes import (
+from workbench.geometry.motions.alignment import degrees_between, nearest_rotation
+from workbench.geometry.motions.principal_axes import (
     canonical_signs,
     centroid_and_covariance,
     degrees_between_axes,
@@ -23,6 +22,7 @@ from workbench.geometry.principal_axes import (
     right_handed_frames,
     third_moments,
 )
+from workbench.geometry.points.metrics import rms
 
 FindAxes = Callable[[np.ndarray], np.ndarray]
 """principal_axes(p) -> 3x3, axes in columns by falling variance."""

@@ -4,7 +4,7 @@ import numpy as np
 
 from lessons.alignment.state import AxesState, PairsState
 from workbench.certain import sure
-from workbench.geometry.principal_axes import degrees_between_axes
+from workbench.geometry.motions.principal_axes import degrees_between_axes
 from workbench.numerals import angle, fixed, length
 from workbench.scene import Chart, Curve, Primitive, Table
 

@@ -6,11 +6,11 @@ from lessons.alignment.axes import signed_axes
 from lessons.alignment.captions import caption
 from lessons.alignment.charts import beside_axes, beside_pairs
 from lessons.alignment.state import AxesState, Outcome, PairsState, Scans, State
-from workbench.data.surfaces import sphere
+from workbench.data.shapes.surfaces import sphere
 from workbench.data.thinning import every
 from workbench.geometry.motions import apply
+from workbench.geometry.motions.principal_axes import largest_entry_signs
 from workbench.geometry.polylines import between
-from workbench.geometry.principal_axes import largest_entry_signs
 from workbench.numerals import angle, brief
 from workbench.scene import Classes, Label, Mesh, Points, Primitive, Role, Scene, Segments
 

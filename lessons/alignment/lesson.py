@@ -15,9 +15,9 @@ from lessons.alignment.draw import draw
 from lessons.alignment.presets import FIRST, PRESETS, QUESTIONS, VIEW
 from lessons.alignment.scans import scans_of
 from lessons.alignment.state import Outcome, PairsState, Params, State
-from workbench.algorithms.procrustes import Scale, procrustes
-from workbench.geometry import alignment
-from workbench.geometry.alignment import degrees_between
+from workbench.algorithms.registration.procrustes import Scale, procrustes
+from workbench.geometry.motions import alignment
+from workbench.geometry.motions.alignment import degrees_between
 from workbench.lesson import Lesson, Sweep
 
 

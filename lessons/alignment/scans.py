@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from lessons.alignment.state import Params, Scans
-from workbench.data.clouds import box_surface, vase
 from workbench.data.files import lost_rows, read_cloud, read_pose, stamp
 from workbench.data.framing import FAR, Frame, Up, box, extent, frame
-from workbench.data.rabbit import rabbit
+from workbench.data.shapes.clouds import box_surface, vase
+from workbench.data.shapes.rabbit import rabbit
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
 from workbench.geometry.motions import exp_so3, motion

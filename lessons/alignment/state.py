@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms import procrustes
-from workbench.algorithms.jacobi import State as Rotated
+from workbench.algorithms.registration import procrustes
+from workbench.algorithms.registration.jacobi import State as Rotated
 from workbench.data.framing import Up
 from workbench.knobs import Gizmo, Knob
 

@@ -5,7 +5,7 @@ from pathlib import PurePosixPath
 import numpy as np
 
 from lessons.calibration.state import Ending, State, Subject
-from workbench.algorithms.board_adjustment import Adjustment, Stop
+from workbench.algorithms.least_squares.board_adjustment import Adjustment, Stop
 from workbench.certain import sure
 from workbench.errors import one_line
 from workbench.numerals import brief, counted, fixed, percent, pixels, plus_minus

@@ -4,7 +4,7 @@ import numpy as np
 
 from lessons.calibration.state import Ending, State
 from lessons.calibration.views import GRID, places
-from workbench.algorithms.board_adjustment import SHARED, shared_numbers
+from workbench.algorithms.least_squares.board_adjustment import SHARED, shared_numbers
 from workbench.numerals import brief, fixed, pixels, plus_minus
 from workbench.scene import Chart, Field, Picture, Primitive, Table
 

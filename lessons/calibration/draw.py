@@ -8,7 +8,7 @@ from lessons.calibration.captions import caption, title
 from lessons.calibration.charts import beside
 from lessons.calibration.state import State, Subject
 from lessons.calibration.views import photograph
-from workbench.data.boards import board_mesh, board_points
+from workbench.data.views.boards import board_mesh, board_points
 from workbench.geometry.cameras import look_at
 from workbench.geometry.motions import apply, inverse, motion
 from workbench.geometry.polylines import at_height, between, rectangle, segments

@@ -15,12 +15,12 @@ from lessons.calibration.draw import VIEW, draw
 from lessons.calibration.presets import PRESETS, QUESTIONS
 from lessons.calibration.state import COEFFICIENTS, Ending, Params, State
 from lessons.calibration.views import deviations, map_error, over_tilt, subject_of
-from workbench.algorithms import calibration as calibration_steps
-from workbench.algorithms.board_adjustment import adjust
-from workbench.algorithms.calibration import Pose, Rows, calibrate
+from workbench.algorithms.cameras import calibration as calibration_steps
+from workbench.algorithms.cameras.calibration import Pose, Rows, calibrate
+from workbench.algorithms.least_squares.board_adjustment import adjust
 from workbench.certain import sure
 from workbench.errors import InputError
-from workbench.geometry import calibration
+from workbench.geometry.cameras import calibration
 from workbench.lesson import Lesson, Sweep
 
 Rms = Callable[[np.ndarray], float]

@@ -6,13 +6,13 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms import calibration
-from workbench.algorithms.board_adjustment import Adjustment
-from workbench.data.boards import Fault
-from workbench.data.corners import MOST_VIEWS, Which
+from workbench.algorithms.cameras import calibration
+from workbench.algorithms.least_squares.board_adjustment import Adjustment
 from workbench.data.framing import Unit
 from workbench.data.pictures import Pictures
-from workbench.geometry.distortion import NONE, Distortion
+from workbench.data.views.boards import Fault
+from workbench.data.views.corners import MOST_VIEWS, Which
+from workbench.geometry.cameras.distortion import NONE, Distortion
 from workbench.knobs import Knob, Pick
 
 Lens = Literal["none", "k1", "k1 k2", "k1 k2 p1 p2", "k1 k2 p1 p2 k3"]

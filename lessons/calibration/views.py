@@ -6,14 +6,14 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.calibration.state import COEFFICIENTS, Params, Subject
-from workbench.algorithms.board_adjustment import linearised, shared_information, shared_numbers
-from workbench.data import boards
-from workbench.data.corners import find_corners, pictures_below, read_corners
+from workbench.algorithms.least_squares.board_adjustment import linearised, shared_information, shared_numbers
 from workbench.data.framing import METRES
+from workbench.data.views import boards
+from workbench.data.views.corners import find_corners, pictures_below, read_corners
 from workbench.errors import InputError
 from workbench.geometry.cameras import normalize, resize_intrinsics
-from workbench.geometry.distortion import Distortion, distort
-from workbench.geometry.raster import MeshItem, render
+from workbench.geometry.cameras.distortion import Distortion, distort
+from workbench.geometry.cameras.raster import MeshItem, render
 from workbench.knobs import only
 
 TILTS = np.array([1.0, 2, 5, 10, 15, 20, 30, 40, 50, 60])  # degrees

@@ -3,7 +3,7 @@
 import numpy as np
 
 from lessons.chamfer_emd.state import Numbers, Side, State
-from workbench.algorithms.flow import Stop
+from workbench.algorithms.transport.flow import Stop
 from workbench.numerals import brief, percent
 from workbench.scene import Caption
 

@@ -2,10 +2,7 @@
 
 import numpy as np
 
-from lessons.chamfer_emd.state import Clouds, Params, Start
-from workbench.data.files import read_cloud
-from workbench.data.framing import FAR, Frame, frame
-from workbench.data.point_sets import (
+from lessons.chamfer_emd.point_sets import (
     blob,
     bumped,
     bunched,
@@ -17,6 +14,9 @@ from workbench.data.point_sets import (
     spread,
     with_outlier,
 )
+from lessons.chamfer_emd.state import Clouds, Params, Start
+from workbench.data.files import read_cloud
+from workbench.data.framing import FAR, Frame, frame
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
 from workbench.knobs import called

@@ -9,11 +9,11 @@ import numpy as np
 
 from lessons.chamfer_emd.clouds import yardsticks
 from lessons.chamfer_emd.state import Clouds, Lowers, Numbers, Params, Side
-from workbench.algorithms import transport
-from workbench.algorithms.flow import Distance, Flow, Gradient, numeric_gradient
 from workbench.algorithms.transport import Matching, best_matching, earth_movers_gradient
-from workbench.geometry import shape_distances
-from workbench.geometry.shape_distances import (
+from workbench.algorithms.transport import exact as transport
+from workbench.algorithms.transport.flow import Distance, Flow, Gradient, numeric_gradient
+from workbench.geometry.points import shape_distances
+from workbench.geometry.points.shape_distances import (
     DEFINITIONS,
     Nearest,
     chamfer_gradient,

@@ -7,8 +7,8 @@ from lessons.chamfer_emd.captions import caption, left_label, right_label, signi
 from lessons.chamfer_emd.pairing import unrolled
 from lessons.chamfer_emd.state import Side, State
 from workbench.geometry.motions import motion
+from workbench.geometry.points.shape_distances import DEFINITIONS
 from workbench.geometry.polylines import between
-from workbench.geometry.shape_distances import DEFINITIONS
 from workbench.lesson import View
 from workbench.numerals import brief, percent
 from workbench.scene import Chart, Classes, Curve, Label, Points, Primitive, Role, Scene, Segments, Table

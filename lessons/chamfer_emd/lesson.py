@@ -15,9 +15,9 @@ from lessons.chamfer_emd.distances import Measures, measured, numbers_of_yardsti
 from lessons.chamfer_emd.draw import VIEW, draw
 from lessons.chamfer_emd.presets import PRESETS, QUESTIONS
 from lessons.chamfer_emd.state import Params, State
-from workbench.algorithms import transport
-from workbench.algorithms.flow import Distance, Flow, flow
-from workbench.geometry import shape_distances
+from workbench.algorithms.transport import exact as transport
+from workbench.algorithms.transport.flow import Distance, Flow, flow
+from workbench.geometry.points import shape_distances
 from workbench.lesson import Lesson, Sweep
 
 

@@ -7,10 +7,10 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.flow import Flow
+from lessons.chamfer_emd.point_sets import Shape
 from workbench.algorithms.transport import Matching, blurred_earth_movers
-from workbench.data.point_sets import Shape
-from workbench.geometry.shape_distances import Definition, Nearest
+from workbench.algorithms.transport.flow import Flow
+from workbench.geometry.points.shape_distances import Definition, Nearest
 from workbench.knobs import Knob
 
 Start = Literal["blob", "larger", "bunched", "bump", "part missing", "one outlier", "shuffled rows", "doubled points"]

@@ -2,14 +2,14 @@
 
 import numpy as np
 
+from lessons.coordinates.pan_tilt import Followed
+from lessons.coordinates.parallels import Met, Scaled, Seen
+from lessons.coordinates.placing import Cell, Placed, Ranged, Readings, Scattered, Walked
 from lessons.coordinates.state import Params, State
-from workbench.algorithms.pan_tilt import Followed
-from workbench.algorithms.parallels import Met, Scaled, Seen
-from workbench.algorithms.placing import Cell, Placed, Ranged, Readings, Scattered, Walked
-from workbench.algorithms.voyages import Raised, Travelled
+from lessons.coordinates.voyages import Raised, Travelled
 from workbench.data.places import Places
-from workbench.geometry.curvilinear import Convention, Coordinates
-from workbench.geometry.globe import great_circle_distance
+from workbench.geometry.shapes.curvilinear import Convention, Coordinates
+from workbench.geometry.shapes.globe import great_circle_distance
 from workbench.numerals import angle, brief, coordinates, counted, fixed, length, percent
 from workbench.scene import Caption
 

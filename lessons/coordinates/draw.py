@@ -4,18 +4,18 @@ import numpy as np
 
 from lessons.coordinates.captions import CAP, CAPS_AREA, caption, in_caps, quantity
 from lessons.coordinates.flat import met, ranged, seen
+from lessons.coordinates.pan_tilt import Followed
+from lessons.coordinates.parallels import Met, Scaled, Seen
+from lessons.coordinates.placing import Cell, Placed, Ranged, Readings, Scattered, Walked
 from lessons.coordinates.state import State
-from workbench.algorithms.pan_tilt import Followed
-from workbench.algorithms.parallels import Met, Scaled, Seen
-from workbench.algorithms.placing import Cell, Placed, Ranged, Readings, Scattered, Walked
-from workbench.algorithms.voyages import Raised, Travelled
+from lessons.coordinates.voyages import Raised, Travelled
 from workbench.data.places import Places
-from workbench.data.surfaces import sphere
+from workbench.data.shapes.surfaces import sphere
 from workbench.geometry.cameras import intrinsics
-from workbench.geometry.curvilinear import Coordinates, cartesian_from_spherical, cell_edges
-from workbench.geometry.globe import Ellipsoid, graticule, parallel, units_of_places
 from workbench.geometry.motions import motion
 from workbench.geometry.polylines import at_height, between, circle, fan, segments, sphere_rings
+from workbench.geometry.shapes.curvilinear import Coordinates, cartesian_from_spherical, cell_edges
+from workbench.geometry.shapes.globe import Ellipsoid, graticule, parallel, units_of_places
 from workbench.numerals import angle, fixed
 from workbench.scene import Camera, Chart, Classes, Label, Mesh, Points, Primitive, Role, Scene, Segments, Table
 

@@ -3,15 +3,15 @@
 import numpy as np
 
 from lessons.coordinates.captions import lies_on_both
+from lessons.coordinates.parallels import Met, Seen
+from lessons.coordinates.placing import Ranged
 from lessons.coordinates.state import State, Thing
-from workbench.algorithms.parallels import Met, Seen
-from workbench.algorithms.placing import Ranged
 from workbench.certain import as_a
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.clipping import clip_lines, segments_inside
-from workbench.geometry.homography import transform_pixels
 from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import at_height, between, rectangle, segments
+from workbench.geometry.two_views.homography import transform_pixels
 from workbench.numerals import length
 from workbench.scene import Camera, Chart, Mesh, Points, Primitive, Role, Segments, Table
 

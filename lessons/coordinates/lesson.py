@@ -14,16 +14,16 @@ from lessons.coordinates.draw import draw
 from lessons.coordinates.exercises.great_circle_distance import great_circle_distance
 from lessons.coordinates.exercises.meet import meet
 from lessons.coordinates.exercises.spherical_from_cartesian import spherical_from_cartesian
+from lessons.coordinates.pan_tilt import follow
+from lessons.coordinates.parallels import Meet, step_back, turn_parallel
+from lessons.coordinates.placing import Spherical, measure, scatter
 from lessons.coordinates.point import point_stage
 from lessons.coordinates.presets import PRESETS, QUESTIONS, VIEW
 from lessons.coordinates.state import SECONDS, TILTS, Now, Params, State
 from lessons.coordinates.subjects import places_of, thing_of
-from workbench.algorithms.pan_tilt import follow
-from workbench.algorithms.parallels import Meet, step_back, turn_parallel
-from workbench.algorithms.placing import Spherical, measure, scatter
-from workbench.algorithms.voyages import Distance, to_the_pole, travel
+from lessons.coordinates.voyages import Distance, to_the_pole, travel
 from workbench.data.thinning import growing
-from workbench.geometry.globe import PLANETS
+from workbench.geometry.shapes.globe import PLANETS
 from workbench.lesson import Lesson, Sweep
 
 HEIGHT, SPEED = 10.0, 10.0  # of the passer-by: metres, metres per second

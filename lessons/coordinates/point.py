@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from lessons.coordinates.parallels import scale_last
+from lessons.coordinates.placing import Spherical, cell_at, place, read_by_all, walk
 from lessons.coordinates.state import WALKED, Params, State
-from workbench.algorithms.parallels import scale_last
-from workbench.algorithms.placing import Spherical, cell_at, place, read_by_all, walk
 from workbench.errors import InputError
-from workbench.geometry.curvilinear import SYSTEMS
+from workbench.geometry.shapes.curvilinear import SYSTEMS
 
 STEPS = 3  # for each coordinate
 SIDE, TURN = 0.2, np.radians(20.0)  # of the cell: metres and radians

@@ -6,13 +6,13 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.pan_tilt import Followed
-from workbench.algorithms.parallels import Met, Scaled, Seen
-from workbench.algorithms.placing import Cell, Even, Placed, Ranged, Readings, Scattered, Walked
-from workbench.algorithms.voyages import Raised, Travelled
+from lessons.coordinates.pan_tilt import Followed
+from lessons.coordinates.parallels import Met, Scaled, Seen
+from lessons.coordinates.placing import Cell, Even, Placed, Ranged, Readings, Scattered, Walked
+from lessons.coordinates.voyages import Raised, Travelled
 from workbench.data.framing import Up
 from workbench.data.places import Places
-from workbench.geometry.curvilinear import Convention, Coordinates
+from workbench.geometry.shapes.curvilinear import Convention, Coordinates
 from workbench.knobs import Gizmo, Knob
 
 Stage = Literal["point", "sphere", "radar", "globe", "latitude", "mount", "projective", "project"]

@@ -9,10 +9,10 @@ from lessons.coordinates.state import Params, Thing
 from workbench.data.files import read_cloud, stamp
 from workbench.data.framing import Up, frame
 from workbench.data.places import Places, between_cities, read_places
-from workbench.data.solids import house
+from workbench.data.shapes.solids import house
 from workbench.data.thinning import evenly
 from workbench.errors import InputError
-from workbench.geometry.globe import great_circle_distance, mean_place
+from workbench.geometry.shapes.globe import great_circle_distance, mean_place
 
 MOST_POINTS = 3000
 SHORTEST = 1e-9  # radians, and as much short of half round

@@ -5,7 +5,7 @@ import numpy as np
 from lessons.curvature.state import State
 from workbench.certain import sure
 from workbench.data.thinning import evenly
-from workbench.geometry.normals import surface_variation
+from workbench.geometry.points.normals import surface_variation
 from workbench.numerals import brief
 from workbench.scene import Chart, Primitive, Role, Scalar, Table
 

@@ -16,10 +16,9 @@ from lessons.curvature.mesh import subject_of
 from lessons.curvature.presets import GAUSSIAN, PRESETS, QUESTIONS, UNFOLDING, VIEW
 from lessons.curvature.state import Params, State, Subject
 from lessons.curvature.study import error_of, study_of
-from workbench.algorithms.curvature import Defects, Gaussian, MeanNormals, Measured, measure_curvature
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import mixed_areas
-from workbench.geometry.meshes import on_boundary
+from workbench.algorithms.surfaces.curvature import Defects, Gaussian, MeanNormals, Measured, measure_curvature
+from workbench.geometry.meshes import curvature, on_boundary
+from workbench.geometry.meshes.laplacian import mixed_areas
 from workbench.lesson import Lesson, Sweep
 
 

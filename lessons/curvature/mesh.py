@@ -10,7 +10,7 @@ from lessons.curvature.state import MOST_OWN, Params, Subject
 from workbench.data.files import stamp
 from workbench.data.framing import Upward, box, broad_side_to, extent, upward
 from workbench.data.own_meshes import read_surface
-from workbench.data.surfaces import SURFACES, Surface, inside_out, scaled, with_noise
+from workbench.data.shapes.surfaces import SURFACES, Surface, inside_out, scaled, with_noise
 from workbench.geometry.meshes import edges, on_boundary, vertex_normals
 from workbench.knobs import only
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from lessons.curvature.state import Params, State, at_stage
 from workbench.certain import sure
-from workbench.geometry.curvature import gaussian_curvature
+from workbench.geometry.meshes.curvature import gaussian_curvature
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import percent
 

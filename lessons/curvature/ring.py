@@ -3,9 +3,9 @@
 import numpy as np
 
 from lessons.curvature.state import State
-from workbench.algorithms.curvature import Measured
+from workbench.algorithms.surfaces.curvature import Measured
 from workbench.certain import sure
-from workbench.geometry.laplacian import mixed_cell, vertex_pushes
+from workbench.geometry.meshes.laplacian import mixed_cell, vertex_pushes
 from workbench.geometry.polylines import between, fan, segments
 from workbench.numerals import brief
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments

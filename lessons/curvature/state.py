@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.curvature import Measured
+from workbench.algorithms.surfaces.curvature import Measured
 from workbench.data.framing import Upward
-from workbench.data.surfaces import MOST_JITTER, Surface
+from workbench.data.shapes.surfaces import MOST_JITTER, Surface
 from workbench.geometry.meshes import vertices_within
 from workbench.knobs import Knob, Pick
 

@@ -8,11 +8,11 @@ import numpy as np
 
 from lessons.curvature.mesh import shape_of, surface_of
 from lessons.curvature.state import Params, Study
-from workbench.algorithms.curvature import Gaussian, MeanNormals
-from workbench.data.surfaces import Surface
-from workbench.geometry.curvature import mean_from_normals
+from workbench.algorithms.surfaces.curvature import Gaussian, MeanNormals
+from workbench.data.shapes.surfaces import Surface
 from workbench.geometry.meshes import on_boundary, vertex_normals
-from workbench.geometry.quadric_fit import fit_quadrics
+from workbench.geometry.meshes.curvature import mean_from_normals
+from workbench.geometry.meshes.quadric_fit import fit_quadrics
 
 Letter = Literal["gaussian", "mean"]
 COUNTS = (400, 1000, 2500, 6400)

@@ -7,7 +7,7 @@ import numpy as np
 
 from lessons.disparity.state import State
 from lessons.disparity.truth import depth_errors, flat_parts, known_depths
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 from workbench.certain import sure
 from workbench.numerals import brief, fixed, length, percent
 from workbench.scene import Caption

@@ -6,9 +6,9 @@ import numpy as np
 
 from lessons.disparity.captions import distance
 from lessons.disparity.state import State
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 from workbench.data.windows import side_by_side
-from workbench.geometry.stereo import depth_interval
+from workbench.geometry.cameras.stereo import depth_interval
 from workbench.numerals import brief, fixed
 from workbench.scene import PALETTE, Chart, Field, Picture, Primitive, Table
 

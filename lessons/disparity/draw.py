@@ -9,12 +9,12 @@ from lessons.disparity.captions import caption
 from lessons.disparity.charts import beside
 from lessons.disparity.stage import T_WORLD_LEFT, pictures
 from lessons.disparity.state import Setup, State
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 from workbench.data.framing import round_below
 from workbench.geometry.cameras import back_project
+from workbench.geometry.cameras.stereo import depth_cloud, depth_from_disparity, depth_interval, points_on_ray
 from workbench.geometry.motions import R_UPRIGHT, apply, motion
 from workbench.geometry.polylines import between, segments
-from workbench.geometry.stereo import depth_cloud, depth_from_disparity, depth_interval, points_on_ray
 from workbench.numerals import brief, length
 from workbench.scene import Camera, Color, Field, Label, Points, Primitive, Scene, Segments
 

@@ -18,17 +18,17 @@ from lessons.disparity.presets import PRESETS, QUESTIONS
 from lessons.disparity.stage import VIEW
 from lessons.disparity.state import Figures, Params, Setup, State
 from lessons.disparity.truth import judged
-from workbench.algorithms.cost_volume import (
+from workbench.algorithms.stereo.cost_volume import (
     CostVolume,
     census_cost_volume,
     ncc_cost_volume,
     sad_cost_volume,
     ssd_cost_volume,
 )
-from workbench.algorithms.disparity import Choose, DepthOf, Matching, Stage, match, reconstruct, usual_penalties
-from workbench.algorithms.disparity_map import winner_takes_all
-from workbench.algorithms.semiglobal import energy
-from workbench.geometry.stereo import depth_from_disparity
+from workbench.algorithms.stereo.disparity import Choose, DepthOf, Matching, Stage, match, reconstruct, usual_penalties
+from workbench.algorithms.stereo.disparity_map import winner_takes_all
+from workbench.algorithms.stereo.semiglobal import energy
+from workbench.geometry.cameras.stereo import depth_from_disparity
 from workbench.lesson import Lesson, Sweep
 
 OTHER_COSTS: dict[str, CostVolume] = {

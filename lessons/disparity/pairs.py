@@ -8,9 +8,9 @@ import numpy as np
 
 from lessons.disparity.state import Params, Setup
 from workbench.data.files import stamp
-from workbench.data.stereo import StereoPair, grey, motorcycle_pair, read_pair, shrunk, synthetic_pair
+from workbench.data.views.stereo import StereoPair, grey, motorcycle_pair, read_pair, shrunk, synthetic_pair
 from workbench.errors import InputError
-from workbench.geometry.stereo import StereoCamera
+from workbench.geometry.cameras.stereo import StereoCamera
 from workbench.knobs import called
 
 SIZE = (160, 120)

@@ -7,7 +7,7 @@ import numpy as np
 
 from lessons.disparity.pairs import ROWS_OFF
 from lessons.disparity.state import Setup, State
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import between
 from workbench.lesson import View

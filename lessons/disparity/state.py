@@ -7,10 +7,10 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.cost_volume import census_cost_volume
-from workbench.algorithms.disparity import Stage
-from workbench.algorithms.disparity_map import agree, seen_from_right, winner_takes_all
-from workbench.data.stereo import StereoPair
+from workbench.algorithms.stereo.cost_volume import census_cost_volume
+from workbench.algorithms.stereo.disparity import Stage
+from workbench.algorithms.stereo.disparity_map import agree, seen_from_right, winner_takes_all
+from workbench.data.views.stereo import StereoPair
 from workbench.errors import InputError
 from workbench.knobs import Knob, Pick
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from lessons.distances.plane import WITHIN
 from lessons.distances.state import Ball, Found, Front, Landmarks, Params, Scatter, State, Trials
-from workbench.algorithms.heat_method import HeatState
+from workbench.algorithms.surfaces.heat_method import HeatState
 from workbench.certain import sure
 from workbench.numerals import brief, counted, fixed, length, percent
 from workbench.scene import Caption

@@ -7,7 +7,7 @@ from lessons.distances.charts import beside
 from lessons.distances.plane import HALF
 from lessons.distances.state import Ball, Found, Front, Landmarks, Scatter, State, Subject, Trials
 from lessons.distances.subjects import true_way
-from workbench.algorithms.heat_method import HeatState
+from workbench.algorithms.surfaces.heat_method import HeatState
 from workbench.certain import sure
 from workbench.data.thinning import every
 from workbench.geometry.polylines import at_height, between, rectangle, segments

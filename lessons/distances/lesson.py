@@ -13,9 +13,10 @@ from lessons.distances.presets import PRESETS, QUESTIONS, VIEW
 from lessons.distances.slots import Functions, Mahalanobis, Shortest
 from lessons.distances.stages import STAGES
 from lessons.distances.state import Params, State
-from workbench.algorithms import fast_marching
-from workbench.algorithms.fast_marching import Update
-from workbench.geometry import geodesics, metrics
+from workbench.algorithms.surfaces import fast_marching
+from workbench.algorithms.surfaces.fast_marching import Update
+from workbench.geometry.meshes import geodesics
+from workbench.geometry.points import metrics
 from workbench.lesson import Lesson, Sweep
 
 

@@ -8,8 +8,8 @@ import numpy as np
 from lessons.distances.slots import Functions, Mahalanobis
 from lessons.distances.state import Ball, Landmarks, Now, Params, Scatter, Trials
 from workbench.errors import InputError
-from workbench.geometry import metrics
-from workbench.geometry.metrics import Distance, Metric
+from workbench.geometry.points import metrics
+from workbench.geometry.points.metrics import Distance, Metric
 from workbench.geometry.polylines import circle
 from workbench.tracing import traced
 

@@ -10,14 +10,13 @@ from lessons.distances.plane import axioms, balls, stereo, whiten
 from lessons.distances.slots import Functions
 from lessons.distances.state import Found, Front, Now, Params, Subject
 from lessons.distances.subjects import reference, subject_of, ways_in_square
-from workbench.algorithms.fast_marching import Update, eikonal_update, march
-from workbench.algorithms.heat_method import HeatMethod, directions_of, heat_method
-from workbench.data import surfaces
+from workbench.algorithms.surfaces.fast_marching import Update, eikonal_update, march
+from workbench.algorithms.surfaces.heat_method import HeatMethod, directions_of, heat_method
+from workbench.data.shapes import surfaces
 from workbench.errors import InputError
-from workbench.geometry import geodesics
-from workbench.geometry.intrinsic import intrinsic_delaunay
-from workbench.geometry.laplacian import negative_weights
-from workbench.geometry.meshes import Corners, corners
+from workbench.geometry.meshes import Corners, corners, geodesics
+from workbench.geometry.meshes.intrinsic import intrinsic_delaunay
+from workbench.geometry.meshes.laplacian import negative_weights
 from workbench.tracing import traced
 
 BANDS = 10

@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.heat_method import HeatState
+from workbench.algorithms.surfaces.heat_method import HeatState
 from workbench.data.framing import Upward
-from workbench.data.surfaces import MOST_JITTER
-from workbench.geometry.metrics import Metric
+from workbench.data.shapes.surfaces import MOST_JITTER
+from workbench.geometry.points.metrics import Metric
 from workbench.knobs import Knob, Pick
 
 Stage = Literal["balls", "axioms", "whiten", "stereo", "grid", "surface", "roll"]

@@ -7,15 +7,17 @@ from pathlib import Path
 import numpy as np
 
 from lessons.distances.state import MOST_OWN, Params, Subject
-from workbench.data import surfaces
+from lessons.distances.swiss_roll import rolled, swiss_roll
 from workbench.data.files import read_cloud, stamp
 from workbench.data.framing import Upward, own_points
 from workbench.data.own_meshes import read_surface
-from workbench.data.rabbit import rabbit_mesh
-from workbench.data.swiss_roll import rolled, swiss_roll
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
-from workbench.geometry import geodesics, graphs, meshes
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.meshes import geodesics
+from workbench.geometry.meshes import triangles as meshes
 from workbench.geometry.polylines import at_height
 from workbench.knobs import only
 

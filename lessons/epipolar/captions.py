@@ -5,10 +5,10 @@ import numpy as np
 from lessons.epipolar.state import State
 from workbench.algorithms.two_views import Followed, Related
 from workbench.certain import sure
-from workbench.geometry.epipolar import epipoles, fundamental_from_cameras
-from workbench.geometry.metrics import rms
 from workbench.geometry.motions import rotation_angle
-from workbench.geometry.rectification import growth, torn
+from workbench.geometry.points.metrics import rms
+from workbench.geometry.two_views.epipolar import epipoles, fundamental_from_cameras
+from workbench.geometry.two_views.rectification import growth, torn
 from workbench.numerals import angle, brief, coordinates, counted, fixed, length, percent, pixels
 from workbench.scene import Caption
 

@@ -10,18 +10,18 @@ from lessons.epipolar.charts import beside
 from lessons.epipolar.state import State
 from workbench.algorithms.two_views import Followed
 from workbench.certain import sure
-from workbench.data.skyline import skyline
-from workbench.data.street import street
 from workbench.data.thinning import evenly, every
-from workbench.data.two_views import EYE, MODEL, What
+from workbench.data.views.skyline import skyline
+from workbench.data.views.street import street
+from workbench.data.views.two_views import EYE, MODEL, What
 from workbench.geometry.cameras import camera_center
 from workbench.geometry.clipping import clip_lines
-from workbench.geometry.epipolar import epipolar_lines, epipoles, fundamental_from_cameras
-from workbench.geometry.homography import transform_pixels
 from workbench.geometry.motions import inverse, motion
 from workbench.geometry.polylines import between, fan, sphere_rings
-from workbench.geometry.rectification import fitted, warp
-from workbench.geometry.triangulation import camera_matrix, triangulation_covariances
+from workbench.geometry.two_views.epipolar import epipolar_lines, epipoles, fundamental_from_cameras
+from workbench.geometry.two_views.homography import transform_pixels
+from workbench.geometry.two_views.rectification import fitted, warp
+from workbench.geometry.two_views.triangulation import camera_matrix, triangulation_covariances
 from workbench.lesson import View
 from workbench.numerals import length
 from workbench.scene import Camera, Label, Mesh, Picture, Points, Primitive, Role, Scene, Segments

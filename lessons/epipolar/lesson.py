@@ -17,10 +17,10 @@ from lessons.epipolar.exercises.triangulate import triangulate
 from lessons.epipolar.presets import PRESETS, QUESTIONS
 from lessons.epipolar.state import MOST_MATCHES, Params, State
 from workbench.algorithms.two_views import EightPoint, Poses, Triangulate, follow_ray, relate, solve_linear
-from workbench.data.two_views import TwoViews, made_views, own_views, shown_length
+from workbench.data.views.two_views import TwoViews, made_views, own_views, shown_length
 from workbench.errors import InputError
-from workbench.geometry.homography import normalising_similarity
 from workbench.geometry.motions import motion
+from workbench.geometry.two_views.homography import normalising_similarity
 from workbench.knobs import called
 from workbench.lesson import Lesson, Sweep
 

@@ -9,14 +9,14 @@ import numpy as np
 
 from workbench.algorithms.two_views import Followed, Related, Route
 from workbench.certain import sure
-from workbench.data.two_views import LARGEST, TwoViews, What
-from workbench.geometry.alignment import degrees_between
+from workbench.data.views.two_views import LARGEST, TwoViews, What
 from workbench.geometry.cameras import project
-from workbench.geometry.epipolar import sampson_distances
-from workbench.geometry.homography import transform_pixels
-from workbench.geometry.metrics import rms
 from workbench.geometry.motions import angle_between, motion
-from workbench.geometry.triangulation import camera_matrix, triangulation_covariances
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.points.metrics import rms
+from workbench.geometry.two_views.epipolar import sampson_distances
+from workbench.geometry.two_views.homography import transform_pixels
+from workbench.geometry.two_views.triangulation import camera_matrix, triangulation_covariances
 from workbench.knobs import Knob, Pick
 
 MOST_MATCHES = 1500  # of a person's file

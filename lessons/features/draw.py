@@ -6,9 +6,9 @@ from lessons.features.captions import caption
 from lessons.features.flat import lines_between, outlined, pictured
 from lessons.features.state import Outlined, Pictured, Scanned, State
 from workbench.data.thinning import every
-from workbench.geometry.alignment import rmse
-from workbench.geometry.fpfh import BINS
+from workbench.geometry.features.fpfh import BINS
 from workbench.geometry.motions import apply, motion
+from workbench.geometry.motions.alignment import rmse
 from workbench.geometry.polylines import between
 from workbench.scene import Chart, Color, Field, Label, Points, Primitive, Scene, Segments
 

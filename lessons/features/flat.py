@@ -3,10 +3,10 @@
 import numpy as np
 
 from lessons.features.state import Outlined, Pictured, State
+from workbench.geometry.features.shape_context import EDGES, SECTORS, tangent_angles
+from workbench.geometry.features.sift import Sift
 from workbench.geometry.motions import R_ROWS_DOWN, motion
 from workbench.geometry.polylines import at_height, between, circle, segments
-from workbench.geometry.shape_context import EDGES, SECTORS, tangent_angles
-from workbench.geometry.sift import Sift
 from workbench.scene import Chart, Field, Picture, Points, Primitive, Role, Segments
 
 WIDTH, NEARER, SIZE = 1.2, 0.01, 0.006  # metres

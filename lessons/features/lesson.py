@@ -14,8 +14,8 @@ from lessons.features.pictures import Response, picture_steps
 from lessons.features.presets import PRESETS, QUESTIONS, VIEW
 from lessons.features.scans import Matcher, scan_steps
 from lessons.features.state import Params, State
-from workbench.geometry import fpfh, keypoints, matching
-from workbench.geometry.fpfh import PairAngles
+from workbench.geometry.features import fpfh, keypoints, matching
+from workbench.geometry.features.fpfh import PairAngles
 from workbench.lesson import Lesson, Sweep
 
 

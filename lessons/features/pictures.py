@@ -9,12 +9,12 @@ import numpy as np
 
 from lessons.features.scans import Matcher, chosen
 from lessons.features.state import PIXELS, Params, Pictured
+from lessons.features.turned_pictures import motorcycle_levels, places_in_turned, read_levels, turned
 from workbench.data.files import stamp
-from workbench.data.turned_pictures import motorcycle_levels, places_in_turned, read_levels, turned
 from workbench.errors import InputError
-from workbench.geometry.keypoints import gradient, patches, strongest
-from workbench.geometry.matching import nearest_both_ways
-from workbench.geometry.sift import Sift, sift, turned_patch
+from workbench.geometry.features.keypoints import gradient, patches, strongest
+from workbench.geometry.features.matching import nearest_both_ways
+from workbench.geometry.features.sift import Sift, sift, turned_patch
 from workbench.knobs import called
 
 Response = Callable[[np.ndarray], np.ndarray]

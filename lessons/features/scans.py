@@ -7,20 +7,20 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.features.state import INLIER, RIGHT, Params, Scanned
-from workbench.algorithms.icp import Gate, icp
-from workbench.algorithms.models import RIGID
-from workbench.algorithms.ransac import Judge, ransac
-from workbench.algorithms.samplers import uniform_samples
+from workbench.algorithms.registration.icp import Gate, icp
+from workbench.algorithms.robust.models import RIGID
+from workbench.algorithms.robust.ransac import Judge, ransac
+from workbench.algorithms.robust.samplers import uniform_samples
 from workbench.certain import sure
-from workbench.data.clouds import pair
 from workbench.data.files import stamp
 from workbench.data.scan_pairs import Scans, read_scans
+from workbench.data.shapes.clouds import pair
 from workbench.errors import InputError
-from workbench.geometry.fpfh import PairAngles, fpfh
-from workbench.geometry.keypoints import iss_keypoints
-from workbench.geometry.matching import Nearest, filtered, nearest_both_ways
+from workbench.geometry.features.fpfh import PairAngles, fpfh
+from workbench.geometry.features.keypoints import iss_keypoints
+from workbench.geometry.features.matching import Nearest, filtered, nearest_both_ways
 from workbench.geometry.motions import apply, exp_so3, motion
-from workbench.geometry.normals import point_normals
+from workbench.geometry.points.normals import point_normals
 from workbench.knobs import called, only
 
 Matcher = Callable[[np.ndarray, np.ndarray, float], np.ndarray]

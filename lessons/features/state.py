@@ -8,9 +8,9 @@ import numpy as np
 
 from workbench.data.framing import Up
 from workbench.data.scan_pairs import Scans
-from workbench.geometry.alignment import MotionError
-from workbench.geometry.matching import Filter
-from workbench.geometry.sift import Sift
+from workbench.geometry.features.matching import Filter
+from workbench.geometry.features.sift import Sift
+from workbench.geometry.motions.alignment import MotionError
 from workbench.knobs import Knob, Pick
 
 Part = Literal["scans", "pictures", "outlines"]

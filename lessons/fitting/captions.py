@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from lessons.fitting.fit_studies import AWAY, Basin, Lines, Rivals, Spread
 from lessons.fitting.state import State
-from workbench.algorithms.fit_studies import AWAY, Basin, Lines, Rivals, Spread
 from workbench.algorithms.least_squares import Descent, Stop, Walked
 from workbench.algorithms.robust import Settled, Trusted
-from workbench.geometry.lines_planes import line_angle
+from workbench.geometry.shapes.lines_planes import line_angle
 from workbench.numerals import angle, area, brief, counted, fixed, length, percent, power_of_ten
 from workbench.scene import Caption
 

@@ -5,10 +5,10 @@ from functools import lru_cache
 import numpy as np
 
 from workbench.algorithms.least_squares import Walked
-from workbench.geometry.circles_spheres import costs_of_centers
 from workbench.geometry.clipping import cut_to_rectangle
 from workbench.geometry.level_sets import level_lines
 from workbench.geometry.polylines import at_height, between, segments
+from workbench.geometry.shapes.circles_spheres import costs_of_centers
 from workbench.scene import Points, Primitive, Segments
 
 REACH = 4.5  # metres from the origin that circles and centres are drawn

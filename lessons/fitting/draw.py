@@ -7,19 +7,19 @@ import numpy as np
 
 from lessons.fitting.captions import caption
 from lessons.fitting.contours import REACH, on_contours
+from lessons.fitting.fit_studies import AWAY, FATES, Basin, Lines, Rivals, Spread
+from lessons.fitting.round_shapes import CIRCLE, CYLINDER, RoundShape, feet, outline
 from lessons.fitting.state import State, Subject
-from workbench.algorithms.fit_studies import AWAY, FATES, Basin, Lines, Rivals, Spread
 from workbench.algorithms.least_squares import Descent, Walked
 from workbench.algorithms.robust import LOSSES, Trusted
-from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, RoundShape, feet, outline
 from workbench.certain import sure
-from workbench.data.rims import Rim
+from workbench.data.files.rims import Rim
 from workbench.data.thinning import every
-from workbench.geometry.algebraic_fits import ALGEBRAIC
 from workbench.geometry.clipping import plane_in_box
-from workbench.geometry.lines_planes import line_angle
 from workbench.geometry.motions import R_ROWS_DOWN, across, motion
 from workbench.geometry.polylines import at_height, between, circle, fan, segments
+from workbench.geometry.shapes.algebraic_fits import ALGEBRAIC
+from workbench.geometry.shapes.lines_planes import line_angle
 from workbench.numerals import angle, brief, fixed
 from workbench.scene import Chart, Classes, Field, Mesh, Picture, Points, Primitive, Role, Scene, Segments, Table
 

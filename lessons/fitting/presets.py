@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from lessons.fitting.captions import square
+from lessons.fitting.fit_studies import AWAY
 from lessons.fitting.state import Params, State
-from workbench.algorithms.fit_studies import AWAY
 from workbench.algorithms.least_squares import Walked
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import angle, fixed, length

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from lessons.fitting.state import Now, Params, Subject
-from workbench.algorithms.fit_studies import (
+from lessons.fitting.fit_scenes import arc_points, errors
+from lessons.fitting.fit_studies import (
     Basin,
     Lines,
     Rivals,
@@ -15,13 +15,13 @@ from workbench.algorithms.fit_studies import (
     repeat_fit,
     try_starts,
 )
+from lessons.fitting.state import Now, Params, Subject
 from workbench.algorithms.least_squares import FIRST_DAMPING, DampedStep, Stop, descend, with_its_way
-from workbench.algorithms.models import PLANE
 from workbench.algorithms.robust import HUBER, LOSSES, Trusted, cascade
+from workbench.algorithms.robust.models import PLANE
 from workbench.certain import sure
-from workbench.data.fit_scenes import arc_points, errors
 from workbench.errors import InputError
-from workbench.geometry.lines_planes import hyperplane_distances
+from workbench.geometry.shapes.lines_planes import hyperplane_distances
 
 Linearised = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 Weights = Callable[[np.ndarray, float], np.ndarray]

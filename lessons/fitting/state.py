@@ -7,14 +7,14 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.fit_studies import Basin, Lines, Rivals, Spread
+from lessons.fitting.fit_scenes import Errors
+from lessons.fitting.fit_studies import Basin, Lines, Rivals, Spread
+from lessons.fitting.round_shapes import RoundName, RoundShape
 from workbench.algorithms.least_squares import Walked
-from workbench.algorithms.models import PLANE, rms_distance
 from workbench.algorithms.robust import Trusted
-from workbench.algorithms.round_shapes import RoundName, RoundShape
-from workbench.data.fit_scenes import Errors
+from workbench.algorithms.robust.models import PLANE, rms_distance
+from workbench.data.files.rims import Rim
 from workbench.data.framing import Unit
-from workbench.data.rims import Rim
 from workbench.knobs import Gizmo, Knob
 
 Stage = Literal["descent", "basin", "algebraic", "coin", "line", "robust"]

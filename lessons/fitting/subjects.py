@@ -4,16 +4,16 @@ from pathlib import Path
 
 import numpy as np
 
+from lessons.fitting.fit_scenes import arc_points, cap_points, errors, line_points, outlying_plane, pipe_points
+from lessons.fitting.round_shapes import CYLINDER, ROUND_SHAPES, RoundName, RoundShape, fit_round
 from lessons.fitting.state import Params, Subject
-from workbench.algorithms.round_shapes import CYLINDER, ROUND_SHAPES, RoundName, RoundShape, fit_round
 from workbench.data.files import read_image
-from workbench.data.fit_scenes import arc_points, cap_points, errors, line_points, outlying_plane, pipe_points
+from workbench.data.files.rims import coins, find_rim
 from workbench.data.flat_points import read_round
 from workbench.data.framing import METRES
-from workbench.data.rims import coins, find_rim
 from workbench.errors import InputError
-from workbench.geometry.algebraic_fits import fit_algebraic
-from workbench.geometry.lines_planes import fit_hyperplane
+from workbench.geometry.shapes.algebraic_fits import fit_algebraic
+from workbench.geometry.shapes.lines_planes import fit_hyperplane
 from workbench.knobs import called
 
 MOST_POINTS = 2000

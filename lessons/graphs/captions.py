@@ -4,9 +4,9 @@ import numpy as np
 
 from lessons.graphs.measures import apart, from_clean, predicted, reached, right, tone, two_sides, volume_share
 from lessons.graphs.state import Grown, Matrix, Mode, State
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.certain import sure
 from workbench.geometry.graphs import cut_weight, degrees, edges_of
 from workbench.numerals import brief, counted, fixed_or_power, percent

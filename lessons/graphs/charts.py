@@ -4,9 +4,9 @@ import numpy as np
 
 from lessons.graphs.measures import apart, from_clean, reached, right, volume_share
 from lessons.graphs.state import Grown, Matrix, Mode, State
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.geometry.graphs import Sparse, degrees
 from workbench.numerals import brief
 from workbench.scene import Chart, Field, Picture, Primitive, Table

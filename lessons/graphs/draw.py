@@ -6,9 +6,9 @@ from lessons.graphs.captions import caption
 from lessons.graphs.charts import beside
 from lessons.graphs.measures import predicted, reached
 from lessons.graphs.state import Grown, Matrix, Mode, State
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.geometry.graphs import edges_of
 from workbench.geometry.polylines import between
 from workbench.scene import Classes, Color, Field, Mesh, Points, Primitive, Role, Scene, Segments

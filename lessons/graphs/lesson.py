@@ -15,9 +15,9 @@ from lessons.graphs.presets import BALL, PRESETS, QUESTIONS, VIEW
 from lessons.graphs.stages import Functions, states
 from lessons.graphs.state import Params, State
 from lessons.graphs.subjects import subject_of
-from workbench.algorithms.graph_network import GcnLayer
+from workbench.algorithms.learning.graph_network import GcnLayer
 from workbench.errors import InputError
-from workbench.geometry import graphs
+from workbench.geometry.graphs import adjacency as graphs
 from workbench.lesson import Lesson, Sweep
 
 OfMatrix = Callable[[np.ndarray], np.ndarray]

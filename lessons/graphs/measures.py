@@ -6,11 +6,11 @@ import numpy as np
 
 from lessons.graphs.stages import edge_length
 from lessons.graphs.state import State
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.geometry.graphs import degrees
-from workbench.geometry.invariants import signed_volume
+from workbench.geometry.meshes.invariants import signed_volume
 
 Tone = Literal["info", "good", "wrong"]
 WELL, BADLY = 0.9, 0.75  # shares of the nodes that are on their right side

@@ -6,7 +6,7 @@ import numpy as np
 
 from lessons.graphs.measures import right, volume_share
 from lessons.graphs.state import Grown, Params, State
-from workbench.algorithms.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
 from workbench.certain import as_a, sure
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import counted, fixed_or_power, percent

@@ -9,15 +9,15 @@ import numpy as np
 import scipy
 
 from lessons.graphs.state import ITERATIONS, PAIRS, Grown, Matrix, Mode, Now, Params, State, Subject
-from workbench.algorithms.diffusion import heat, smooth
-from workbench.algorithms.graph_network import GcnLayer, spread, train
-from workbench.algorithms.spectral_cut import spectral_cut
+from workbench.algorithms.graphs.diffusion import heat, smooth
+from workbench.algorithms.graphs.spectral_cut import spectral_cut
+from workbench.algorithms.learning.graph_network import GcnLayer, spread, train
 from workbench.certain import as_a
 from workbench.errors import InputError
-from workbench.geometry import graphs
 from workbench.geometry.graphs import Sparse
-from workbench.geometry.laplacian import cotangent_laplacian, mixed_areas
-from workbench.geometry.spectra import Laplacian
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.graphs.spectra import Laplacian
+from workbench.geometry.meshes.laplacian import cotangent_laplacian, mixed_areas
 from workbench.tracing import traced
 
 MOST_DENSE = 2000  # nodes of which whole matrices are made: 32 MB each

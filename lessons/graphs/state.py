@@ -6,12 +6,12 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.data.framing import Upward
 from workbench.geometry.graphs import Join, Sparse, one_way_share
-from workbench.geometry.spectra import Laplacian
+from workbench.geometry.graphs.spectra import Laplacian
 from workbench.knobs import Knob, Pick
 
 GraphName = Literal[

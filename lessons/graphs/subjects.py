@@ -8,15 +8,16 @@ from typing import Any
 import numpy as np
 
 from lessons.graphs.state import MOST_OWN, PAIRS, Params, Subject
-from workbench.data import networks, surfaces
-from workbench.data.edge_lists import read_edges
+from workbench.data import networks
 from workbench.data.files import read_cloud, read_mesh, stamp
+from workbench.data.files.edge_lists import read_edges
 from workbench.data.framing import Upward, own_points
 from workbench.data.networks import Network
-from workbench.data.rabbit import rabbit, rabbit_mesh
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit, rabbit_mesh
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
-from workbench.geometry import meshes
+from workbench.geometry.meshes import triangles as meshes
 from workbench.knobs import called, only
 
 MOST_CLOUD, MOST_NODES = 3000, 1000

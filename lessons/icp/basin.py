@@ -12,10 +12,10 @@ import numpy as np
 
 from lessons.icp.scans import scans_of
 from lessons.icp.state import Params, Scans, Try
-from workbench.algorithms.icp import Align, Gate, icp
+from workbench.algorithms.registration.icp import Align, Gate, icp
 from workbench.data.thinning import every
-from workbench.geometry.alignment import align_affine, align_rigid, align_similarity
 from workbench.geometry.motions import inverse
+from workbench.geometry.motions.alignment import align_affine, align_rigid, align_similarity
 from workbench.tracing import untraced
 
 ANGLES = tuple(range(0, 181, 15))

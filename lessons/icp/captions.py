@@ -5,7 +5,7 @@ import numpy as np
 from lessons.icp.basin import thinned
 from lessons.icp.scans import WIDTH
 from lessons.icp.state import State
-from workbench.algorithms.icp import Stop
+from workbench.algorithms.registration.icp import Stop
 from workbench.numerals import angle, length, percent
 from workbench.scene import Caption
 

@@ -6,8 +6,8 @@ from lessons.icp.basin import ANGLES, POINTS
 from lessons.icp.captions import caption
 from lessons.icp.state import Scans, State
 from workbench.data.thinning import every
-from workbench.geometry.alignment import MotionError
 from workbench.geometry.motions import apply, inverse
+from workbench.geometry.motions.alignment import MotionError
 from workbench.geometry.polylines import between
 from workbench.numerals import angle, length
 from workbench.scene import Chart, Classes, Color, Curve, Label, Points, Primitive, Role, Scene, Segments

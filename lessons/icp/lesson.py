@@ -13,8 +13,8 @@ from lessons.icp.draw import draw
 from lessons.icp.presets import PRESETS, QUESTIONS, VIEW
 from lessons.icp.scans import scans_of
 from lessons.icp.state import Params, State, Try
-from workbench.algorithms.icp import Align, Match, PlaneStep, icp
-from workbench.geometry.alignment import align_rigid, degrees_between, point_to_plane_step
+from workbench.algorithms.registration.icp import Align, Match, PlaneStep, icp
+from workbench.geometry.motions.alignment import align_rigid, degrees_between, point_to_plane_step
 from workbench.lesson import Lesson, Sweep
 
 MAX_ITERATIONS, TOLERANCE = 150, 1e-5

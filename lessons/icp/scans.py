@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from lessons.icp.state import Params, Planes, Scans
-from workbench.data.clouds import pair
 from workbench.data.files import read_cloud, read_pose, stamp
 from workbench.data.framing import FAR, METRES, Frame, Up, extent, frame, ground_grid, round_below
-from workbench.data.lidar import lidar_pair
+from workbench.data.shapes.clouds import pair
+from workbench.data.shapes.lidar import lidar_pair
 from workbench.data.thinning import some_points, spacing, voxel_means
 from workbench.errors import InputError
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
-from workbench.geometry.normals import point_normals
+from workbench.geometry.points.normals import point_normals
 from workbench.knobs import called, only
 
 RINGS, COLUMNS = 32, 900

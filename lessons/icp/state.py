@@ -7,10 +7,10 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms import icp
+from workbench.algorithms.registration import icp
 from workbench.data.framing import Frame, Unit, Up
-from workbench.geometry.alignment import MotionError, motion_error
 from workbench.geometry.motions import apply, exp_so3, turn_about
+from workbench.geometry.motions.alignment import MotionError, motion_error
 from workbench.knobs import Gizmo, Knob
 
 Shape = Literal["rabbit", "vase", "corner", "lidar"]

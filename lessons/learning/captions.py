@@ -2,13 +2,13 @@
 
 import numpy as np
 
+from lessons.learning.labelled_shapes import NAMES
 from lessons.learning.state import Clouds, Looks, Params, State, Target, Turns
-from workbench.algorithms.mesh_fitting import MeshFitted
-from workbench.algorithms.point_net import Classified
-from workbench.algorithms.radiance_field import Reconstructed
-from workbench.algorithms.rotation_regression import Regressed
-from workbench.algorithms.set_regression import SetLearned
-from workbench.data.labelled_shapes import NAMES
+from workbench.algorithms.learning.mesh_fitting import MeshFitted
+from workbench.algorithms.learning.point_net import Classified
+from workbench.algorithms.learning.radiance_field import Reconstructed
+from workbench.algorithms.learning.rotation_regression import Regressed
+from workbench.algorithms.learning.set_regression import SetLearned
 from workbench.numerals import angle, brief, counted, fixed, length, percent
 from workbench.scene import Caption
 

@@ -4,17 +4,17 @@ import functools
 
 import numpy as np
 
+from lessons.learning import flatland
 from lessons.learning.captions import caption, changes_of, said, shares_right
+from lessons.learning.labelled_shapes import NAMES
 from lessons.learning.state import Clouds, Looks, Params, State, Target, Turns
 from lessons.learning.tasks import NEW_VIEW, PIXELS, RADII
-from workbench.algorithms.mesh_fitting import MeshFitted
-from workbench.algorithms.point_net import Classified
-from workbench.algorithms.radiance_field import Reconstructed
-from workbench.algorithms.rotation_regression import Regressed
-from workbench.algorithms.set_regression import SetLearned
-from workbench.data import flatland
-from workbench.data.labelled_shapes import NAMES
-from workbench.geometry.mesh_energies import face_pairs, fold_angles
+from workbench.algorithms.learning.mesh_fitting import MeshFitted
+from workbench.algorithms.learning.point_net import Classified
+from workbench.algorithms.learning.radiance_field import Reconstructed
+from workbench.algorithms.learning.rotation_regression import Regressed
+from workbench.algorithms.learning.set_regression import SetLearned
+from workbench.geometry.meshes.mesh_energies import face_pairs, fold_angles
 from workbench.geometry.polylines import at_height, between, circle, segments, sphere_rings
 from workbench.numerals import percent
 from workbench.scene import Chart, Classes, Field, Label, Mesh, Picture, Points, Primitive, Scene, Segments, Table

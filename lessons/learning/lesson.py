@@ -11,10 +11,12 @@ from lessons.learning.draw import draw
 from lessons.learning.presets import PRESETS, QUESTIONS, VIEW
 from lessons.learning.state import Params, State
 from lessons.learning.tasks import Functions, steps
-from workbench.algorithms.set_regression import ChamferGradient
-from workbench.geometry import rotation_outputs, shape_distances, volume_rendering
-from workbench.geometry.rotation_outputs import Decode
-from workbench.geometry.volume_rendering import RayWeights
+from workbench.algorithms.learning.set_regression import ChamferGradient
+from workbench.geometry.cameras import volume_rendering
+from workbench.geometry.cameras.volume_rendering import RayWeights
+from workbench.geometry.motions import rotation_outputs
+from workbench.geometry.motions.rotation_outputs import Decode
+from workbench.geometry.points import shape_distances
 from workbench.lesson import Lesson, Sweep
 
 

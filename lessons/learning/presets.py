@@ -6,9 +6,9 @@ import numpy as np
 
 from lessons.learning.captions import shares_right
 from lessons.learning.state import Clouds, Looks, Params, State, Turns
-from workbench.algorithms.point_net import Classified
-from workbench.algorithms.rotation_regression import Regressed
-from workbench.algorithms.set_regression import SetLearned
+from workbench.algorithms.learning.point_net import Classified
+from workbench.algorithms.learning.rotation_regression import Regressed
+from workbench.algorithms.learning.set_regression import SetLearned
 from workbench.certain import as_a
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import angle, counted, fixed, percent

@@ -6,13 +6,13 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.mesh_fitting import MeshFitted
-from workbench.algorithms.point_net import Classified, Pool
-from workbench.algorithms.radiance_field import Reconstructed
-from workbench.algorithms.rotation_regression import Compared, Regressed
-from workbench.algorithms.set_regression import SetLearned, SetLoss
+from lessons.learning.labelled_shapes import Turned
+from workbench.algorithms.learning.mesh_fitting import MeshFitted
+from workbench.algorithms.learning.point_net import Classified, Pool
+from workbench.algorithms.learning.radiance_field import Reconstructed
+from workbench.algorithms.learning.rotation_regression import Compared, Regressed
+from workbench.algorithms.learning.set_regression import SetLearned, SetLoss
 from workbench.data.framing import Upward
-from workbench.data.labelled_shapes import Turned
 from workbench.geometry.meshes import euler_characteristic
 from workbench.knobs import Gizmo, Knob, Pick
 

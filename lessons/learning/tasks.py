@@ -7,21 +7,22 @@ from pathlib import Path
 
 import numpy as np
 
+from lessons.learning import flatland
+from lessons.learning.labelled_shapes import NAMES, labelled_clouds
 from lessons.learning.state import Clouds, Looks, Now, Params, State, Target, Task, Turns
-from workbench.algorithms.mesh_fitting import Term, fit_mesh
-from workbench.algorithms.point_net import train_classifier
-from workbench.algorithms.radiance_field import CELLS, SAMPLES, RadianceField, reconstruct
-from workbench.algorithms.rotation_regression import regress
-from workbench.algorithms.set_regression import ChamferGradient, learn_set
-from workbench.data import flatland, surfaces
+from workbench.algorithms.learning.mesh_fitting import Term, fit_mesh
+from workbench.algorithms.learning.point_net import train_classifier
+from workbench.algorithms.learning.radiance_field import CELLS, SAMPLES, RadianceField, reconstruct
+from workbench.algorithms.learning.rotation_regression import regress
+from workbench.algorithms.learning.set_regression import ChamferGradient, learn_set
 from workbench.data.files import stamp
 from workbench.data.framing import Upward, own_points
-from workbench.data.labelled_shapes import NAMES, labelled_clouds
 from workbench.data.own_meshes import read_welded
-from workbench.data.rabbit import rabbit, rabbit_mesh
-from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, Decode, random_rotations
-from workbench.geometry.sampling import points_on_faces
-from workbench.geometry.volume_rendering import RayWeights, samples_on
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit, rabbit_mesh
+from workbench.geometry.cameras.volume_rendering import RayWeights, samples_on
+from workbench.geometry.motions.rotation_outputs import IN_PLANE, IN_SPACE, Decode, random_rotations
+from workbench.geometry.points.sampling import points_on_faces
 
 UPDATES: Mapping[Task, int] = {"angle": 600, "rotation": 1500, "sets": 150, "mesh": 80, "classify": 300, "field": 225}
 STEPS = 16

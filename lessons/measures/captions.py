@@ -4,10 +4,10 @@ import numpy as np
 
 from lessons.measures.state import State, Subject
 from lessons.measures.study import RUNS, SURE
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Lines, Sampled, Throws
 from workbench.certain import sure
-from workbench.geometry.measures import encloses
+from workbench.geometry.meshes.measures import encloses
 from workbench.numerals import brief, counted, fixed, fixed_or_power, percent
 from workbench.scene import Caption
 

@@ -5,8 +5,8 @@ import numpy as np
 from lessons.measures.captions import area, off, volume
 from lessons.measures.state import State, Study
 from lessons.measures.study import SURE
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Estimates, Lines, Sampled, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Estimates, Lines, Sampled, Throws
 from workbench.numerals import percent
 from workbench.scene import Chart, Primitive, Role, Table
 

@@ -8,12 +8,12 @@ from lessons.measures.captions import caption
 from lessons.measures.charts import beside
 from lessons.measures.samples import TRIANGLE, at_corners
 from lessons.measures.state import State, Subject
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Lines, Sampled, Throws
 from workbench.data.thinning import every
+from workbench.geometry.fields.voxels import counted_surface
 from workbench.geometry.meshes import boundary_edges, edges
 from workbench.geometry.polylines import between
-from workbench.geometry.voxels import counted_surface
 from workbench.scene import Classes, Label, Mesh, Points, Primitive, Scene, Segments
 
 MOST_RAYS, MOST_EDGES, MOST_POINTS, MOST_LINES, MOST_SHOWN = 120, 4500, 6000, 120, 96

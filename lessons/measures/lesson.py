@@ -19,10 +19,17 @@ from lessons.measures.samples import samples
 from lessons.measures.state import Params, State, Subject
 from lessons.measures.study import peeked, study_of
 from lessons.measures.subjects import subject_of
-from workbench.algorithms.measures import SignedVolume, count_cells, sum_faces
-from workbench.algorithms.monte_carlo import ByChance, OnFaces, Throws, raise_dimension, shoot_lines, throw_points
+from workbench.algorithms.surfaces.measures import SignedVolume, count_cells, sum_faces
+from workbench.algorithms.surfaces.monte_carlo import (
+    ByChance,
+    OnFaces,
+    Throws,
+    raise_dimension,
+    shoot_lines,
+    throw_points,
+)
 from workbench.data.thinning import growing
-from workbench.geometry.sampling import Draw
+from workbench.geometry.points.sampling import Draw
 from workbench.lesson import Lesson, Sweep
 
 BANDS = 20  # steps in which faces are added

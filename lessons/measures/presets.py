@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from lessons.measures.state import Params, State
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Throws
 from workbench.certain import as_a
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import brief, fixed, percent

@@ -5,9 +5,9 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from lessons.measures.state import Params, State, Subject
-from workbench.algorithms.monte_carlo import OnFaces, sample_faces
-from workbench.geometry.measures import area_centroid
+from workbench.algorithms.surfaces.monte_carlo import OnFaces, sample_faces
 from workbench.geometry.meshes import face_areas
+from workbench.geometry.meshes.measures import area_centroid
 
 TRIANGLE = np.array([[-1.0, 0.0, -0.6], [1.0, 0.0, -0.6], [0.0, 0.0, 1.1]])  # upright, before the eye
 IN_TRIANGLE = (50, 200, 800, 3200)

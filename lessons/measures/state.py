@@ -7,11 +7,11 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Lines, Sampled, Throws
 from workbench.data.framing import Unit, Upward
-from workbench.geometry.sampling import Draw
-from workbench.geometry.voxels import Grid
+from workbench.geometry.fields.voxels import Grid
+from workbench.geometry.points.sampling import Draw
 from workbench.knobs import Gizmo, Knob
 
 Shape = Literal["rabbit", "sphere", "box", "torus", "lantern", "two spheres"]

@@ -6,7 +6,7 @@ import numpy as np
 
 from lessons.measures.state import Params, Study
 from lessons.measures.subjects import built_in
-from workbench.geometry.measures import signed_volume, surface_area
+from workbench.geometry.meshes.measures import signed_volume, surface_area
 
 SURE = 1.96  # standard errors to either side that hold the truth in 95 of 100 runs
 RUNS = 4000

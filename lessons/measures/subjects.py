@@ -6,17 +6,17 @@ from pathlib import Path
 
 import numpy as np
 
+from lessons.measures import measurables
+from lessons.measures.measurables import Measurable
 from lessons.measures.state import Params, Subject
-from workbench.data import measurables
 from workbench.data.files import read_voxels, stamp
 from workbench.data.framing import UPRIGHT, Unit, Upward, box, extent, upward
-from workbench.data.measurables import Measurable
 from workbench.data.own_meshes import read_welded
-from workbench.data.rabbit import rabbit_mesh
+from workbench.data.shapes.rabbit import rabbit_mesh
 from workbench.errors import InputError
-from workbench.geometry.containment import columns, windings
-from workbench.geometry.measures import encloses, signed_volume, surface_area
-from workbench.geometry.voxels import Grid, counted_volume, grid_over, marched_surface, occupied
+from workbench.geometry.fields.voxels import Grid, counted_volume, grid_over, marched_surface, occupied
+from workbench.geometry.meshes.containment import columns, windings
+from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
 from workbench.knobs import called
 
 RABBIT, SPACING = 2.0, 0.04  # times as large as it is made, with edges of so many metres before

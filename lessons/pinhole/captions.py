@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from lessons.pinhole.state import Shot, State, name_of
-from workbench.geometry.distortion import invertible_radius
+from workbench.geometry.cameras.distortion import invertible_radius
 from workbench.geometry.motions import apply
 from workbench.numerals import coordinates, counted, fixed, fixed_or_power, length, pixels
 from workbench.scene import Caption

@@ -5,13 +5,13 @@ import math
 
 import numpy as np
 
+from lessons.pinhole import following as pinhole
 from lessons.pinhole.captions import caption, depth
 from lessons.pinhole.shot import FACTORS
 from lessons.pinhole.state import State, name_of
-from workbench.algorithms import pinhole
-from workbench.data.street import street
+from workbench.data.views.street import street
 from workbench.geometry.cameras import camera_center, depths
-from workbench.geometry.distortion import Distortion, distort, invertible_radius
+from workbench.geometry.cameras.distortion import Distortion, distort, invertible_radius
 from workbench.geometry.motions import apply, inverse
 from workbench.geometry.polylines import between, segments
 from workbench.lesson import View

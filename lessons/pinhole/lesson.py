@@ -9,15 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
+from lessons.pinhole import following as pinhole
 from lessons.pinhole.draw import VIEW, draw
+from lessons.pinhole.following import Center, Distort, Project
 from lessons.pinhole.models import laid_out, model_of, overlaid
 from lessons.pinhole.presets import PRESETS, QUESTIONS
 from lessons.pinhole.shot import shot_of
 from lessons.pinhole.state import Params, Shot, State
-from workbench.algorithms import pinhole
-from workbench.algorithms.pinhole import Center, Distort, Project
-from workbench.data.street import street
-from workbench.geometry import cameras, distortion
+from workbench.data.views.street import street
+from workbench.geometry.cameras import distortion
+from workbench.geometry.cameras import pinhole as cameras
 from workbench.lesson import Lesson, Sweep
 
 

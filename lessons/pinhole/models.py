@@ -6,13 +6,13 @@ from itertools import islice
 
 import numpy as np
 
+from lessons.pinhole.following import STAGES, Center, Distort, Project, Stage, State, follow, onto_pixels
 from lessons.pinhole.shot import wires
 from lessons.pinhole.state import Params, Shot
-from workbench.algorithms.pinhole import STAGES, Center, Distort, Project, Stage, State, follow, onto_pixels
-from workbench.data.street import street
+from workbench.data.views.street import street
 from workbench.geometry.cameras import OPENGL_FROM_OPENCV
+from workbench.geometry.cameras.raster import Image, PointItem, SegmentItem, render
 from workbench.geometry.motions import apply, inverse
-from workbench.geometry.raster import Image, PointItem, SegmentItem, render
 from workbench.scene import Role, color_rows
 
 SWAP = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])

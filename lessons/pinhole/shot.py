@@ -5,7 +5,7 @@ import functools
 import numpy as np
 
 from lessons.pinhole.state import Edit, Params, Shot
-from workbench.data.street import BALL_CENTER, BALL_RADIUS, street, street_items
+from workbench.data.views.street import BALL_CENTER, BALL_RADIUS, street, street_items
 from workbench.errors import InputError
 from workbench.geometry.cameras import (
     camera_center,
@@ -21,9 +21,9 @@ from workbench.geometry.cameras import (
     sphere_outline,
     vanishing_points,
 )
-from workbench.geometry.distortion import Distortion
+from workbench.geometry.cameras.distortion import Distortion
+from workbench.geometry.cameras.raster import render
 from workbench.geometry.polylines import segments
-from workbench.geometry.raster import render
 from workbench.knobs import only
 
 WIDTH, HEIGHT = 320, 240

@@ -5,9 +5,9 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms import pinhole
-from workbench.data.street import street
-from workbench.geometry.distortion import Distortion
+from lessons.pinhole import following as pinhole
+from workbench.data.views.street import street
+from workbench.geometry.cameras.distortion import Distortion
 from workbench.knobs import Gizmo, Knob, Pick
 
 Edit = Literal["none", "cropped", "half size", "cropped, then half size"]

@@ -6,14 +6,14 @@ import numpy as np
 
 from lessons.pose.state import FAR_DEGREES, GUESSED_FOCAL, Repeated, State
 from lessons.pose.trials import ANEW, TRIPLES
-from workbench.algorithms import ransac
-from workbench.algorithms.camera_search import Searched
-from workbench.geometry.alignment import degrees_between
+from workbench.algorithms.cameras.camera_search import Searched
+from workbench.algorithms.robust import ransac
 from workbench.geometry.cameras import camera_center
-from workbench.geometry.metrics import rms
+from workbench.geometry.cameras.planar_motions import is_flat
+from workbench.geometry.cameras.three_points import unit_rays
 from workbench.geometry.motions import angle_between
-from workbench.geometry.planar_motions import is_flat
-from workbench.geometry.three_points import unit_rays
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.points.metrics import rms
 from workbench.numerals import angle, coordinates, counted, fixed, length, percent, pixels
 from workbench.scene import Caption
 

@@ -7,12 +7,12 @@ import numpy as np
 
 from lessons.pose.captions import caption
 from lessons.pose.state import Repeated, State, Subject, Target
-from workbench.algorithms import ransac
-from workbench.algorithms.camera_search import Searched
+from workbench.algorithms.cameras.camera_search import Searched
+from workbench.algorithms.robust import ransac
 from workbench.certain import as_a
 from workbench.geometry.cameras import camera_center, project
-from workbench.geometry.metrics import rms
 from workbench.geometry.motions import apply, inverse
+from workbench.geometry.points.metrics import rms
 from workbench.geometry.polylines import between
 from workbench.lesson import View
 from workbench.numerals import angle, coordinates, length, pixels

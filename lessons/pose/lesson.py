@@ -18,8 +18,7 @@ from lessons.pose.presets import PRESETS, QUESTIONS
 from lessons.pose.scenes import subject_of
 from lessons.pose.state import Params, State, Subject
 from lessons.pose.trials import repeated
-from workbench.algorithms.camera_model import camera_model
-from workbench.algorithms.camera_search import (
+from workbench.algorithms.cameras.camera_search import (
     ChoosePose,
     PoseFromDistances,
     PoseStep,
@@ -28,13 +27,14 @@ from workbench.algorithms.camera_search import (
     by_three_points,
     downhill,
 )
-from workbench.algorithms.ransac import Judge, ransac
-from workbench.algorithms.ransac import State as Sampled
-from workbench.algorithms.samplers import uniform_samples
+from workbench.algorithms.robust.camera_model import camera_model
+from workbench.algorithms.robust.ransac import Judge, ransac
+from workbench.algorithms.robust.ransac import State as Sampled
+from workbench.algorithms.robust.samplers import uniform_samples
 from workbench.errors import InputError
-from workbench.geometry.camera_motions import dlt_motion, rms_reprojection, sqpnp
-from workbench.geometry.control_points import epnp
-from workbench.geometry.planar_motions import is_flat
+from workbench.geometry.cameras.camera_motions import dlt_motion, rms_reprojection, sqpnp
+from workbench.geometry.cameras.control_points import epnp
+from workbench.geometry.cameras.planar_motions import is_flat
 from workbench.lesson import Lesson, Sweep
 
 MOST_SAMPLES = 500

@@ -8,7 +8,7 @@ import numpy as np
 from lessons.pose.draw import ABOVE
 from lessons.pose.state import Params, Repeated, State
 from lessons.pose.trials import TRIPLES
-from workbench.algorithms.ransac import iterations_needed
+from workbench.algorithms.robust.ransac import iterations_needed
 from workbench.certain import as_a, sure
 from workbench.lesson import Choice, Preset, Question
 from workbench.numerals import angle, fixed, percent

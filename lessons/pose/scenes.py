@@ -7,9 +7,9 @@ import numpy as np
 
 from lessons.pose.state import Params, Subject
 from workbench.data.framing import Frame, frame
-from workbench.data.sightings import Sightings, points_on_box, read_sightings, seen, some_of
-from workbench.data.solids import Solid, box, outlined
-from workbench.data.street import MAPPED, SUN, standing, street, street_items, street_map
+from workbench.data.shapes.solids import Solid, box, outlined
+from workbench.data.views.sightings import Sightings, points_on_box, read_sightings, seen, some_of
+from workbench.data.views.street import MAPPED, SUN, standing, street, street_items, street_map
 from workbench.errors import InputError
 from workbench.geometry.cameras import (
     camera_center,
@@ -20,9 +20,9 @@ from workbench.geometry.cameras import (
     project,
     resize_intrinsics,
 )
+from workbench.geometry.cameras.raster import Image, Item, MeshItem, SegmentItem, in_sight, render
 from workbench.geometry.meshes import face_normals
 from workbench.geometry.polylines import circle
-from workbench.geometry.raster import Image, Item, MeshItem, SegmentItem, in_sight, render
 from workbench.knobs import only
 from workbench.scene import color_rows
 

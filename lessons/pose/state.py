@@ -7,15 +7,15 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms import ransac
-from workbench.algorithms.camera_search import Searched
+from workbench.algorithms.cameras.camera_search import Searched
+from workbench.algorithms.robust import ransac
 from workbench.data.framing import Frame, Up
-from workbench.data.sightings import Sightings
-from workbench.data.solids import Solid
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.camera_motions import reprojection_errors
+from workbench.data.shapes.solids import Solid
+from workbench.data.views.sightings import Sightings
 from workbench.geometry.cameras import camera_center, normalize
-from workbench.geometry.metrics import rms
+from workbench.geometry.cameras.camera_motions import reprojection_errors
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.points.metrics import rms
 from workbench.knobs import Gizmo, Knob
 
 Target = Literal["box", "marker", "street", "triangle"]

@@ -5,13 +5,13 @@ from functools import lru_cache
 import numpy as np
 
 from lessons.pose.state import Params, Repeated, Subject
-from workbench.algorithms.camera_search import by_fourth_points, downhill, planar_pairs
-from workbench.data.sightings import random_views, seen
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.camera_motions import dlt_motion, gauss_newton_step, refined, sqpnp
+from workbench.algorithms.cameras.camera_search import by_fourth_points, downhill, planar_pairs
+from workbench.data.views.sightings import random_views, seen
 from workbench.geometry.cameras import normalize
-from workbench.geometry.control_points import epnp
-from workbench.geometry.three_points import solution_counts
+from workbench.geometry.cameras.camera_motions import dlt_motion, gauss_newton_step, refined, sqpnp
+from workbench.geometry.cameras.control_points import epnp
+from workbench.geometry.cameras.three_points import solution_counts
+from workbench.geometry.motions.alignment import degrees_between
 
 PICTURES, MARKERS = 40, 60  # of a marker more, as they are of two kinds
 TRIPLES = 2000

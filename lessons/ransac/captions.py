@@ -3,7 +3,7 @@
 import numpy as np
 
 from lessons.ransac.state import State
-from workbench.algorithms.ransac import Stop
+from workbench.algorithms.robust.ransac import Stop
 from workbench.certain import sure
 from workbench.numerals import counted, length, percent, pixels
 from workbench.scene import Caption

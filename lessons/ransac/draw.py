@@ -5,7 +5,7 @@ import numpy as np
 from lessons.ransac.captions import caption
 from lessons.ransac.shapes import frames, outline, slab
 from lessons.ransac.state import State, Subject
-from workbench.algorithms.ransac import Fit
+from workbench.algorithms.robust.ransac import Fit
 from workbench.geometry.clipping import plane_in_box
 from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import between, fan

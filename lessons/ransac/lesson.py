@@ -17,13 +17,13 @@ from lessons.ransac.draw import draw
 from lessons.ransac.presets import PRESETS, QUESTIONS, VIEW
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params, Rival, State, Subject
-from workbench.algorithms.models import PLANE, from_points
-from workbench.algorithms.ransac import Fit, Judge, iterations_needed, ransac
 from workbench.algorithms.robust import HUBER, reweighted_fit
-from workbench.algorithms.samplers import prosac_samples, uniform_samples
-from workbench.algorithms.scores import Score, count_inliers, count_score, mlesac_score, msac_score
+from workbench.algorithms.robust.models import PLANE, from_points
+from workbench.algorithms.robust.ransac import Fit, Judge, iterations_needed, ransac
+from workbench.algorithms.robust.samplers import prosac_samples, uniform_samples
+from workbench.algorithms.robust.scores import Score, count_inliers, count_score, mlesac_score, msac_score
 from workbench.errors import InputError
-from workbench.geometry.lines_planes import plane_from_points
+from workbench.geometry.shapes.lines_planes import plane_from_points
 from workbench.lesson import Lesson, Sweep
 
 SHOWN_IN_PARTS = 3  # samples

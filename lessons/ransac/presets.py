@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 from lessons.ransac.state import Params, State
-from workbench.algorithms.ransac import iterations_needed
+from workbench.algorithms.robust.ransac import iterations_needed
 from workbench.certain import sure
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import length, percent

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from lessons.ransac import robust_scenes as robust
+from lessons.ransac.robust_scenes import RobustScene
 from lessons.ransac.state import MOST_POINTS, Params, Subject
-from workbench.algorithms.models import MODELS, Model
-from workbench.data import robust
+from workbench.algorithms.robust.models import MODELS, Model
 from workbench.data.files import read_cloud, read_image
+from workbench.data.files.matches import read_matches
 from workbench.data.framing import METRES, extent, frame
-from workbench.data.matches import read_matches
-from workbench.data.robust import RobustScene
 from workbench.errors import InputError
 from workbench.knobs import called, only
 

@@ -6,9 +6,9 @@ import numpy as np
 
 from lessons.ransac.state import Subject
 from workbench.geometry.clipping import clip_lines, plane_in_box, segments_inside
-from workbench.geometry.epipolar import epipolar_lines
-from workbench.geometry.homography import warped_grid
 from workbench.geometry.polylines import circle, rectangle, segments, sphere_rings
+from workbench.geometry.two_views.epipolar import epipolar_lines
+from workbench.geometry.two_views.homography import warped_grid
 
 NOTHING = np.zeros((0, 2, 3))
 

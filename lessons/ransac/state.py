@@ -8,9 +8,9 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms import ransac
-from workbench.algorithms.models import Model, rms_distance
-from workbench.algorithms.samplers import termination_length
+from workbench.algorithms.robust import ransac
+from workbench.algorithms.robust.models import Model, rms_distance
+from workbench.algorithms.robust.samplers import termination_length
 from workbench.data.framing import Unit, Up
 from workbench.knobs import Knob, Pick
 

@@ -16,7 +16,7 @@ from lessons.representations.state import (
     Subject,
     Surface,
 )
-from workbench.algorithms.octree import Level
+from workbench.algorithms.spatial.octree import Level
 from workbench.certain import sure
 from workbench.numerals import angle, brief, counted, fixed, length, percent
 from workbench.scene import Caption

@@ -4,7 +4,7 @@ import numpy as np
 
 from lessons.representations.captions import field_error, form_of, size
 from lessons.representations.state import Built, Cells, Fitted, Growth, Joined, Searched, State
-from workbench.algorithms.octree import Level
+from workbench.algorithms.spatial.octree import Level
 from workbench.certain import sure
 from workbench.numerals import angle, length, percent
 from workbench.scene import Chart, Primitive, Role, Table

@@ -7,12 +7,12 @@ import numpy as np
 from lessons.representations.captions import caption, subject_name
 from lessons.representations.charts import beside
 from lessons.representations.state import Built, Cells, Cloud, Fitted, Joined, Patches, Searched, State, Subject
-from workbench.algorithms.kd_tree import Tree
-from workbench.algorithms.octree import Level
+from workbench.algorithms.spatial.kd_tree import Tree
+from workbench.algorithms.spatial.octree import Level
 from workbench.data.thinning import every
+from workbench.geometry.fields.voxels import Grid, counted_surface
 from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import at_height, segments, sphere_rings
-from workbench.geometry.voxels import Grid, counted_surface
 from workbench.scene import Field, Mesh, Picture, Points, Primitive, Scene, Segments
 
 MOST_POINTS, MOST_BOXES, MOST_EDGES = 8000, 260, 12_000

@@ -22,17 +22,17 @@ from lessons.representations.state import (
     Surface,
 )
 from lessons.representations.subjects import RING, TUBE, covered, measured
-from workbench.algorithms.kd_tree import build_tree, looked_at, search
-from workbench.algorithms.neural_field import new_network, train_field
-from workbench.algorithms.octree import grow_octree
-from workbench.data import surfaces
-from workbench.geometry.bezier import bezier_patch, de_casteljau, raised_patch, torus_patches
+from workbench.algorithms.learning.neural_field import new_network, train_field
+from workbench.algorithms.spatial.kd_tree import build_tree, looked_at, search
+from workbench.algorithms.spatial.octree import grow_octree
+from workbench.data.shapes import surfaces
+from workbench.geometry.fields.voxels import Grid, counted_area, marched_surface
 from workbench.geometry.graphs import components, directed_graph, edges_of, joined
 from workbench.geometry.graphs import neighbours as nearest
 from workbench.geometry.level_sets import EdgeCrossings, edge_crossings, level_surface
-from workbench.geometry.sampling import points_on_faces
-from workbench.geometry.simplification import clustered, halved
-from workbench.geometry.voxels import Grid, counted_area, marched_surface
+from workbench.geometry.meshes.simplification import clustered, halved
+from workbench.geometry.points.sampling import points_on_faces
+from workbench.geometry.shapes.bezier import bezier_patch, de_casteljau, raised_patch, torus_patches
 from workbench.knobs import only
 
 BezierPatch = Callable[[np.ndarray, np.ndarray], np.ndarray]

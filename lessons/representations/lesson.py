@@ -13,8 +13,10 @@ from lessons.representations.forms import FORMS, BezierPatch, Functions, others
 from lessons.representations.presets import PRESETS, QUESTIONS, VIEW
 from lessons.representations.state import Params, State
 from lessons.representations.subjects import BoxSdf, subject_of
-from workbench.geometry import bezier, level_sets, signed_distances
+from workbench.geometry import level_sets
+from workbench.geometry.fields import signed_distances
 from workbench.geometry.level_sets import EdgeCrossings
+from workbench.geometry.shapes import bezier
 from workbench.lesson import Lesson, Sweep
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from lessons.representations.captions import field_error
 from lessons.representations.state import Params, State
-from workbench.algorithms.octree import Level
+from workbench.algorithms.spatial.octree import Level
 from workbench.certain import sure
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import brief, length, percent

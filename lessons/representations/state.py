@@ -7,11 +7,11 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.kd_tree import Tree, Visit
-from workbench.algorithms.neural_field import Activation, Target, Trained
-from workbench.algorithms.octree import Level
+from workbench.algorithms.learning.neural_field import Activation, Target, Trained
+from workbench.algorithms.spatial.kd_tree import Tree, Visit
+from workbench.algorithms.spatial.octree import Level
 from workbench.data.framing import Upward
-from workbench.geometry.voxels import Grid
+from workbench.geometry.fields.voxels import Grid
 from workbench.knobs import Gizmo, Knob
 
 Form = Literal["cloud", "neighbours", "mesh", "voxels", "distances", "octree", "k-d tree", "patches", "neural"]

@@ -8,20 +8,20 @@ import numpy as np
 import scipy
 
 from lessons.representations.state import OF_CLOUDS, Params, Shape, Subject, Surface
-from workbench.data import solids, surfaces
 from workbench.data.files import read_cloud, stamp
 from workbench.data.framing import Upward, own_points
 from workbench.data.own_meshes import read_welded
-from workbench.data.rabbit import rabbit_mesh
+from workbench.data.shapes import solids, surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
-from workbench.geometry import signed_distances
-from workbench.geometry.containment import windings
-from workbench.geometry.measures import encloses, signed_volume, surface_area
+from workbench.geometry.fields import signed_distances
+from workbench.geometry.fields.signed_distances import face_tree, mesh_sdf, torus_sdf
 from workbench.geometry.meshes import face_normals
+from workbench.geometry.meshes.containment import windings
+from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.sampling import places_on_faces, points_on_faces, unit_points
-from workbench.geometry.signed_distances import face_tree, mesh_sdf, torus_sdf
+from workbench.geometry.points.sampling import places_on_faces, points_on_faces, unit_points
 from workbench.knobs import called
 
 BoxSdf = Callable[[np.ndarray, np.ndarray], np.ndarray]

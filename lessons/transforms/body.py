@@ -4,17 +4,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lessons.transforms.composition import Factor
 from lessons.transforms.state import Body, First, Params
-from workbench.algorithms.composition import Factor
 from workbench.algorithms.interpolation import FromEuler, Rodrigues
 from workbench.data.files import read_mesh
 from workbench.data.framing import frame
-from workbench.data.solids import outlined, solid
+from workbench.data.shapes.solids import outlined, solid
 from workbench.errors import InputError
-from workbench.geometry.affine import perspective, reflection, scaling, shear, translation
-from workbench.geometry.invariants import measure
+from workbench.geometry.meshes.invariants import measure
 from workbench.geometry.motions import exp_so3, motion
-from workbench.geometry.rotations import EulerOrder, euler_to_matrix
+from workbench.geometry.motions.affine import perspective, reflection, scaling, shear, translation
+from workbench.geometry.motions.rotations import EulerOrder, euler_to_matrix
 from workbench.numerals import brief
 
 MOST_FACES = 50_000

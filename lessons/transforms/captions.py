@@ -5,9 +5,9 @@ import numpy as np
 from lessons.transforms.body import numbers_of
 from lessons.transforms.compare import in_degrees, other_triples
 from lessons.transforms.state import FRONT, SAME, Built, Ghost, Method, Moved
-from workbench.geometry.affine import Kind, kind_of, transform
 from workbench.geometry.motions import angle_between
-from workbench.geometry.rotations import gimbal_margin
+from workbench.geometry.motions.affine import Kind, kind_of, transform
+from workbench.geometry.motions.rotations import gimbal_margin
 from workbench.numerals import angle, brief, fixed, length, percent
 from workbench.scene import Caption
 

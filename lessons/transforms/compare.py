@@ -7,10 +7,10 @@ import numpy as np
 
 from lessons.transforms.body import Numbers
 from lessons.transforms.state import Body, Compare, Ghost, Params
-from workbench.geometry.affine import transform
-from workbench.geometry.alignment import align_rigid
 from workbench.geometry.motions import inverse, motion
-from workbench.geometry.rotations import (
+from workbench.geometry.motions.affine import transform
+from workbench.geometry.motions.alignment import align_rigid
+from workbench.geometry.motions.rotations import (
     EulerOrder,
     gimbal_margin,
     locked_family,

@@ -7,11 +7,17 @@ import numpy as np
 from lessons.transforms.captions import caption_of_build, caption_of_move, times
 from lessons.transforms.state import FRONT, Body, Built, Ghost, Moved, State
 from workbench.data.framing import ground_grid
-from workbench.geometry.affine import decompose, is_affine, kind_of, transform, transform_directions, translation
-from workbench.geometry.invariants import Change
+from workbench.geometry.meshes.invariants import Change
 from workbench.geometry.motions import inverse
-from workbench.geometry.polylines import between, segments
-from workbench.geometry.rotations import (
+from workbench.geometry.motions.affine import (
+    decompose,
+    is_affine,
+    kind_of,
+    transform,
+    transform_directions,
+    translation,
+)
+from workbench.geometry.motions.rotations import (
     EulerOrder,
     axis_angle_from_rotation,
     euler_axes,
@@ -19,6 +25,7 @@ from workbench.geometry.rotations import (
     matrix_to_euler,
     quaternion_from_matrix,
 )
+from workbench.geometry.polylines import between, segments
 from workbench.numerals import ROUND_OFF, angle, fixed, fixed_row, length, percent
 from workbench.scene import Axes, Chart, Curve, Label, Mesh, Primitive, Role, Scene, Segments, Table, is_rigid
 

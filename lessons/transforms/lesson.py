@@ -11,17 +11,16 @@ import numpy as np
 
 from lessons.transforms.body import body_of, motion_factors, numbers_of, shape_factors
 from lessons.transforms.compare import ghosts_of, undo_ghosts_of
+from lessons.transforms.composition import Invert, compose
 from lessons.transforms.draw import draw
 from lessons.transforms.presets import PRESETS, QUESTIONS, VIEW
 from lessons.transforms.state import Built, Moved, Params, State, Way
 from workbench.algorithms import interpolation as between
-from workbench.algorithms.composition import Invert, compose
 from workbench.algorithms.interpolation import FromEuler, Rodrigues
-from workbench.geometry import rotations
-from workbench.geometry.affine import transform
-from workbench.geometry.alignment import degrees_between, nearest_rotation
-from workbench.geometry.invariants import changes, measure
-from workbench.geometry.motions import apply, exp_so3, inverse, motion
+from workbench.geometry.meshes.invariants import changes, measure
+from workbench.geometry.motions import apply, exp_so3, inverse, motion, rotations
+from workbench.geometry.motions.affine import transform
+from workbench.geometry.motions.alignment import degrees_between, nearest_rotation
 from workbench.lesson import Lesson, Sweep
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from lessons.transforms.body import numbers_of
 from lessons.transforms.compare import in_degrees
 from lessons.transforms.state import Built, Moved, Params, State
-from workbench.geometry.rotations import euler_axes, triple_past_lock
+from workbench.geometry.motions.rotations import euler_axes, triple_past_lock
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import angle, fixed, length, percent
 

@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.composition import Factor
-from workbench.data.solids import Shape, Solid
-from workbench.geometry.invariants import Change, Measures
-from workbench.geometry.rotations import EulerOrder
+from lessons.transforms.composition import Factor
+from workbench.data.shapes.solids import Shape, Solid
+from workbench.geometry.meshes.invariants import Change, Measures
+from workbench.geometry.motions.rotations import EulerOrder
 from workbench.knobs import Gizmo, Knob, Pick
 from workbench.scene import Role
 

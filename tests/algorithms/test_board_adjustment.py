@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.algorithms.board_adjustment import SHARED, Adjustment, Stop, adjust, linearised, loss
-from workbench.algorithms.calibration import calibrate
-from workbench.data import boards
+from workbench.algorithms.cameras.calibration import calibrate
+from workbench.algorithms.least_squares.board_adjustment import SHARED, Adjustment, Stop, adjust, linearised, loss
+from workbench.data.views import boards
 from workbench.geometry.cameras import intrinsics, project
-from workbench.geometry.distortion import NONE, Distortion
+from workbench.geometry.cameras.distortion import NONE, Distortion
 from workbench.geometry.motions import exp_so3, turns
 
 P = boards.board_points()

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.algorithms.calibration import State, calibrate, residuals_of
-from workbench.data import boards
-from workbench.geometry.calibration import reprojection_rms
+from workbench.algorithms.cameras.calibration import State, calibrate, residuals_of
+from workbench.data.views import boards
 from workbench.geometry.cameras import project
-from workbench.geometry.distortion import NONE
+from workbench.geometry.cameras.calibration import reprojection_rms
+from workbench.geometry.cameras.distortion import NONE
 
 P = boards.board_points()
 

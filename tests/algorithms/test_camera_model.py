@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from tests.geometry.views import view
-from workbench.algorithms.camera_model import camera_model
-from workbench.algorithms.ransac import TOGETHER, Judge, State, Stop, iterations_needed, ransac
-from workbench.algorithms.samplers import uniform_samples
-from workbench.geometry.alignment import degrees_between
+from workbench.algorithms.robust.camera_model import camera_model
+from workbench.algorithms.robust.ransac import TOGETHER, Judge, State, Stop, iterations_needed, ransac
+from workbench.algorithms.robust.samplers import uniform_samples
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import exp_se3
+from workbench.geometry.motions.alignment import degrees_between
 
 K = intrinsics(800.0, 320.0, 240.0)
 

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from tests.geometry.views import view
-from workbench.algorithms.camera_search import Stop, by_plane, by_three_points, choose_pose, downhill
-from workbench.geometry.camera_motions import gauss_newton_step, rms_reprojection
+from workbench.algorithms.cameras.camera_search import Stop, by_plane, by_three_points, choose_pose, downhill
+from workbench.geometry.cameras.camera_motions import gauss_newton_step, rms_reprojection
 from workbench.geometry.motions import exp_se3
 
 

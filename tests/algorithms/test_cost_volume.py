@@ -6,8 +6,8 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms import cost_volume
-from workbench.algorithms.cost_volume import (
+from workbench.algorithms.stereo import cost_volume
+from workbench.algorithms.stereo.cost_volume import (
     box_sum,
     census,
     census_cost_volume,

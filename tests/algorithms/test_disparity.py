@@ -9,15 +9,15 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.cost_volume import (
+from workbench.algorithms.stereo.cost_volume import (
     CENSUS_BITS,
     census_cost_volume,
     ncc_cost_volume,
     sad_cost_volume,
     ssd_cost_volume,
 )
-from workbench.algorithms.disparity import Matching, Stage, match
-from workbench.algorithms.disparity_map import (
+from workbench.algorithms.stereo.disparity import Matching, Stage, match
+from workbench.algorithms.stereo.disparity_map import (
     agree,
     fill,
     median3,
@@ -26,8 +26,8 @@ from workbench.algorithms.disparity_map import (
     winner_takes_all,
 )
 from workbench.data.files import read_image
-from workbench.data.stereo import grey, motorcycle_pair, synthetic_pair
-from workbench.geometry.stereo import StereoCamera, depth_cloud, depth_from_disparity
+from workbench.data.views.stereo import grey, motorcycle_pair, synthetic_pair
+from workbench.geometry.cameras.stereo import StereoCamera, depth_cloud, depth_from_disparity
 
 CAMERA = StereoCamera(150.0, 79.5, 59.5, 0.1)
 

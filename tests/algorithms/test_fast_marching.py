@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.fast_marching import eikonal_update, march
+from workbench.algorithms.surfaces.fast_marching import eikonal_update, march
 
 
 def by_heap(start, free, h):

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.fit_studies import FATES, Basin, compare_circles, compare_lines, repeat_fit, try_starts
+from lessons.fitting.fit_scenes import arc_points, errors
+from lessons.fitting.fit_studies import FATES, Basin, compare_circles, compare_lines, repeat_fit, try_starts
+from lessons.fitting.round_shapes import CIRCLE
 from workbench.algorithms.least_squares import Descents, damped_step, descend
-from workbench.algorithms.round_shapes import CIRCLE
-from workbench.data.fit_scenes import arc_points, errors
-from workbench.geometry.circles_spheres import linearise_sphere
+from workbench.geometry.shapes.circles_spheres import linearise_sphere
 
 
 def ended(p: np.ndarray):

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.flow import Stop, flow, numeric_gradient, polyak_length, rms
 from workbench.algorithms.transport import best_matching, earth_movers, earth_movers_gradient
-from workbench.geometry.shape_distances import chamfer, chamfer_gradient
+from workbench.algorithms.transport.flow import Stop, flow, numeric_gradient, polyak_length, rms
+from workbench.geometry.points.shape_distances import chamfer, chamfer_gradient
 
 few = settings(max_examples=10, deadline=None)
 seeds = st.integers(0, 10_000)

@@ -6,13 +6,13 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms import icp as module
-from workbench.algorithms.icp import Gate, State, Stop, bounding_corners, icp, nearest
-from workbench.data.clouds import pair
+from workbench.algorithms.registration import icp as module
+from workbench.algorithms.registration.icp import Gate, State, Stop, bounding_corners, icp, nearest
 from workbench.data.files import read_cloud, read_pose
-from workbench.geometry.alignment import align_affine, align_rigid, align_similarity, nearest_rotation
+from workbench.data.shapes.clouds import pair
 from workbench.geometry.motions import apply, exp_so3, inverse, motion, rotation_angle
-from workbench.geometry.normals import point_normals
+from workbench.geometry.motions.alignment import align_affine, align_rigid, align_similarity, nearest_rotation
+from workbench.geometry.points.normals import point_normals
 from workbench.tracing import listening
 
 SEEDS = st.integers(0, 1000)

@@ -12,7 +12,7 @@ from workbench.algorithms.interpolation import (
     slerp_to_minus_q,
 )
 from workbench.geometry.motions import exp_se3, inverse
-from workbench.geometry.rotations import euler_to_matrix, rotation_from_axis_angle
+from workbench.geometry.motions.rotations import euler_to_matrix, rotation_from_axis_angle
 
 few = settings(max_examples=25, deadline=None)
 poses = st.tuples(*[st.floats(-1.7, 1.7)] * 6).map(np.array).map(exp_se3)

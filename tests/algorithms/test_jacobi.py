@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.jacobi import TOLERANCE, jacobi
+from workbench.algorithms.registration.jacobi import TOLERANCE, jacobi
 
 MATRICES = st.tuples(st.integers(0, 10_000), st.integers(2, 6))
 

@@ -6,7 +6,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.kd_tree import LEAF, build_tree, looked_at, search
+from workbench.algorithms.spatial.kd_tree import LEAF, build_tree, looked_at, search
 
 
 def tree_of(p: np.ndarray):

@@ -6,6 +6,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from lessons.fitting.fit_scenes import arc_points
 from tests.truths.fitting import straight
 from workbench.algorithms.least_squares import (
     Stop,
@@ -16,8 +17,7 @@ from workbench.algorithms.least_squares import (
     descend_many,
     with_its_way,
 )
-from workbench.data.fit_scenes import arc_points
-from workbench.geometry.circles_spheres import linearise_sphere
+from workbench.geometry.shapes.circles_spheres import linearise_sphere
 
 seeds = st.integers(0, 2**32 - 1)
 HOME, BEYOND = np.array([0.5, 0.4, 0.7]), np.array([2.5, 0.0, 1.0])

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from tests.algorithms.gradients import assert_gradient, descended
-from workbench.algorithms import mesh_fitting
-from workbench.algorithms.mesh_fitting import Term, fit_mesh
-from workbench.data.surfaces import sphere
-from workbench.geometry.mesh_energies import edge_energy, face_pairs, laplacian_energy, normal_energy, umbrella
+from workbench.algorithms.learning import mesh_fitting
+from workbench.algorithms.learning.mesh_fitting import Term, fit_mesh
+from workbench.data.shapes.surfaces import sphere
 from workbench.geometry.meshes import edges as edges_of
-from workbench.geometry.sampling import places_on_faces, points_on_faces
+from workbench.geometry.meshes.mesh_energies import edge_energy, face_pairs, laplacian_energy, normal_energy, umbrella
+from workbench.geometry.points.sampling import places_on_faces, points_on_faces
 
 NOTHING: dict[Term, float] = {"laplacian": 0.0, "normal": 0.0, "edge": 0.0}
 BALL = sphere(42)

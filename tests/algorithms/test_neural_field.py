@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms import neural_field, perceptron
-from workbench.algorithms.neural_field import BATCH, CLAMP, Network, encoded, new_network, train_field
-from workbench.geometry.signed_distances import torus_sdf
+from workbench.algorithms.learning import neural_field, perceptron
+from workbench.algorithms.learning.neural_field import BATCH, CLAMP, Network, encoded, new_network, train_field
+from workbench.geometry.fields.signed_distances import torus_sdf
 
 TARGETS = ("sdf", "clamped", "occupancy")
 

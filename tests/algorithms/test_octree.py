@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.octree import POINTER_BYTES, grow_octree
-from workbench.geometry.signed_distances import box_sdf, torus_sdf
-from workbench.geometry.voxels import Grid
+from workbench.algorithms.spatial.octree import POINTER_BYTES, grow_octree
+from workbench.geometry.fields.signed_distances import box_sdf, torus_sdf
+from workbench.geometry.fields.voxels import Grid
 
 LOW = np.full(3, -1.0)
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.pan_tilt import follow
-from workbench.geometry.curvilinear import spherical_from_cartesian
+from lessons.coordinates.pan_tilt import follow
+from workbench.geometry.shapes.curvilinear import spherical_from_cartesian
 
 V = np.array([10.0, 0.0, 0.0])
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.parallels import scale_last, step_back, turn_parallel
-from workbench.geometry.projective import meet
+from lessons.coordinates.parallels import scale_last, step_back, turn_parallel
+from workbench.geometry.shapes.projective import meet
 
 
 def test_any_factor_names_the_same_point_and_means_need_w_one():

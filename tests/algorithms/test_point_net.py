@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.algorithms.gradients import assert_gradient, descended
-from workbench.algorithms import point_net
-from workbench.algorithms.perceptron import count_values
-from workbench.algorithms.point_net import PointNet, Pool, train_classifier
+from workbench.algorithms.learning import point_net
+from workbench.algorithms.learning.perceptron import count_values
+from workbench.algorithms.learning.point_net import PointNet, Pool, train_classifier
 
 
 def network_of(pool: Pool, n: int = 7, seed: int = 0) -> PointNet:

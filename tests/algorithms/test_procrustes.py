@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.test_motions import motions
-from workbench.algorithms.procrustes import FLIPPED, Flip, procrustes
-from workbench.data.rabbit import rabbit
-from workbench.geometry.alignment import align_rigid, align_similarity, rmse, similarity_scale
-from workbench.geometry.principal_axes import principal_axes
+from workbench.algorithms.registration.procrustes import FLIPPED, Flip, procrustes
+from workbench.data.shapes.rabbit import rabbit
+from workbench.geometry.motions.alignment import align_rigid, align_similarity, rmse, similarity_scale
+from workbench.geometry.motions.principal_axes import principal_axes
 
 SEEDS = st.integers(0, 10_000)
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tests.algorithms.gradients import assert_gradient, descended
-from workbench.algorithms import radiance_field
-from workbench.algorithms.radiance_field import CELLS, RadianceField, reconstruct
-from workbench.geometry.volume_rendering import seen
+from workbench.algorithms.learning import radiance_field
+from workbench.algorithms.learning.radiance_field import CELLS, RadianceField, reconstruct
+from workbench.geometry.cameras.volume_rendering import seen
 
 REACH = (0.5, 3.5)
 

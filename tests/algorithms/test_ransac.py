@@ -5,12 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.models import CIRCLE, FUNDAMENTAL, HOMOGRAPHY, LINE, MODELS, PLANE, SPHERE, rms_distance
-from workbench.algorithms.ransac import Fit, Judge, Stop, iterations_needed, polished, ransac, refit_rounds
-from workbench.algorithms.samplers import prosac_samples, uniform_samples
-from workbench.algorithms.scores import count_score, msac_score
-from workbench.data.files import read_cloud
-from workbench.data.robust import (
+from lessons.ransac.robust_scenes import (
     circle_scene,
     line_scene,
     match_scene,
@@ -19,7 +14,21 @@ from workbench.data.robust import (
     two_planes_scene,
     wire_scene,
 )
-from workbench.geometry.lines_planes import angle_between_planes
+from workbench.algorithms.robust.models import (
+    CIRCLE,
+    FUNDAMENTAL,
+    HOMOGRAPHY,
+    LINE,
+    MODELS,
+    PLANE,
+    SPHERE,
+    rms_distance,
+)
+from workbench.algorithms.robust.ransac import Fit, Judge, Stop, iterations_needed, polished, ransac, refit_rounds
+from workbench.algorithms.robust.samplers import prosac_samples, uniform_samples
+from workbench.algorithms.robust.scores import count_score, msac_score
+from workbench.data.files import read_cloud
+from workbench.geometry.shapes.lines_planes import angle_between_planes
 from workbench.tracing import listening
 
 SCENES = {

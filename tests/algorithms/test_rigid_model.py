@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.algorithms.models import RIGID
-from workbench.algorithms.ransac import Judge, ransac
-from workbench.algorithms.samplers import uniform_samples
-from workbench.geometry.alignment import align_rigid, motion_error
+from workbench.algorithms.robust.models import RIGID
+from workbench.algorithms.robust.ransac import Judge, ransac
+from workbench.algorithms.robust.samplers import uniform_samples
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
+from workbench.geometry.motions.alignment import align_rigid, motion_error
 
 
 def a_motion(rng: np.random.Generator) -> np.ndarray:

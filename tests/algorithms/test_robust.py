@@ -4,9 +4,9 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.models import LINE, PLANE, rms_distance
+from lessons.ransac.robust_scenes import line_scene, plane_scene
 from workbench.algorithms.robust import HUBER, LOSSES, Settled, cascade, huber_loss, huber_weights, reweighted_fit
-from workbench.data.robust import line_scene, plane_scene
+from workbench.algorithms.robust.models import LINE, PLANE, rms_distance
 
 
 def test_a_cascade_goes_on_from_where_the_loss_before_ended():

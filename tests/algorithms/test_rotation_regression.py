@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tests.algorithms.gradients import assert_gradient, descended
-from workbench.algorithms import rotation_regression
-from workbench.algorithms.rotation_regression import regress
-from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, random_rotations
+from workbench.algorithms.learning import rotation_regression
+from workbench.algorithms.learning.rotation_regression import regress
+from workbench.geometry.motions.rotation_outputs import IN_PLANE, IN_SPACE, random_rotations
 
 ALL = [(name, d) for d, table in ((2, IN_PLANE), (3, IN_SPACE)) for name in table]
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from lessons.fitting.fit_scenes import arc_points, cap_points, pipe_points
+from lessons.fitting.round_shapes import CIRCLE, CYLINDER, ROUND_SHAPES, SPHERE, feet, fit_round, outline
 from tests.truths.fitting import distances
-from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, ROUND_SHAPES, SPHERE, feet, fit_round, outline
-from workbench.data.fit_scenes import arc_points, cap_points, pipe_points
 
 STARTS = {
     "circle": np.array([0.2, 0.1, 0.8]),

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.samplers import draw_samples, prosac_samples, termination_length, uniform_samples
+from workbench.algorithms.robust.samplers import draw_samples, prosac_samples, termination_length, uniform_samples
 
 
 @settings(max_examples=50, deadline=None)

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.disparity_map import winner_takes_all
-from workbench.algorithms.semiglobal import (
+from workbench.algorithms.stereo.disparity_map import winner_takes_all
+from workbench.algorithms.stereo.semiglobal import (
     DIRECTIONS,
     energy,
     path_costs,

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.algorithms.gradients import assert_gradient, descended
-from workbench.algorithms import set_regression
-from workbench.algorithms.set_regression import learn_set
+from workbench.algorithms.learning import set_regression
+from workbench.algorithms.learning.set_regression import learn_set
 
 
 @pytest.mark.parametrize("set_loss", ["Chamfer", "earth mover's"])

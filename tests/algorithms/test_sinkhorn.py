@@ -4,8 +4,8 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.sinkhorn import Stop, sinkhorn, sinkhorn_steps, tight_potentials
 from workbench.algorithms.transport import earth_movers
+from workbench.algorithms.transport.sinkhorn import Stop, sinkhorn, sinkhorn_steps, tight_potentials
 
 few = settings(max_examples=25, deadline=None)
 seeds = st.integers(0, 10_000)

@@ -3,14 +3,16 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.diffusion import heat, smooth
-from workbench.algorithms.graph_network import softmax, spread, train
-from workbench.algorithms.spectral_cut import spectral_cut
-from workbench.data import networks, surfaces
+from workbench.algorithms.graphs.diffusion import heat, smooth
+from workbench.algorithms.graphs.spectral_cut import spectral_cut
+from workbench.algorithms.learning.graph_network import softmax, spread, train
+from workbench.data import networks
 from workbench.data.networks import dumbbell
-from workbench.geometry import graphs, meshes
-from workbench.geometry.invariants import signed_volume
-from workbench.geometry.spectra import Laplacian
+from workbench.data.shapes import surfaces
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.graphs.spectra import Laplacian
+from workbench.geometry.meshes import triangles as meshes
+from workbench.geometry.meshes.invariants import signed_volume
 
 CLUB = networks.karate()
 KARATE = graphs.graph_of(CLUB.edges, 34)
@@ -44,7 +46,7 @@ def test_heat_is_kept_and_tends_to_the_exact_one(kind):
     ball = surfaces.sphere(162)
     adjacency = meshes.adjacency(ball.faces, len(ball.p))
     if kind == "cotangent":
-        from workbench.geometry.laplacian import cotangent_laplacian, mixed_areas
+        from workbench.geometry.meshes.laplacian import cotangent_laplacian, mixed_areas
 
         laplacian = Laplacian(cotangent_laplacian(ball.p, ball.faces), mixed_areas(ball.p, ball.faces))
     else:

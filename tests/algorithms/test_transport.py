@@ -6,7 +6,6 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.flow import numeric_gradient
 from workbench.algorithms.transport import (
     FEW_COPIES,
     best_assignment,
@@ -18,8 +17,9 @@ from workbench.algorithms.transport import (
     earth_movers,
     earth_movers_gradient,
 )
+from workbench.algorithms.transport.flow import numeric_gradient
 from workbench.geometry.motions import apply, exp_so3, motion
-from workbench.geometry.shape_distances import nearest_both_ways
+from workbench.geometry.points.shape_distances import nearest_both_ways
 
 few = settings(max_examples=25, deadline=None)
 seeds = st.integers(0, 10_000)
@@ -75,7 +75,7 @@ def test_subtracted_potentials_leave_the_optimum_exact(made, n):
 
 @pytest.mark.parametrize("relaxation", [1.0, 1.99])
 def test_scalings_that_run_away_leave_the_optimum_exact(monkeypatch, relaxation):
-    monkeypatch.setattr("workbench.algorithms.transport._RELAXATION", relaxation)
+    monkeypatch.setattr("workbench.algorithms.transport.exact._RELAXATION", relaxation)
     p_a, p_b = np.random.default_rng(10).normal(size=(2, 400, 3)) + np.array([0.0, 0.3])[:, None, None]
     assert np.isfinite(blurred_potentials(scipy.spatial.distance.cdist(p_a, p_b))).all()
     assert earth_movers(p_a, p_b) == pytest.approx(optimum(p_a, p_b), rel=1e-12)
@@ -84,7 +84,7 @@ def test_scalings_that_run_away_leave_the_optimum_exact(monkeypatch, relaxation)
 def test_potentials_are_computed_only_where_they_pay(monkeypatch):
     computed = []
     monkeypatch.setattr(
-        "workbench.algorithms.transport.blurred_potentials",
+        "workbench.algorithms.transport.exact.blurred_potentials",
         lambda cost: computed.append(len(cost)) or np.zeros(len(cost)),
     )
     rng = np.random.default_rng(0)

@@ -4,11 +4,16 @@ import pytest
 from tests.geometry.test_essential import K, L, pair
 from workbench.algorithms.two_views import Related, follow_ray, relate, solve_linear
 from workbench.errors import InputError
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.epipolar import epipolar_lines, fit_fundamental, fundamental_from_cameras, sampson_distances
-from workbench.geometry.essential import essential_to_poses
-from workbench.geometry.homography import homogeneous, normalising_similarity
-from workbench.geometry.triangulation import triangulate
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.two_views.epipolar import (
+    epipolar_lines,
+    fit_fundamental,
+    fundamental_from_cameras,
+    sampson_distances,
+)
+from workbench.geometry.two_views.essential import essential_to_poses
+from workbench.geometry.two_views.homography import homogeneous, normalising_similarity
+from workbench.geometry.two_views.triangulation import triangulate
 
 
 def steps(uv_first, uv_second, **changed) -> list[Related]:

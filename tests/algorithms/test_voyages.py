@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from lessons.coordinates.voyages import to_the_pole, travel
 from tests.truths.coordinates import apart, between_means, straight_over_shortest
-from workbench.algorithms.voyages import to_the_pole, travel
 from workbench.data.places import between_cities
-from workbench.geometry.globe import PLANETS, great_circle_distance
+from workbench.geometry.shapes.globe import PLANETS, great_circle_distance
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ from workbench.authoring.validate import look_at
 from workbench.cli import main
 from workbench.exercise.finding import exercises_of
 from workbench.exercise.grading import grade_function
-from workbench.loading import load
 from workbench.publish.site import publish
+from workbench.run.loading import load
 
 CIRCLE = Path(__file__).resolve().parents[1] / "authors" / "circle"
 MOST_LINES = 250

@@ -16,11 +16,11 @@ from workbench.authoring.new import TEMPLATE
 from workbench.authoring.promises import Subject
 from workbench.authoring.validate import look_at
 from workbench.cli import COMMANDS
-from workbench.flags import RESERVED
 from workbench.lesson import Lesson, Question, View
-from workbench.loading import load
-from workbench.timeline import MOST_BYTES, MOST_STEPS
-from workbench.typeset import LARGEST_PICTURE, PICTURES
+from workbench.run.flags import RESERVED
+from workbench.run.loading import load
+from workbench.run.timeline import MOST_BYTES, MOST_STEPS
+from workbench.words.typeset import LARGEST_PICTURE, PICTURES
 
 ROOT = Path(__file__).resolve().parents[2]
 GUIDE = (ROOT / "docs" / "lessons.md").read_text(encoding="utf-8")

@@ -11,8 +11,8 @@ from workbench.cli import main
 from workbench.errors import InputError
 from workbench.knobs import called, called_by_flags, fields_of, in_words, paths_of, showing
 from workbench.lesson import course
-from workbench.session import Session
-from workbench.timeline import Timeline
+from workbench.run.session import Session
+from workbench.run.timeline import Timeline
 
 WITH_FILES = [
     (name, field.name)

@@ -10,7 +10,7 @@ from workbench.authoring.new import TEMPLATE
 from workbench.authoring.promises import Subject
 from workbench.authoring.validate import look_at
 from workbench.errors import InputError
-from workbench.loading import load
+from workbench.run.loading import load
 
 CIRCLE = Path(__file__).resolve().parents[1] / "authors" / "circle"
 LESSON, DRAW, STATE, RUNS, PAGE = "lesson.py", "draw.py", "state.py", "presets.py", "page.md"

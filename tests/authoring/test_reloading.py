@@ -12,8 +12,8 @@ from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
 from workbench.exercise.starter import write_starter
 from workbench.exercise.watching import Watched
-from workbench.loading import load
-from workbench.timeline import Timeline
+from workbench.run.loading import load
+from workbench.run.timeline import Timeline
 
 CIRCLE = Path(__file__).resolve().parents[1] / "authors" / "circle"
 

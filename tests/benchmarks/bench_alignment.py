@@ -13,9 +13,9 @@ import numpy as np
 import scipy
 
 from tests.benchmarks.bench_icp import best, line, open3d, optional, trimesh
-from workbench.geometry.alignment import align_similarity
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.principal_axes import canonical_signs, degrees_between_axes, principal_axes
+from workbench.geometry.motions.alignment import align_similarity
+from workbench.geometry.motions.principal_axes import canonical_signs, degrees_between_axes, principal_axes
 
 AWAY = 1e6  # metres: where moments about the origin have lost their digits
 N = 100_000

@@ -19,8 +19,8 @@ from pathlib import Path
 import numpy as np
 
 from tests.benchmarks.bench_curvature import peer
-from workbench.algorithms.calibration import State, calibrate
-from workbench.data import boards
+from workbench.algorithms.cameras.calibration import State, calibrate
+from workbench.data.views import boards
 
 CORNERS = Path(__file__).parents[3] / "shared" / "data" / "calibration" / "corners_9x6.npz"
 

@@ -11,11 +11,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from workbench.data.street import street
+from workbench.data.views.street import street
 from workbench.geometry.cameras import intrinsics, look_at, normalize, project
-from workbench.geometry.distortion import NONE, Distortion
+from workbench.geometry.cameras.distortion import NONE, Distortion
+from workbench.geometry.cameras.raster import Item, MeshItem, SegmentItem, render
 from workbench.geometry.motions import exp_so3, motion
-from workbench.geometry.raster import Item, MeshItem, SegmentItem, render
 
 N = 1_000_000
 LENS = Distortion(-0.26637, -0.038589, 0.0017832, -0.00028122, 0.23839)

@@ -12,9 +12,9 @@ import argparse
 import numpy as np
 
 from tests.benchmarks.bench_icp import best, line, optional
-from workbench.geometry.curvilinear import cartesian_from_spherical, spherical_from_cartesian
-from workbench.geometry.globe import EARTH_RADIUS, great_circle_distance
-from workbench.geometry.projective import meet
+from workbench.geometry.shapes.curvilinear import cartesian_from_spherical, spherical_from_cartesian
+from workbench.geometry.shapes.globe import EARTH_RADIUS, great_circle_distance
+from workbench.geometry.shapes.projective import meet
 
 N, WAYS = 1_000_000, 100_000
 trimesh, astropy, pyproj = (optional(name) for name in ("trimesh", "astropy.coordinates", "pyproj"))

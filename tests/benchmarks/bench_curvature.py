@@ -20,10 +20,10 @@ from types import ModuleType
 import numpy as np
 import scipy
 
-from workbench.data.surfaces import Surface, sphere, torus
-from workbench.geometry.curvature import curvatures, gaussian_curvature
-from workbench.geometry.laplacian import cotangent_laplacian, eigenpairs, mixed_areas
-from workbench.geometry.quadric_fit import fit_quadrics
+from workbench.data.shapes.surfaces import Surface, sphere, torus
+from workbench.geometry.meshes.curvature import curvatures, gaussian_curvature
+from workbench.geometry.meshes.laplacian import cotangent_laplacian, eigenpairs, mixed_areas
+from workbench.geometry.meshes.quadric_fit import fit_quadrics
 
 Estimate = tuple[np.ndarray | None, np.ndarray | None]
 Contender = Callable[[], object]

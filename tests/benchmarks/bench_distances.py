@@ -20,11 +20,11 @@ import numpy as np
 import scipy
 
 from tests.benchmarks.bench_curvature import Contender, compare, peer
-from workbench.algorithms.fast_marching import march
-from workbench.algorithms.heat_method import HeatMethod, mean_edge_length
-from workbench.data import surfaces
-from workbench.geometry import geodesics, metrics
-from workbench.geometry.meshes import corners
+from workbench.algorithms.surfaces.fast_marching import march
+from workbench.algorithms.surfaces.heat_method import HeatMethod, mean_edge_length
+from workbench.data.shapes import surfaces
+from workbench.geometry.meshes import corners, geodesics
+from workbench.geometry.points import metrics
 
 FLOORS = {"dijkstra": 1.3, "heat": 1.3, "mahalanobis": 0.13}
 SIDE = 81

@@ -19,13 +19,13 @@ import numpy as np
 
 from lessons.epipolar.exercises import a_pair
 from tests.benchmarks.bench_icp import line, optional
-from workbench.geometry.alignment import degrees_between
 from workbench.geometry.cameras import normalize
-from workbench.geometry.epipolar import fit_fundamental, refine_fundamental
-from workbench.geometry.essential import essential_from_fundamental, essential_to_poses, refine_motion
 from workbench.geometry.motions import angle_between, motion
-from workbench.geometry.rectification import rectify
-from workbench.geometry.triangulation import before_both, camera_matrix, midpoints, triangulate
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.two_views.epipolar import fit_fundamental, refine_fundamental
+from workbench.geometry.two_views.essential import essential_from_fundamental, essential_to_poses, refine_motion
+from workbench.geometry.two_views.rectification import rectify
+from workbench.geometry.two_views.triangulation import before_both, camera_matrix, midpoints, triangulate
 
 MATCHES, SIGMA = 1365, 0.5
 cv2, poselib = optional("cv2"), optional("poselib")

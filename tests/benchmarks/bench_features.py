@@ -25,16 +25,16 @@ import numpy as np
 
 from lessons.features.lesson import run
 from lessons.features.state import Params, Scanned
+from lessons.features.turned_pictures import motorcycle_levels
 from tests.benchmarks.bench_icp import line, optional
 from workbench.data.files import read_cloud, read_pose
-from workbench.data.rabbit import rabbit
+from workbench.data.shapes.rabbit import rabbit
 from workbench.data.thinning import voxel_means
-from workbench.data.turned_pictures import motorcycle_levels
-from workbench.geometry.fpfh import fpfh
-from workbench.geometry.keypoints import harris_response, iss_keypoints
-from workbench.geometry.matching import mutual_matches
+from workbench.geometry.features.fpfh import fpfh
+from workbench.geometry.features.keypoints import harris_response, iss_keypoints
+from workbench.geometry.features.matching import mutual_matches
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
-from workbench.geometry.normals import point_normals
+from workbench.geometry.points.normals import point_normals
 
 SCANS = Path(__file__).resolve().parents[3] / "shared" / "data" / "icp"
 RADIUS, STARTS = 0.15, 20

@@ -17,15 +17,15 @@ for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 import numpy as np
 import scipy
 
+from lessons.fitting.fit_scenes import arc_points, pipe_points
+from lessons.fitting.round_shapes import CIRCLE, CYLINDER, RoundShape
 from tests.benchmarks.bench_icp import best, line, optional
 from tests.truths.fitting import distances
 from workbench.algorithms.least_squares import damped_step, descend
-from workbench.algorithms.models import LINE
 from workbench.algorithms.robust import HUBER, TUKEY, reweighted_fit
-from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, RoundShape
-from workbench.data.fit_scenes import arc_points, pipe_points
-from workbench.geometry.algebraic_fits import fit_algebraic
-from workbench.geometry.lines_planes import line_angle
+from workbench.algorithms.robust.models import LINE
+from workbench.geometry.shapes.algebraic_fits import fit_algebraic
+from workbench.geometry.shapes.lines_planes import line_angle
 
 N, FITS = 1000, 20
 circle_fit, cv2 = optional("circle_fit"), optional("cv2")

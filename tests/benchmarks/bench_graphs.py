@@ -17,8 +17,8 @@ import numpy as np
 import scipy
 
 from tests.benchmarks.bench_curvature import Contender, compare, peer
-from workbench.geometry import graphs
-from workbench.geometry.spectra import Laplacian
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.graphs.spectra import Laplacian
 
 FLOORS = {"neighbours": 0.8, "fiedler": 0.27}
 

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 import scipy
 
-from workbench.algorithms.icp import Gate, icp, matcher
-from workbench.data.clouds import pair
-from workbench.geometry.alignment import align_rigid, point_to_plane_step
+from workbench.algorithms.registration.icp import Gate, icp, matcher
+from workbench.data.shapes.clouds import pair
 from workbench.geometry.motions import exp_so3, motion, rotation_angle
-from workbench.geometry.normals import point_normals
+from workbench.geometry.motions.alignment import align_rigid, point_to_plane_step
+from workbench.geometry.points.normals import point_normals
 
 Register = Callable[[float, np.ndarray, float, int], np.ndarray]
 """register(gate, T_target_source, stop below, most iterations) -> T_target_source"""

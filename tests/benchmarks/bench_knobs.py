@@ -14,7 +14,7 @@ import time
 from collections.abc import Iterator
 from typing import Any
 
-from workbench.threads import one_each
+from workbench.machinery.threads import one_each
 
 one_each()  # as the server does, before numpy comes
 
@@ -23,7 +23,7 @@ from workbench.errors import InputError
 from workbench.knobs import Field, fields_of
 from workbench.lesson import Lesson, catalog
 from workbench.page.steps import Steps
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 MOST = 0.1
 """Seconds of processor time that a first picture may need."""

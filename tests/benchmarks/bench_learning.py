@@ -22,8 +22,8 @@ import numpy as np
 
 from lessons.learning.lesson import lesson, run
 from tests.benchmarks.bench_ransac import optional
-from workbench.algorithms.perceptron import backward, descend, forward, layers_of, new_values
-from workbench.geometry.rotation_outputs import IN_SPACE, random_rotations
+from workbench.algorithms.learning.perceptron import backward, descend, forward, layers_of, new_values
+from workbench.geometry.motions.rotation_outputs import IN_SPACE, random_rotations
 
 SIZES, BATCH, UPDATES = (9, 64, 64, 6), 64, 200
 Gradient = Callable[[np.ndarray, np.ndarray], tuple[float, np.ndarray]]

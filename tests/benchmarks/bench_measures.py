@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 import trimesh
 
-from workbench.data import surfaces
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.containment import columns, windings
-from workbench.geometry.measures import signed_volume, surface_area
-from workbench.geometry.sampling import points_on_faces
-from workbench.geometry.voxels import grid_over, occupied
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.geometry.fields.voxels import grid_over, occupied
+from workbench.geometry.meshes.containment import columns, windings
+from workbench.geometry.meshes.measures import signed_volume, surface_area
+from workbench.geometry.points.sampling import points_on_faces
 
 Task = Callable[[], Any]
 

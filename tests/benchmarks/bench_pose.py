@@ -20,16 +20,16 @@ import numpy as np
 
 from tests.benchmarks.bench_ransac import optional
 from tests.geometry.views import triples, view
-from workbench.algorithms.camera_model import camera_model
-from workbench.algorithms.ransac import Judge, ransac
-from workbench.algorithms.samplers import uniform_samples
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.camera_motions import refined, sqpnp
+from workbench.algorithms.robust.camera_model import camera_model
+from workbench.algorithms.robust.ransac import Judge, ransac
+from workbench.algorithms.robust.samplers import uniform_samples
 from workbench.geometry.cameras import intrinsics
-from workbench.geometry.control_points import epnp
+from workbench.geometry.cameras.camera_motions import refined, sqpnp
+from workbench.geometry.cameras.control_points import epnp
+from workbench.geometry.cameras.planar_motions import planar_motions
+from workbench.geometry.cameras.three_points import p3p, unit_rays
 from workbench.geometry.motions import exp_so3, motion
-from workbench.geometry.planar_motions import planar_motions
-from workbench.geometry.three_points import p3p, unit_rays
+from workbench.geometry.motions.alignment import degrees_between
 
 F, PIXEL = 800.0, 1 / 800
 K = intrinsics(F, 320.0, 240.0)

@@ -19,10 +19,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from workbench.algorithms.models import FUNDAMENTAL, HOMOGRAPHY, PLANE, Model, rms_distance
-from workbench.algorithms.ransac import Judge, ransac
-from workbench.algorithms.samplers import uniform_samples
-from workbench.data.robust import match_scene, plane_scene
+from lessons.ransac.robust_scenes import match_scene, plane_scene
+from workbench.algorithms.robust.models import FUNDAMENTAL, HOMOGRAPHY, PLANE, Model, rms_distance
+from workbench.algorithms.robust.ransac import Judge, ransac
+from workbench.algorithms.robust.samplers import uniform_samples
 
 MOST_SAMPLES = 500
 Contender = Callable[[np.ndarray], np.ndarray | None]

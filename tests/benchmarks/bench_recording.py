@@ -18,8 +18,8 @@ from lessons.icp.draw import draw as draw_icp
 from lessons.icp.state import State as IcpState
 from workbench.lesson import Lesson, catalog
 from workbench.recording.write import record_file
+from workbench.run.timeline import Timeline
 from workbench.scene import Scene
-from workbench.timeline import Timeline
 
 ROUNDS, STEPS = 3, 50
 

@@ -21,14 +21,14 @@ import numpy as np
 import scipy
 
 from tests.benchmarks.bench_curvature import Contender, compare, peer
-from workbench.algorithms.kd_tree import build_tree, looked_at
-from workbench.algorithms.neural_field import BATCH, encoded, new_network, train_field
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.bezier import bezier_patch
+from workbench.algorithms.learning.neural_field import BATCH, encoded, new_network, train_field
+from workbench.algorithms.spatial.kd_tree import build_tree, looked_at
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.geometry.fields.signed_distances import face_tree, mesh_sdf, torus_sdf
+from workbench.geometry.fields.voxels import Grid
 from workbench.geometry.level_sets import level_surface
-from workbench.geometry.measures import signed_volume
-from workbench.geometry.signed_distances import face_tree, mesh_sdf, torus_sdf
-from workbench.geometry.voxels import Grid
+from workbench.geometry.meshes.measures import signed_volume
+from workbench.geometry.shapes.bezier import bezier_patch
 
 FLOORS = {"network": 0.5, "patch": 0.02}
 

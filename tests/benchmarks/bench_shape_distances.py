@@ -20,10 +20,10 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from workbench.algorithms import transport
-from workbench.algorithms.sinkhorn import sinkhorn
 from workbench.algorithms.transport import earth_movers
-from workbench.geometry.shape_distances import chamfer
+from workbench.algorithms.transport import exact as transport
+from workbench.algorithms.transport.sinkhorn import sinkhorn
+from workbench.geometry.points.shape_distances import chamfer
 
 Task = Callable[[], float]
 

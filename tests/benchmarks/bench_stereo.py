@@ -16,11 +16,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from workbench.algorithms.cost_volume import census_cost_volume, sad_cost_volume
-from workbench.algorithms.disparity import match, usual_penalties
+from workbench.algorithms.stereo.cost_volume import census_cost_volume, sad_cost_volume
+from workbench.algorithms.stereo.disparity import match, usual_penalties
 from workbench.data.files import read_image
-from workbench.data.stereo import StereoPair, grey, motorcycle_pair, shrunk, synthetic_pair
-from workbench.geometry.stereo import StereoCamera
+from workbench.data.views.stereo import StereoPair, grey, motorcycle_pair, shrunk, synthetic_pair
+from workbench.geometry.cameras.stereo import StereoCamera
 
 CONES = Path(__file__).resolve().parents[3] / "shared" / "data" / "stereo" / "cones"
 BLOCK = 3

@@ -15,7 +15,7 @@ from tests.browser.visits import SELDOM
 from workbench.lesson import Lesson, Question, Sweep
 from workbench.notebook import Replay
 from workbench.publish.site import publish
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 from workbench.viewer.server import Server
 
 WIDTH, HEIGHT = 1280, 720

@@ -8,9 +8,9 @@ from typing import Annotated, Literal
 import numpy as np
 import pytest
 
-from workbench import links
 from workbench.knobs import Knob
 from workbench.lesson import Lesson, Preset, Question
+from workbench.run import links
 from workbench.scene import Caption, Mesh, Points, Scene
 from workbench.viewer.server import Server
 from workbench.wire.nodes import Maker

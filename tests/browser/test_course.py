@@ -7,7 +7,7 @@ import pytest
 from tests.browser.homes import own_end
 from tests.browser.visits import Visit
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 LESSONS = list(catalog().values())

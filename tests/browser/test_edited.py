@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 from tests.browser.visits import at_rest
-from workbench import links
 from workbench.authoring.reloading import Edited
 from workbench.lesson import catalog
-from workbench.loading import load
+from workbench.run import links
+from workbench.run.loading import load
 from workbench.viewer.server import Server
 
 pytestmark = pytest.mark.browser

@@ -14,8 +14,8 @@ from tests.browser.feeding import VIEW, Fed
 from tests.wire.kinds import ENDS, FACE, KINDS, MOVED, SMALL
 from tests.wire.reading import Reader
 from workbench.lesson import View
+from workbench.run.timeline import Timeline
 from workbench.scene import Camera, Label, Mesh, Points, Scene, Segments
-from workbench.timeline import Timeline
 from workbench.wire.nodes import Maker
 from workbench.wire.packing import PageWire
 

@@ -20,9 +20,9 @@ from tests.browser.homes import HOMES, PHONE, Browser, Home, asked, barriers, li
 from workbench.knobs import Field, Gizmo, Pick, fields_of, text_of
 from workbench.lesson import catalog
 from workbench.page.code import moment_data
-from workbench.questions import answer
+from workbench.run.questions import answer
+from workbench.run.timeline import Timeline
 from workbench.scene import Picture
-from workbench.timeline import Timeline
 from workbench.viewer.connection import PageConnection
 
 pytestmark = pytest.mark.browser

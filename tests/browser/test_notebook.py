@@ -13,7 +13,7 @@ import pytest
 import workbench
 from workbench.lesson import catalog
 from workbench.notebook import HOW_TO_PLAY, STILL
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 CELL = 'import workbench\nworkbench.replay("icp", start_angle=120, steps=4, height=520)'

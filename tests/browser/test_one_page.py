@@ -5,8 +5,8 @@ import re
 import pytest
 
 from workbench.lesson import catalog
-from workbench.questions import answer
-from workbench.timeline import Timeline, Timelines
+from workbench.run.questions import answer
+from workbench.run.timeline import Timeline, Timelines
 
 pytestmark = pytest.mark.browser
 

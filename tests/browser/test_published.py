@@ -15,8 +15,8 @@ from tests.browser.homes import barriers
 from tests.browser.visits import SELDOM
 from workbench.lesson import Sweep, catalog
 from workbench.publish.site import publish
+from workbench.run.timeline import Timeline
 from workbench.scene import Points
-from workbench.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 FAKE = replace(

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from workbench.lesson import Question, catalog
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 ROUNDS = 3

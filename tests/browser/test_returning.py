@@ -6,9 +6,9 @@ import pytest
 from tests import fake
 from tests.browser.visits import at_rest
 from tests.viewer.test_serving import running
-from workbench import links
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run import links
+from workbench.run.timeline import Timeline
 from workbench.viewer.server import Server
 
 pytestmark = pytest.mark.browser

@@ -3,11 +3,12 @@
 import pytest
 
 from tests import fake
-from workbench import links, open_recording
+from workbench import open_recording
 from workbench.cli import main
 from workbench.lesson import catalog
 from workbench.numerals import brief, length
-from workbench.timeline import Timeline
+from workbench.run import links
+from workbench.run.timeline import Timeline
 from workbench.viewer.server import Server
 
 pytestmark = pytest.mark.browser

@@ -2,11 +2,11 @@
 
 import pytest
 
-from workbench import links
 from workbench.exercise.finding import exercises
 from workbench.exercise.starter import write_starter
 from workbench.exercise.watching import Watched
 from workbench.lesson import catalog
+from workbench.run import links
 from workbench.viewer.server import Server
 
 pytestmark = pytest.mark.browser

@@ -10,7 +10,7 @@ import pytest
 from tests import fake
 from tests.browser.feeding import VIEW, Fed
 from tests.wire.reading import Reader
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 from workbench.wire.nodes import Maker
 from workbench.wire.packing import PageWire, packed, run_bytes
 

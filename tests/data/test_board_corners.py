@@ -7,11 +7,11 @@ import pytest
 import scipy
 from PIL import Image
 
-from workbench.algorithms.calibration import calibrate
-from workbench.data import boards
-from workbench.data.board_corners import board_corners, refined
+from workbench.algorithms.cameras.calibration import calibrate
+from workbench.data.views import boards
+from workbench.data.views.board_corners import board_corners, refined
 from workbench.geometry.cameras import project, resize_intrinsics
-from workbench.geometry.raster import MeshItem, render
+from workbench.geometry.cameras.raster import MeshItem, render
 
 LEFT = [k for k in range(1, 15) if k != 10]
 

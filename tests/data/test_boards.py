@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workbench.data import boards
+from workbench.data.views import boards
 from workbench.geometry.cameras import project
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.data.clouds import SHAPES, pair, vase
-from workbench.data.rabbit import rabbit
+from workbench.data.shapes.clouds import SHAPES, pair, vase
+from workbench.data.shapes.rabbit import rabbit
 from workbench.geometry.motions import apply, exp_so3, motion
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from workbench.apart import told
-from workbench.data import boards
-from workbench.data.corners import read_corners
+from workbench.data.views import boards
+from workbench.data.views.corners import read_corners
 from workbench.errors import InputError
 
 P = boards.board_points(4, 3)

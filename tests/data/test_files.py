@@ -9,7 +9,7 @@ from PIL import Image
 
 from workbench.apart import COMMAND, allowing, told
 from workbench.data.files import read_cloud, read_image, read_mesh, read_pose
-from workbench.data.formats import _unpack_lzf
+from workbench.data.files.formats import _unpack_lzf
 from workbench.errors import InputError
 
 P = np.array([[0.0, 1.0, 2.0], [3.5, -4.25, 5.0], [6.0, 7.0, -8.125], [0.5, 0.25, 1e-3]])

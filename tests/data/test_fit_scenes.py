@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from workbench.data.fit_scenes import arc_points, cap_points, errors, line_points, outlying_plane, pipe_points
-from workbench.data.rims import find_rim, rim_points
+from lessons.fitting.fit_scenes import arc_points, cap_points, errors, line_points, outlying_plane, pipe_points
+from workbench.data.files.rims import find_rim, rim_points
 from workbench.errors import InputError
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workbench.data import flatland
+from lessons.learning import flatland
 
 
 def test_a_photograph_shows_each_disc_that_a_ray_hits_first_and_white_where_it_hits_none():

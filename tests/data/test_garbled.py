@@ -13,17 +13,17 @@ import pytest
 import trimesh
 from PIL import Image
 
+from lessons.features.turned_pictures import read_levels
 from tests.data.test_files import P, pcd, ply, rows
-from workbench.data.corners import find_corners, read_corners
-from workbench.data.edge_lists import read_edges
 from workbench.data.files import read_cloud, read_image, read_mesh, read_pose, read_voxels
+from workbench.data.files.edge_lists import read_edges
+from workbench.data.files.intrinsics import read_intrinsics
+from workbench.data.files.matches import read_matches
 from workbench.data.flat_points import read_flat_or_cloud, read_round
-from workbench.data.intrinsics import read_intrinsics
-from workbench.data.matches import read_matches
 from workbench.data.own_meshes import read_surface, read_welded
 from workbench.data.places import read_places
-from workbench.data.sightings import read_sightings
-from workbench.data.turned_pictures import read_levels
+from workbench.data.views.corners import find_corners, read_corners
+from workbench.data.views.sightings import read_sightings
 from workbench.errors import InputError
 
 TRIES = 25

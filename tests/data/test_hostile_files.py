@@ -17,15 +17,15 @@ import pytest
 from PIL import Image
 
 from workbench.apart import COMMAND, allowing
-from workbench.data.corners import read_corners
-from workbench.data.edge_lists import read_edges
 from workbench.data.files import read_cloud, read_image, read_mesh, read_pose
+from workbench.data.files.edge_lists import read_edges
+from workbench.data.files.intrinsics import read_intrinsics
+from workbench.data.files.matches import read_matches
 from workbench.data.flat_points import read_flat_or_cloud
-from workbench.data.intrinsics import read_intrinsics
-from workbench.data.matches import read_matches
 from workbench.data.pictures import names_in, pictures_of
 from workbench.data.places import read_places
-from workbench.data.sightings import read_sightings
+from workbench.data.views.corners import read_corners
+from workbench.data.views.sightings import read_sightings
 from workbench.errors import InputError
 
 READERS: dict[str, Callable] = {"cloud": read_cloud, "matches": read_matches}

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from workbench.data import labelled_shapes
-from workbench.data.labelled_shapes import NAMES, labelled_clouds
+from lessons.learning import labelled_shapes
+from lessons.learning.labelled_shapes import NAMES, labelled_clouds
 
 EVERY = np.repeat(np.arange(len(NAMES)), 20)
 

@@ -1,6 +1,6 @@
 import numpy as np
 
-from workbench.data.lidar import Street, lidar_pair, lidar_scan
+from workbench.data.shapes.lidar import Street, lidar_pair, lidar_scan
 from workbench.geometry.motions import apply, exp_so3, motion
 
 NOWHERE = np.empty((0, 7)), np.empty((0, 3))

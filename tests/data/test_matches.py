@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from workbench.data.matches import read_matches
+from workbench.data.files.matches import read_matches
 from workbench.errors import InputError
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from workbench.data.measurables import box, lantern, sphere, torus, two_spheres
-from workbench.geometry.measures import encloses, signed_volume, surface_area
+from lessons.measures.measurables import box, lantern, sphere, torus, two_spheres
 from workbench.geometry.meshes import boundary_edges, check_mesh, face_normals
+from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
 
 
 @pytest.mark.parametrize("shape", [sphere(3), torus(3), box()])

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.transport import earth_movers
-from workbench.data.point_sets import (
+from lessons.chamfer_emd.point_sets import (
     SHAPES,
     blob,
     bumped,
@@ -15,7 +14,8 @@ from workbench.data.point_sets import (
     spread,
     with_outlier,
 )
-from workbench.geometry.shape_distances import chamfer, index_mse, one_sided
+from workbench.algorithms.transport import earth_movers
+from workbench.geometry.points.shape_distances import chamfer, index_mse, one_sided
 
 
 @pytest.mark.parametrize("shape", SHAPES)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.data.rabbit import rabbit, rabbit_field, rabbit_mesh
+from workbench.data.shapes.rabbit import rabbit, rabbit_field, rabbit_mesh
 from workbench.geometry.meshes import check_mesh, corners, euler_characteristic, face_normals
 
 

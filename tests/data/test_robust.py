@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.models import MODELS
-from workbench.data.robust import (
+from lessons.ransac.robust_scenes import (
     IMAGE_SIZE,
     circle_scene,
     line_scene,
@@ -12,6 +11,7 @@ from workbench.data.robust import (
     two_planes_scene,
     wire_scene,
 )
+from workbench.algorithms.robust.models import MODELS
 
 MAKERS = {
     "line": line_scene,

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from workbench.data.sightings import points_on_box, random_views, read_sightings, seen, some_of
+from workbench.data.views.sightings import points_on_box, random_views, read_sightings, seen, some_of
 from workbench.errors import InputError
 from workbench.geometry.cameras import intrinsics, look_at, project
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from workbench.data.solids import sharp_edges, solid
+from workbench.data.shapes.solids import sharp_edges, solid
 
 
 @pytest.mark.parametrize(

@@ -7,11 +7,11 @@ import pytest
 import scipy
 from PIL import Image
 
-from workbench.data import stereo
-from workbench.data.stereo import grey, in_both, motorcycle_pair, read_pair, shrunk, synthetic_pair
-from workbench.data.stereo_scenes import SCENES
+from workbench.data.views import stereo
+from workbench.data.views.stereo import grey, in_both, motorcycle_pair, read_pair, shrunk, synthetic_pair
+from workbench.data.views.stereo_scenes import SCENES
 from workbench.errors import InputError
-from workbench.geometry.stereo import StereoCamera, depth_from_disparity
+from workbench.geometry.cameras.stereo import StereoCamera, depth_from_disparity
 
 CAMERA = StereoCamera(150.0, 79.5, 59.5, 0.1)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workbench.data.surfaces import SURFACES, inside_out, plane, scaled, sphere, torus, with_noise
+from workbench.data.shapes.surfaces import SURFACES, inside_out, plane, scaled, sphere, torus, with_noise
 from workbench.errors import InputError
 from workbench.geometry.meshes import check_mesh, corners, euler_characteristic, face_areas, vertex_normals
 

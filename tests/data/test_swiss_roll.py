@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from workbench.data.swiss_roll import rolled, swiss_roll
+from lessons.distances.swiss_roll import rolled, swiss_roll
 
 
 def test_points_lie_where_their_sheet_is_rolled_to():

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from workbench.data.silhouettes import horse
-from workbench.data.turned_pictures import motorcycle_levels, places_in_turned, turned
+from lessons.features.silhouettes import horse
+from lessons.features.turned_pictures import motorcycle_levels, places_in_turned, turned
 
 
 def test_a_turned_picture_shows_what_was_there_where_it_is_said_to_be():

@@ -4,14 +4,14 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from workbench.data.intrinsics import read_intrinsics
-from workbench.data.matches import read_matches
-from workbench.data.skyline import VALLEY, skyline
-from workbench.data.two_views import What, made_views, own_views
+from workbench.data.files.intrinsics import read_intrinsics
+from workbench.data.files.matches import read_matches
+from workbench.data.views.skyline import VALLEY, skyline
+from workbench.data.views.two_views import What, made_views, own_views
 from workbench.errors import InputError
 from workbench.geometry.cameras import project
-from workbench.geometry.epipolar import fundamental_from_cameras, sampson_distances
 from workbench.geometry.motions import apply, exp_so3, inverse
+from workbench.geometry.two_views.epipolar import fundamental_from_cameras, sampson_distances
 
 
 def street(what: What = "street", count=60, sigma=0.0, baseline=1.0, heading=0.0, seed=0):

@@ -19,7 +19,7 @@ from workbench.exercise.model import Exercise, Verdict, against, band, check, co
 from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError, Wall
 from workbench.exercise.starter import starter
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 
 def test_the_reference_has_full_marks_and_each_mistake_is_named():

@@ -58,7 +58,11 @@ ATTACKS = {
     "sleeping": ("import time; time.sleep(60)", "timeout", "took more than"),
     "os._exit": ("import os; os._exit(0)", "died", "ended"),
     "sys.exit": ("import sys; sys.exit(0)", "raised", "SystemExit"),
-    "our solution": ("from workbench.geometry.alignment import align_rigid", "raised", "write the function yourself"),
+    "our solution": (
+        "from workbench.geometry.motions.alignment import align_rigid",
+        "raised",
+        "write the function yourself",
+    ),
     "the lessons": ("import lessons.icp.lesson", "raised", "write the function yourself"),
     "nothing": ("pass", None, None),
     "an object": ("return object()", "result", "cannot cross"),

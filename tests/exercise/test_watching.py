@@ -12,8 +12,8 @@ from workbench.exercise.finding import exercises
 from workbench.exercise.starter import write_starter
 from workbench.exercise.watching import GONE_AFTER, Watched
 from workbench.lesson import catalog
-from workbench.session import Session
-from workbench.timeline import Timeline
+from workbench.run.session import Session
+from workbench.run.timeline import Timeline
 
 SUMS = exercises()["sad_cost_volume"]
 RIGHT = """import numpy as np

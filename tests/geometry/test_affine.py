@@ -4,7 +4,8 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.affine import (
+from workbench.geometry.motions import apply, motion
+from workbench.geometry.motions.affine import (
     Kind,
     decompose,
     from_homogeneous,
@@ -19,8 +20,7 @@ from workbench.geometry.affine import (
     transform_directions,
     translation,
 )
-from workbench.geometry.motions import apply, motion
-from workbench.geometry.rotations import rotation_from_axis_angle
+from workbench.geometry.motions.rotations import rotation_from_axis_angle
 
 few = settings(max_examples=40, deadline=None)
 number = st.floats(-3, 3)

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.fit_scenes import arc_points
-from workbench.geometry.algebraic_fits import ALGEBRAIC, fit_algebraic
+from lessons.fitting.fit_scenes import arc_points
+from workbench.geometry.shapes.algebraic_fits import ALGEBRAIC, fit_algebraic
 
 seeds = st.integers(0, 2**32 - 1)
 

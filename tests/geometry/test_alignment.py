@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.test_motions import motions
-from workbench.geometry.alignment import (
+from workbench.geometry.motions import apply, exp_se3, exp_so3, inverse, motion, rotation_angle
+from workbench.geometry.motions.alignment import (
     align_affine,
     align_rigid,
     align_similarity,
@@ -18,7 +19,6 @@ from workbench.geometry.alignment import (
     rmse,
     similarity_scale,
 )
-from workbench.geometry.motions import apply, exp_se3, exp_so3, inverse, motion, rotation_angle
 
 SEEDS = st.integers(0, 10_000)
 ALIGN = {"rigid": align_rigid, "similarity": align_similarity, "affine": align_affine}
@@ -134,7 +134,7 @@ def test_chunks_do_not_show(monkeypatch):
     weights = np.random.default_rng(5).random(100)
     n = p_target / np.linalg.norm(p_target, axis=1, keepdims=True)
     whole = [f(p_target, p_source, weights) for f in ALIGN.values()] + [point_to_plane_step(p_target, p_source, n)]
-    monkeypatch.setattr("workbench.geometry.alignment.CHUNK", 7)
+    monkeypatch.setattr("workbench.geometry.motions.alignment.CHUNK", 7)
     parts = [f(p_target, p_source, weights) for f in ALIGN.values()] + [point_to_plane_step(p_target, p_source, n)]
     np.testing.assert_allclose(whole, parts, atol=1e-12)
 
@@ -180,7 +180,7 @@ class TestDegenerate:
 
 
 def test_pairs_must_be_as_many_on_both_sides():
-    from workbench.geometry.alignment import _check_pairs
+    from workbench.geometry.motions.alignment import _check_pairs
 
     with pytest.raises(ValueError, match="3 and 4"):
         _check_pairs(np.zeros((3, 3)), np.zeros((4, 3)))

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import BPoly
 
-from workbench.geometry.bezier import (
+from workbench.geometry.shapes.bezier import (
     bernstein,
     bezier_patch,
     de_casteljau,

@@ -5,16 +5,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.boards import board_points
-from workbench.geometry.calibration import (
+from workbench.data.views.boards import board_points
+from workbench.geometry.cameras import intrinsics, project
+from workbench.geometry.cameras.calibration import (
     constraint_rows,
     intrinsics_from_constraints,
     linear_lens,
     pose_from_homography,
     reprojection_rms,
 )
-from workbench.geometry.cameras import intrinsics, project
-from workbench.geometry.distortion import Distortion
+from workbench.geometry.cameras.distortion import Distortion
 from workbench.geometry.motions import exp_so3, motion
 
 P = board_points()

@@ -5,8 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.views import view
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.camera_motions import (
+from workbench.geometry.cameras import camera_center
+from workbench.geometry.cameras.camera_motions import (
     dlt_motion,
     gauss_newton_step,
     linearised,
@@ -15,8 +15,8 @@ from workbench.geometry.camera_motions import (
     rms_reprojection,
     sqpnp,
 )
-from workbench.geometry.cameras import camera_center
 from workbench.geometry.motions import apply, exp_se3, inverse, log_se3
+from workbench.geometry.motions.alignment import degrees_between
 
 PIXEL = 1 / 800
 MAP = np.array([7800.0, 6200.0, 400.0])  # 10 km

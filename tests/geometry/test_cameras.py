@@ -28,7 +28,7 @@ from workbench.geometry.cameras import (
     sphere_outline,
     vanishing_points,
 )
-from workbench.geometry.distortion import NONE, Distortion, distort
+from workbench.geometry.cameras.distortion import NONE, Distortion, distort
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
 LENS = Distortion(-0.26637, -0.038589, 0.0017832, -0.00028122, 0.23839)

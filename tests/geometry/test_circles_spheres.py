@@ -4,7 +4,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.circles_spheres import (
+from workbench.geometry.shapes.circles_spheres import (
     circle_from_points,
     costs_of_centers,
     fit_sphere,

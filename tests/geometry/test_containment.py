@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from workbench.data.measurables import sphere, two_spheres
-from workbench.data.rabbit import rabbit_mesh
-from workbench.data.solids import box
-from workbench.geometry.containment import columns, crossings, inside, winding_numbers, windings
+from lessons.measures.measurables import sphere, two_spheres
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.data.shapes.solids import box
+from workbench.geometry.meshes.containment import columns, crossings, inside, winding_numbers, windings
 
 RABBIT = rabbit_mesh(0.05)
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from tests.geometry.views import view
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.camera_motions import rms_reprojection, sqpnp
-from workbench.geometry.control_points import epnp
+from workbench.geometry.cameras.camera_motions import rms_reprojection, sqpnp
+from workbench.geometry.cameras.control_points import epnp
 from workbench.geometry.motions import apply, exp_se3
+from workbench.geometry.motions.alignment import degrees_between
 
 PIXEL = 1 / 800
 

@@ -7,10 +7,9 @@ from hypothesis import strategies as st
 
 from tests.geometry.mesh_zoo import CUBE, TETRAHEDRON, random_closed
 from workbench.data.files import read_mesh
-from workbench.data.surfaces import SURFACES, cylinder, plane, scaled, sphere, torus
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import cotangent_laplacian, mixed_areas
-from workbench.geometry.meshes import on_boundary, vertex_normals
+from workbench.data.shapes.surfaces import SURFACES, cylinder, plane, scaled, sphere, torus
+from workbench.geometry.meshes import curvature, on_boundary, vertex_normals
+from workbench.geometry.meshes.laplacian import cotangent_laplacian, mixed_areas
 from workbench.geometry.motions import exp_so3
 
 seeds = st.integers(0, 10_000)

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from workbench.geometry.curvilinear import (
+from workbench.geometry.shapes.curvilinear import (
     SYSTEMS,
     cartesian_from_spherical,
     cell_edges,

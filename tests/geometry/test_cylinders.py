@@ -5,8 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.truths.fitting import distances
-from workbench.geometry.cylinders import linearise_cylinder, retract_cylinder
 from workbench.geometry.motions import across
+from workbench.geometry.shapes.cylinders import linearise_cylinder, retract_cylinder
 
 seeds = st.integers(0, 2**32 - 1)
 

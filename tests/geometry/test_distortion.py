@@ -7,7 +7,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.distortion import (
+from workbench.geometry.cameras.distortion import (
     NONE,
     Distortion,
     distort,

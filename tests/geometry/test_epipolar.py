@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.robust import match_scene
-from workbench.geometry.epipolar import (
+from lessons.ransac.robust_scenes import match_scene
+from workbench.geometry.two_views.epipolar import (
     epipolar_constraints,
     epipolar_lines,
     epipoles,
@@ -17,7 +17,7 @@ from workbench.geometry.epipolar import (
     refine_fundamental,
     sampson_distances,
 )
-from workbench.geometry.homography import homogeneous
+from workbench.geometry.two_views.homography import homogeneous
 
 seeds = st.integers(0, 2**32 - 1)
 

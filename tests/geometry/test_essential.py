@@ -5,17 +5,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.alignment import degrees_between
 from workbench.geometry.cameras import intrinsics
-from workbench.geometry.epipolar import fit_fundamental, fundamental_from_cameras, sampson_distances
-from workbench.geometry.essential import (
+from workbench.geometry.motions import angle_between, apply, exp_so3, motion, skew
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.two_views.epipolar import fit_fundamental, fundamental_from_cameras, sampson_distances
+from workbench.geometry.two_views.essential import (
     equal_singular_values,
     essential_from_fundamental,
     essential_to_poses,
     refine_motion,
 )
-from workbench.geometry.motions import angle_between, apply, exp_so3, motion, skew
-from workbench.geometry.triangulation import before_both, camera_matrix, triangulate
+from workbench.geometry.two_views.triangulation import before_both, camera_matrix, triangulate
 
 seeds = st.integers(0, 2**32 - 1)
 K = intrinsics(900.0, 512.0, 341.0)

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.data.rabbit import rabbit
-from workbench.geometry.fpfh import fpfh, pair_angles
+from workbench.data.shapes.rabbit import rabbit
+from workbench.geometry.features.fpfh import fpfh, pair_angles
 from workbench.geometry.motions import apply, exp_so3, motion
-from workbench.geometry.normals import point_normals
+from workbench.geometry.points.normals import point_normals
 
 
 def pairs(seed: int, count: int = 40) -> list[np.ndarray]:

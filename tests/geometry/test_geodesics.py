@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data import surfaces
-from workbench.geometry import geodesics, meshes
+from workbench.data.shapes import surfaces
+from workbench.geometry.meshes import geodesics
+from workbench.geometry.meshes import triangles as meshes
 
 
 def some_graph(seed, count=40, chance=0.12):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from tests.truths.coordinates import apart
-from workbench.geometry.globe import (
+from workbench.geometry.shapes.globe import (
     EARTH_RADIUS,
     PLANETS,
     Ellipsoid,

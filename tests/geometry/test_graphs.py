@@ -6,10 +6,12 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data import networks, surfaces
-from workbench.geometry import graphs, meshes
-from workbench.geometry.embedding import classical_scaling, stress_layout
-from workbench.geometry.spectra import Laplacian, smallest_eigenpairs
+from workbench.data import networks
+from workbench.data.shapes import surfaces
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.graphs.embedding import classical_scaling, stress_layout
+from workbench.geometry.graphs.spectra import Laplacian, smallest_eigenpairs
+from workbench.geometry.meshes import triangles as meshes
 
 
 def plain(adjacency):

@@ -4,7 +4,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.homography import (
+from workbench.geometry.two_views.homography import (
     fit_homographies,
     fit_homography,
     four_in_general_position,

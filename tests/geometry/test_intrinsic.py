@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.algorithms.heat_method import HeatMethod, mean_edge_length
-from workbench.data import surfaces
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.intrinsic import intrinsic_delaunay
-from workbench.geometry.laplacian import cotangent_laplacian, cotangent_laplacian_of, negative_weights
+from workbench.algorithms.surfaces.heat_method import HeatMethod, mean_edge_length
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
 from workbench.geometry.meshes import corners
+from workbench.geometry.meshes.intrinsic import intrinsic_delaunay
+from workbench.geometry.meshes.laplacian import cotangent_laplacian, cotangent_laplacian_of, negative_weights
 from workbench.geometry.polylines import at_height
 
 

@@ -4,10 +4,10 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.solids import house, solid
-from workbench.geometry.affine import perspective, reflection, scaling, shear, transform
-from workbench.geometry.invariants import changes, measure, signed_volume
+from workbench.data.shapes.solids import house, solid
+from workbench.geometry.meshes.invariants import changes, measure, signed_volume
 from workbench.geometry.motions import exp_se3
+from workbench.geometry.motions.affine import perspective, reflection, scaling, shear, transform
 
 SHAPES = ["house", "L block", "box"]
 twists = st.tuples(*[st.floats(-3, 3)] * 6).map(np.array)

@@ -7,9 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.mesh_zoo import random_closed
-from workbench.data.surfaces import plane, sphere, torus
-from workbench.geometry.laplacian import cotangent_laplacian, eigenpairs, mixed_areas
+from workbench.data.shapes.surfaces import plane, sphere, torus
 from workbench.geometry.meshes import face_angles, face_areas, on_boundary
+from workbench.geometry.meshes.laplacian import cotangent_laplacian, eigenpairs, mixed_areas
 
 seeds = st.integers(0, 10_000)
 

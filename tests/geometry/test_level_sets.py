@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from workbench.geometry.fields.signed_distances import torus_sdf
+from workbench.geometry.fields.voxels import Grid, marched_surface
 from workbench.geometry.level_sets import edge_crossings, level_lines, level_surface
-from workbench.geometry.measures import encloses, signed_volume
 from workbench.geometry.meshes import euler_characteristic
-from workbench.geometry.signed_distances import torus_sdf
-from workbench.geometry.voxels import Grid, marched_surface
+from workbench.geometry.meshes.measures import encloses, signed_volume
 
 
 def cube(n: int) -> Grid:

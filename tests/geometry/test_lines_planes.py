@@ -3,14 +3,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.lines_planes import (
+from workbench.geometry.motions import exp_so3
+from workbench.geometry.shapes.lines_planes import (
     angle_between_planes,
     fit_hyperplane,
     hyperplane_distances,
     line_from_points,
     plane_from_points,
 )
-from workbench.geometry.motions import exp_so3
 
 seeds = st.integers(0, 2**32 - 1)
 MINIMAL = {2: line_from_points, 3: plane_from_points}

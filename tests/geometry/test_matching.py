@@ -5,9 +5,9 @@ import pytest
 import scipy
 
 from workbench.algorithms.transport import best_assignment
-from workbench.data.rabbit import rabbit
-from workbench.geometry import keypoints, matching
-from workbench.geometry.shape_context import context_costs, shape_contexts
+from workbench.data.shapes.rabbit import rabbit
+from workbench.geometry.features import keypoints, matching
+from workbench.geometry.features.shape_context import context_costs, shape_contexts
 
 
 def test_nearest_both_ways_are_scipys(monkeypatch):

@@ -6,10 +6,10 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data import surfaces
-from workbench.data.rabbit import rabbit_mesh
-from workbench.data.solids import house, l_block
-from workbench.geometry.measures import (
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.data.shapes.solids import house, l_block
+from workbench.geometry.meshes.measures import (
     area_centroid,
     encloses,
     signed_volume,

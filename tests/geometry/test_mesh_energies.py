@@ -5,8 +5,9 @@ import pytest
 import trimesh
 
 from tests.geometry.mesh_zoo import CUBE, random_closed, strip
-from workbench.data.surfaces import sphere
-from workbench.geometry.mesh_energies import (
+from workbench.data.shapes.surfaces import sphere
+from workbench.geometry.meshes import edges
+from workbench.geometry.meshes.mesh_energies import (
     edge_energy,
     face_pairs,
     fold_angles,
@@ -15,7 +16,6 @@ from workbench.geometry.mesh_energies import (
     scattered,
     umbrella,
 )
-from workbench.geometry.meshes import edges
 
 
 def energies(p: np.ndarray, faces: np.ndarray) -> dict[str, tuple[float, np.ndarray]]:

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from tests.geometry.mesh_zoo import CUBE, TETRAHEDRON, random_closed, strip
 from workbench.data.files import read_mesh
-from workbench.data.surfaces import SURFACES, plane, torus
+from workbench.data.shapes.surfaces import SURFACES, plane, torus
 from workbench.errors import InputError
-from workbench.geometry import meshes
+from workbench.geometry.meshes import triangles as meshes
 from workbench.geometry.motions import exp_so3
 
 seeds = st.integers(0, 10_000)

@@ -6,7 +6,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry import metrics
+from workbench.geometry.points import metrics
 
 METRICS = (("euclid", 2), ("manhattan", 2), ("chebyshev", 2), ("p", 1.5), ("p", 6), ("p-sum", 0.5), ("mahalanobis", 2))
 C = np.array([[1.0, 0.9], [0.9, 1.0]])

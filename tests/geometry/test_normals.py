@@ -7,7 +7,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.normals import _least_directions, _neighbourhoods, on_a_line, point_normals, surface_variation
+from workbench.geometry.points.normals import (
+    _least_directions,
+    _neighbourhoods,
+    on_a_line,
+    point_normals,
+    surface_variation,
+)
 
 
 def angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -2,12 +2,12 @@ import numpy as np
 import pytest
 
 from tests.geometry.views import view
-from workbench.geometry.alignment import degrees_between, nearest_rotation
-from workbench.geometry.camera_motions import refined, rms_reprojection
 from workbench.geometry.cameras import look_at, normalize
-from workbench.geometry.distortion import Distortion
+from workbench.geometry.cameras.camera_motions import refined, rms_reprojection
+from workbench.geometry.cameras.distortion import Distortion
+from workbench.geometry.cameras.planar_motions import is_flat, planar_motions
 from workbench.geometry.motions import apply, exp_se3, exp_so3, inverse, motion
-from workbench.geometry.planar_motions import is_flat, planar_motions
+from workbench.geometry.motions.alignment import degrees_between, nearest_rotation
 
 SQUARE = 0.05 * np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
 

@@ -6,12 +6,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.test_motions import motions
-from workbench.data.clouds import box_surface
 from workbench.data.files import read_cloud, read_mesh
-from workbench.data.rabbit import rabbit
+from workbench.data.shapes.clouds import box_surface
+from workbench.data.shapes.rabbit import rabbit
 from workbench.geometry.meshes import corners, face_areas
 from workbench.geometry.motions import apply
-from workbench.geometry.principal_axes import (
+from workbench.geometry.motions.principal_axes import (
     canonical_signs,
     centroid_and_covariance,
     degrees_between_axes,

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from workbench.geometry.projective import angle_between_rays, cross_ratio, map_lines, meet
+from workbench.geometry.shapes.projective import angle_between_rays, cross_ratio, map_lines, meet
 
 VECTORS = arrays(np.float64, (5, 3), elements=st.floats(-10, 10))
 H = np.array([[1.0, 0.2, 0.1], [-0.1, 1.0, 0.3], [0.3, 0.5, 1.0]])

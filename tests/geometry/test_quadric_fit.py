@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 
 from tests.geometry.mesh_zoo import TETRAHEDRON
 from tests.geometry.test_curvature import relative
-from workbench.data.surfaces import SURFACES, plane, torus, with_noise
-from workbench.geometry import quadric_fit
-from workbench.geometry.curvature import curvatures
+from workbench.data.shapes.surfaces import SURFACES, plane, torus, with_noise
+from workbench.geometry.meshes import quadric_fit
+from workbench.geometry.meshes.curvature import curvatures
+from workbench.geometry.meshes.quadric_fit import fit_quadrics
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.quadric_fit import fit_quadrics
 
 
 def errors(surface, **options):

@@ -6,11 +6,11 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.street import BALL_CENTER, BALL_RADIUS, street, street_items, street_map
+from workbench.data.views.street import BALL_CENTER, BALL_RADIUS, street, street_items, street_map
 from workbench.geometry.cameras import camera_center, depths, intrinsics, look_at, pixel_rays, project
+from workbench.geometry.cameras.distortion import NONE, Distortion
+from workbench.geometry.cameras.raster import Image, MeshItem, PointItem, SegmentItem, in_sight, render
 from workbench.geometry.clipping import clip_segments, clip_to_rectangle, clip_triangles
-from workbench.geometry.distortion import NONE, Distortion
-from workbench.geometry.raster import Image, MeshItem, PointItem, SegmentItem, in_sight, render
 
 WIDTH, HEIGHT = 64, 48
 K = intrinsics(50.0, 31.5, 23.5)

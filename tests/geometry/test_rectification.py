@@ -4,11 +4,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.test_essential import K, L, pair
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.homography import transform_pixels
+from workbench.geometry.cameras.stereo import StereoCamera
 from workbench.geometry.motions import exp_so3, motion
-from workbench.geometry.rectification import fitted, growth, rectify, torn, warp
-from workbench.geometry.stereo import StereoCamera
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.two_views.homography import transform_pixels
+from workbench.geometry.two_views.rectification import fitted, growth, rectify, torn, warp
 
 seeds = st.integers(0, 2**32 - 1)
 SIZE = (1024, 683)

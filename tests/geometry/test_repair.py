@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from tests.geometry.mesh_zoo import CUBE, TETRAHEDRON, random_closed, strip
 from workbench.errors import InputError
-from workbench.geometry.curvature import gauss_bonnet
 from workbench.geometry.meshes import check_mesh, edges, euler_characteristic, face_areas
-from workbench.geometry.repair import oriented, split_where_sheets_touch, without_repeats
+from workbench.geometry.meshes.curvature import gauss_bonnet
+from workbench.geometry.meshes.repair import oriented, split_where_sheets_touch, without_repeats
 
 few = settings(max_examples=15, deadline=None)
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from workbench.geometry.rotation_outputs import (
+from workbench.geometry.motions.rotation_outputs import (
     IN_PLANE,
     IN_SPACE,
     Representation,

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from workbench.geometry.motions import exp_so3, log_so3, rotation_angle
-from workbench.geometry.rotations import (
+from workbench.geometry.motions.rotations import (
     EULER_ORDERS,
     axis_angle_from_rotation,
     euler_axes,
@@ -132,7 +132,7 @@ def test_turning_about_the_bodys_own_axis_multiplies_on_the_right():
 
 @pytest.mark.parametrize("order", ["", "xx", "xxy", "xyZ", "abc", "wxyz"])
 def test_unknown_orders_are_refused(order):
-    from workbench.geometry.rotations import _letters
+    from workbench.geometry.motions.rotations import _letters
 
     with pytest.raises(ValueError, match="not an Euler order"):
         _letters(order)

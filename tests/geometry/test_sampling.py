@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.data.rabbit import rabbit_mesh
-from workbench.data.solids import box
-from workbench.geometry.measures import area_centroid, surface_area
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.data.shapes.solids import box
 from workbench.geometry.meshes import face_areas
-from workbench.geometry.sampling import (
+from workbench.geometry.meshes.measures import area_centroid, surface_area
+from workbench.geometry.points.sampling import (
     ball_share,
     line_crossings,
     lines_through_ball,

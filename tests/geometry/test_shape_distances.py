@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from workbench.data.files import read_cloud, read_pose
 from workbench.geometry.motions import apply, exp_so3, motion
-from workbench.geometry.shape_distances import (
+from workbench.geometry.points.shape_distances import (
     DEFINITIONS,
     Definition,
     chamfer,

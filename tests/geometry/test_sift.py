@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.data.turned_pictures import motorcycle_levels, turned
-from workbench.geometry.matching import filtered, nearest_both_ways
-from workbench.geometry.sift import Sift, sift, turned_patch
+from lessons.features.turned_pictures import motorcycle_levels, turned
+from workbench.geometry.features.matching import filtered, nearest_both_ways
+from workbench.geometry.features.sift import Sift, sift, turned_patch
 
 
 @pytest.fixture(scope="module")

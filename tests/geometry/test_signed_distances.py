@@ -7,10 +7,10 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.data import solids, surfaces
-from workbench.data.rabbit import rabbit_mesh
+from workbench.data.shapes import solids, surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.geometry.fields.signed_distances import box_sdf, face_tree, mesh_sdf, torus_sdf
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.signed_distances import box_sdf, face_tree, mesh_sdf, torus_sdf
 
 HALF = np.array([0.5, 0.35, 0.25])
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from workbench.data import surfaces
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.measures import encloses, signed_volume, surface_area
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
 from workbench.geometry.meshes import euler_characteristic
-from workbench.geometry.simplification import clustered, halved
+from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
+from workbench.geometry.meshes.simplification import clustered, halved
 
 
 @pytest.mark.parametrize(

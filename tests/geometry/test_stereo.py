@@ -6,8 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.cameras import project
-from workbench.geometry.motions import motion
-from workbench.geometry.stereo import (
+from workbench.geometry.cameras.stereo import (
     StereoCamera,
     depth_cloud,
     depth_from_disparity,
@@ -16,6 +15,7 @@ from workbench.geometry.stereo import (
     disparity_from_depth,
     points_on_ray,
 )
+from workbench.geometry.motions import motion
 
 cameras = st.builds(
     StereoCamera,

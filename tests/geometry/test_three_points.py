@@ -4,9 +4,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.views import triples
-from workbench.geometry.camera_motions import reprojection_errors
+from workbench.geometry.cameras.camera_motions import reprojection_errors
+from workbench.geometry.cameras.three_points import p3p, quartics, solution_counts, three_point_lengths, unit_rays
 from workbench.geometry.motions import apply, exp_se3, inverse
-from workbench.geometry.three_points import p3p, quartics, solution_counts, three_point_lengths, unit_rays
 
 OTHERS_COUNT = (0, 106, 3563, 11, 320)
 """How many of `triples(4000)` have no, one, ..., four solutions, by poselib 2.0.5 and by OpenCV 5.0.0's solveP3P alike."""

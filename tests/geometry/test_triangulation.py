@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from tests.geometry.test_essential import K, L, pair
 from workbench.geometry.cameras import normalize
 from workbench.geometry.motions import motion
-from workbench.geometry.triangulation import (
+from workbench.geometry.two_views.triangulation import (
     before_both,
     camera_matrix,
     midpoints,

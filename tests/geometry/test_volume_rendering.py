@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.geometry.volume_rendering import ray_weights, samples_on, seen, through_seen
+from workbench.geometry.cameras.volume_rendering import ray_weights, samples_on, seen, through_seen
 
 
 def medium(seed: int, rays: int = 4, samples: int = 9) -> tuple[np.ndarray, np.ndarray]:

@@ -3,12 +3,9 @@
 import numpy as np
 import pytest
 
-from workbench.data.measurables import sphere, two_spheres
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.containment import inside
-from workbench.geometry.measures import encloses, signed_volume, surface_area
-from workbench.geometry.meshes import euler_characteristic
-from workbench.geometry.voxels import (
+from lessons.measures.measurables import sphere, two_spheres
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.geometry.fields.voxels import (
     Grid,
     counted_area,
     counted_surface,
@@ -18,6 +15,9 @@ from workbench.geometry.voxels import (
     occupied,
     windings_on,
 )
+from workbench.geometry.meshes import euler_characteristic
+from workbench.geometry.meshes.containment import inside
+from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
 
 
 def grid_around(p: np.ndarray, cells: int, seed: int = 0) -> Grid:

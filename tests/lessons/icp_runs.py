@@ -11,8 +11,8 @@ from lessons.icp.lesson import lesson, run
 from lessons.icp.presets import HOME
 from lessons.icp.state import Params, State, Try
 from tests.runs import finished
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption
-from workbench.timeline import Timeline
 
 
 def timeline(params: Params) -> Timeline:

@@ -14,8 +14,13 @@ from lessons.alignment.scans import scans_of
 from lessons.alignment.state import AxesState, Params, Turns
 from tests.runs import finished
 from tests.truths.alignment import eigenvectors, many, turn_left
-from workbench.data.clouds import box_surface
-from workbench.geometry.principal_axes import canonical_signs, degrees_between_axes, largest_entry_signs, principal_axes
+from workbench.data.shapes.clouds import box_surface
+from workbench.geometry.motions.principal_axes import (
+    canonical_signs,
+    degrees_between_axes,
+    largest_entry_signs,
+    principal_axes,
+)
 from workbench.numerals import length
 from workbench.scene import Segments
 

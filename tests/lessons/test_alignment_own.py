@@ -13,7 +13,7 @@ from lessons.alignment.state import Params
 from tests.readings import metres
 from tests.truths.alignment import to_nearest
 from workbench.data.files import read_cloud, read_mesh, read_pose
-from workbench.data.rabbit import rabbit
+from workbench.data.shapes.rabbit import rabbit
 from workbench.errors import InputError
 from workbench.geometry.motions import exp_so3, motion
 from workbench.scene import caption_of

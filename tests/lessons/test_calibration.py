@@ -10,9 +10,9 @@ from lessons.calibration.lesson import lesson, run
 from lessons.calibration.state import Ending, Params, State
 from tests.runs import finished
 from tests.truths.calibration import deviation_of_f, rms_of, worst_ray
-from workbench.algorithms.board_adjustment import Stop
+from workbench.algorithms.least_squares.board_adjustment import Stop
 from workbench.errors import InputError
-from workbench.geometry import calibration
+from workbench.geometry.cameras import calibration
 from workbench.scene import Caption, Mesh, Picture, Points, Segments, Table, caption_of
 
 SQRT2 = np.sqrt(2)

@@ -11,10 +11,10 @@ from scipy import ndimage
 from lessons.calibration.lesson import lesson, run
 from lessons.calibration.state import Params, State
 from workbench import open_recording, record
-from workbench.data.boards import board_points
+from workbench.data.views.boards import board_points
 from workbench.errors import InputError
+from workbench.run.timeline import Timeline
 from workbench.scene import Camera, Picture, Segments, Table, caption_of
-from workbench.timeline import Timeline
 
 
 @pytest.fixture(scope="module")

@@ -13,8 +13,8 @@ from lessons.chamfer_emd.lesson import lesson, run
 from lessons.chamfer_emd.presets import ONE_WAY, QUESTIONS, nearer_side
 from lessons.chamfer_emd.state import Params, State
 from tests.lessons.chamfer_emd_runs import line, preset, scene, states, timeline
-from workbench.algorithms.flow import Stop, flow
-from workbench.geometry.shape_distances import chamfer
+from workbench.algorithms.transport.flow import Stop, flow
+from workbench.geometry.points.shape_distances import chamfer
 from workbench.scene import Curve, Scalar, Table
 
 

@@ -14,7 +14,7 @@ from tests.lessons.chamfer_emd_runs import states, timeline
 from workbench.algorithms.transport import earth_movers
 from workbench.errors import InputError
 from workbench.exercise.candidate import Candidate
-from workbench.geometry.shape_distances import chamfer, one_sided
+from workbench.geometry.points.shape_distances import chamfer, one_sided
 
 
 class TestSlots:

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from lessons.coordinates.lesson import TURNS, lesson, moments, run
+from lessons.coordinates.placing import Walked
 from lessons.coordinates.state import Params
 from tests.runs import finished
 from tests.truths.coordinates import CAPS, EARTH, fastest, in_caps, straight_over_shortest
-from workbench.algorithms.placing import Walked
 from workbench.errors import InputError
-from workbench.geometry.curvilinear import spherical_from_cartesian
-from workbench.geometry.globe import great_circle_distance
+from workbench.geometry.shapes.curvilinear import spherical_from_cartesian
+from workbench.geometry.shapes.globe import great_circle_distance
 from workbench.scene import Curve, Label, Points, Segments, caption_of
 
 

@@ -10,7 +10,7 @@ from lessons.coordinates.lesson import lesson, run
 from lessons.coordinates.state import Params
 from workbench.data.files import read_cloud
 from workbench.errors import InputError
-from workbench.geometry.curvilinear import spherical_from_cartesian
+from workbench.geometry.shapes.curvilinear import spherical_from_cartesian
 from workbench.scene import caption_of
 
 

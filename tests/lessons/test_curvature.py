@@ -9,11 +9,11 @@ from lessons.curvature.lesson import lesson
 from lessons.curvature.presets import DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL, UNFOLDING
 from lessons.curvature.state import Params, at_stage
 from tests.lessons.curvature_runs import STAGES, at, preset, scene, study_in, surface_field, timeline
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import mixed_areas
-from workbench.geometry.normals import surface_variation
+from workbench.geometry.meshes import curvature
+from workbench.geometry.meshes.laplacian import mixed_areas
+from workbench.geometry.points.normals import surface_variation
+from workbench.run.timeline import Timeline
 from workbench.scene import caption_of
-from workbench.timeline import Timeline
 
 
 def test_stages_come_in_the_order_of_the_page():

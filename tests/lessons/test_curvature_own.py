@@ -15,8 +15,8 @@ from tests.lessons.curvature_runs import STAGES, at, part, surface_field, timeli
 from workbench.data.files import read_mesh
 from workbench.errors import InputError
 from workbench.knobs import with_own_files
+from workbench.run.timeline import Timeline
 from workbench.scene import Curve, Scalar, caption_of
-from workbench.timeline import Timeline
 
 
 @pytest.mark.parametrize(("name", "chi"), [("bunny", 2), ("fertility", -6)])

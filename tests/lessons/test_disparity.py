@@ -41,9 +41,9 @@ from tests.lessons.disparity_runs import (
     truth_of,
     visible_in,
 )
-from workbench.algorithms.disparity import Stage
-from workbench.geometry.stereo import depth_from_disparity
-from workbench.picking import picked
+from workbench.algorithms.stereo.disparity import Stage
+from workbench.geometry.cameras.stereo import depth_from_disparity
+from workbench.run.picking import picked
 from workbench.scene import Caption, Curve, Field, Label, Picture, Points, Primitive, Scalar, Segments
 
 

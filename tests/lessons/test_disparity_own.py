@@ -20,13 +20,13 @@ from lessons.disparity.presets import (
 )
 from lessons.disparity.state import Params
 from tests.lessons.disparity_runs import states, timeline
-from workbench.algorithms.cost_volume import sad_cost_volume
-from workbench.algorithms.disparity_map import winner_takes_all
+from workbench.algorithms.stereo.cost_volume import sad_cost_volume
+from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.errors import InputError
 from workbench.knobs import make, with_own_files
 from workbench.page.legend import legend_html
+from workbench.run.timeline import Timeline
 from workbench.scene import Field, Points
-from workbench.timeline import Timeline
 
 
 class TestSlots:

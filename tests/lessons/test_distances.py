@@ -14,9 +14,10 @@ from lessons.distances.state import Ball, Found, Front, Landmarks, Params, Scatt
 from tests.runs import finished
 from tests.truths.distances import errors, true_distances
 from workbench.errors import InputError
-from workbench.geometry import geodesics, metrics
+from workbench.geometry.meshes import geodesics
+from workbench.geometry.points import metrics
+from workbench.run.timeline import Timeline
 from workbench.scene import Mesh, Points, Segments, Table, caption_of
-from workbench.timeline import Timeline
 
 
 def states(params):
@@ -221,7 +222,7 @@ def test_obtuse_triangles_and_their_edges_flipped():
 def test_distances_below_zero_are_told(tmp_path):
     import trimesh
 
-    from workbench.data.rabbit import rabbit_mesh
+    from workbench.data.shapes.rabbit import rabbit_mesh
 
     p, faces = rabbit_mesh(0.05)
     trimesh.Trimesh(p * [1, 1, 6], faces, process=False).export(tmp_path / "tall.ply")

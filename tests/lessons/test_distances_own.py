@@ -10,8 +10,8 @@ from lessons.distances.lesson import lesson
 from lessons.distances.state import Found, Params, State
 from workbench.errors import InputError
 from workbench.geometry.graphs import components, graph_of
+from workbench.run.timeline import Timeline
 from workbench.scene import caption_of
-from workbench.timeline import Timeline
 
 
 def last(params) -> State:

@@ -15,8 +15,8 @@ from tests.truths.epipolar import apart, errors, sampson, true_fundamental
 from workbench.algorithms.two_views import Followed
 from workbench.errors import InputError
 from workbench.geometry.motions import apply
-from workbench.geometry.rectification import growth
-from workbench.geometry.rotations import rotation_about
+from workbench.geometry.motions.rotations import rotation_about
+from workbench.geometry.two_views.rectification import growth
 from workbench.scene import Caption, Points, Segments, caption_of
 
 
@@ -272,9 +272,9 @@ def last_tone(**slots: Any) -> str:
 
 
 def test_wrong_functions_show():
-    from workbench.geometry.epipolar import fit_fundamental
-    from workbench.geometry.essential import essential_to_poses
-    from workbench.geometry.triangulation import triangulate
+    from workbench.geometry.two_views.epipolar import fit_fundamental
+    from workbench.geometry.two_views.essential import essential_to_poses
+    from workbench.geometry.two_views.triangulation import triangulate
 
     transposed = steps_of(run(Params(), eight_point=lambda a, b: fit_fundamental(a, b).T))
     assert transposed[10].to_lines(transposed[10].views.matches) > 3

@@ -10,14 +10,14 @@ from PIL import Image
 from lessons.features.lesson import run
 from lessons.features.state import Params
 from tests.truths.features import home, moved
-from workbench.data.clouds import pair
 from workbench.data.files import read_cloud, read_image, read_pose
-from workbench.data.stereo import grey
+from workbench.data.shapes.clouds import pair
+from workbench.data.views.stereo import grey
 from workbench.errors import InputError
-from workbench.geometry.keypoints import harris_response, patches, strongest
-from workbench.geometry.matching import filtered, nearest_both_ways
+from workbench.geometry.features.keypoints import harris_response, patches, strongest
+from workbench.geometry.features.matching import filtered, nearest_both_ways
+from workbench.geometry.features.sift import sift
 from workbench.geometry.motions import exp_so3, inverse, motion
-from workbench.geometry.sift import sift
 
 
 def final(params: Params) -> Any:

@@ -13,7 +13,7 @@ from tests.runs import finished
 from tests.truths.fitting import cost, least, plane_error, straight, wider
 from workbench.algorithms.least_squares import Stop, Walked
 from workbench.errors import InputError
-from workbench.geometry.circles_spheres import linearise_sphere
+from workbench.geometry.shapes.circles_spheres import linearise_sphere
 from workbench.scene import Curve, Points, Segments, Table, caption_of
 
 

@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from lessons.fitting.fit_scenes import arc_points, cap_points, pipe_points
 from lessons.fitting.lesson import lesson, run
 from lessons.fitting.state import Params
 from workbench.algorithms.least_squares import Walked
 from workbench.data.files import read_cloud
-from workbench.data.fit_scenes import arc_points, cap_points, pipe_points
 from workbench.errors import InputError
-from workbench.geometry.lines_planes import angle_between_planes, fit_hyperplane
+from workbench.geometry.shapes.lines_planes import angle_between_planes, fit_hyperplane
 from workbench.scene import caption_of
 
 

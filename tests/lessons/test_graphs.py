@@ -10,12 +10,12 @@ from lessons.graphs.lesson import lesson
 from lessons.graphs.presets import SIGN
 from lessons.graphs.state import Grown, Mode, Params
 from tests.runs import finished
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.errors import InputError
+from workbench.run.timeline import Timeline
 from workbench.scene import Classes, Curve, Points, Segments, caption_of
-from workbench.timeline import Timeline
 
 
 def states(params):

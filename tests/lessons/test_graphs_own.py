@@ -9,13 +9,14 @@ import trimesh
 from lessons.graphs import measures
 from lessons.graphs.lesson import lesson
 from lessons.graphs.state import Grown, Mode, Params, State
-from workbench.algorithms.diffusion import Heat
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat
+from workbench.algorithms.graphs.spectral_cut import Cut
 from workbench.data.networks import karate
 from workbench.errors import InputError
-from workbench.geometry import graphs, meshes
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.meshes import triangles as meshes
+from workbench.run.timeline import Timeline
 from workbench.scene import Scalar, Table, caption_of
-from workbench.timeline import Timeline
 
 
 def last(params) -> State:

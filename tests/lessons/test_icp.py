@@ -13,9 +13,9 @@ from lessons.icp.lesson import lesson, run
 from lessons.icp.presets import END, HOME, end, rmse_falls
 from lessons.icp.state import Params, State
 from tests.lessons.icp_runs import caption, preset, scene, states, timeline, tries, true, two_scans, until_stop
-from workbench.algorithms.icp import Stop, nearest
-from workbench.geometry.alignment import align_rigid
+from workbench.algorithms.registration.icp import Stop, nearest
 from workbench.geometry.motions import apply
+from workbench.geometry.motions.alignment import align_rigid
 from workbench.scene import Scalar, caption_of
 
 

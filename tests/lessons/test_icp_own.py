@@ -13,12 +13,12 @@ from lessons.icp.lesson import lesson, run
 from lessons.icp.presets import HOME, end
 from lessons.icp.state import Params
 from tests.lessons.icp_runs import preset, scene, states, true, two_scans, until_stop
-from workbench.algorithms.icp import Stop
-from workbench.data.lidar import Street, lidar_scan, street
+from workbench.algorithms.registration.icp import Stop
+from workbench.data.shapes.lidar import Street, lidar_scan, street
 from workbench.errors import InputError
 from workbench.geometry.motions import apply, exp_so3, motion
+from workbench.run.timeline import Timeline
 from workbench.scene import caption_of
-from workbench.timeline import Timeline
 
 
 @pytest.fixture

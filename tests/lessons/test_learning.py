@@ -11,8 +11,8 @@ from lessons.learning.presets import RABBIT
 from lessons.learning.state import Params
 from tests.runs import finished
 from tests.truths.learning import farthest, folded, named, overlap, radii, wrong_by
-from workbench.geometry.rotation_outputs import rotation_from_six
-from workbench.geometry.shape_distances import chamfer_gradient
+from workbench.geometry.motions.rotation_outputs import rotation_from_six
+from workbench.geometry.points.shape_distances import chamfer_gradient
 from workbench.knobs import fields_of
 from workbench.scene import Mesh, caption_of
 

@@ -10,11 +10,11 @@ from lessons.measures.lesson import lesson, run
 from lessons.measures.state import Params, State
 from lessons.measures.subjects import built_in
 from tests.runs import finished
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Lines, Sampled, Throws
 from workbench.errors import InputError
-from workbench.geometry.measures import area_centroid, signed_volume, volume_centroid
-from workbench.geometry.sampling import volume_by_chance
+from workbench.geometry.meshes.measures import area_centroid, signed_volume, volume_centroid
+from workbench.geometry.points.sampling import volume_by_chance
 from workbench.scene import caption_of
 
 

@@ -11,7 +11,7 @@ from lessons.measures.lesson import lesson, run
 from lessons.measures.state import Params
 from workbench.data.files import read_mesh, read_voxels
 from workbench.errors import InputError
-from workbench.geometry.measures import area_centroid
+from workbench.geometry.meshes.measures import area_centroid
 from workbench.scene import Mesh, caption_of
 
 

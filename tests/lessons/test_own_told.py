@@ -10,11 +10,11 @@ import trimesh
 from lessons.alignment.lesson import lesson as alignment
 from lessons.alignment.scans import scans_of
 from lessons.graphs.presets import BALL, VIEW
-from workbench.data.clouds import pair
+from workbench.data.shapes.clouds import pair
 from workbench.geometry.motions import exp_so3, motion
 from workbench.knobs import fields_of
 from workbench.lesson import course
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 CARS = Path(__file__).resolve().parents[3] / "shared" / "data" / "icp" / "car_cloud400.csv"
 

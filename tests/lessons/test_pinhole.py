@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from lessons.pinhole import following as pinhole
 from lessons.pinhole import presets
 from lessons.pinhole.captions import back_error, blame, depth
 from lessons.pinhole.lesson import lesson
@@ -13,16 +14,15 @@ from lessons.pinhole.shot import FACTORS, shot_of
 from lessons.pinhole.state import Params
 from tests.lessons.pinhole_runs import orange, preset, states, tone
 from tests.runs import finished
-from workbench.algorithms import pinhole
-from workbench.data.street import BALL_CENTER, street
+from workbench.data.views.street import BALL_CENTER, street
 from workbench.errors import InputError
 from workbench.geometry.cameras import camera_center, depths, intrinsics, project, vanishing_points
-from workbench.geometry.distortion import distort, invertible_radius
+from workbench.geometry.cameras.distortion import distort, invertible_radius
 from workbench.geometry.motions import apply, inverse
 from workbench.knobs import fields_of
-from workbench.picking import picked
+from workbench.run.picking import picked
+from workbench.run.timeline import Timeline
 from workbench.scene import PALETTE, Label, Picture, Points, Segments
-from workbench.timeline import Timeline
 
 # The default run
 

@@ -11,9 +11,9 @@ from lessons.pinhole.shot import shot_of
 from lessons.pinhole.state import Mistake, Params
 from tests.lessons.pinhole_runs import orange, states, tone
 from workbench.geometry.cameras import camera_center, project
-from workbench.geometry.distortion import distort
+from workbench.geometry.cameras.distortion import distort
+from workbench.run.timeline import Timeline
 from workbench.scene import Segments
-from workbench.timeline import Timeline
 
 # Awkward places
 

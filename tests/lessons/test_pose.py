@@ -13,10 +13,10 @@ from lessons.pose.state import Params, Repeated
 from lessons.pose.trials import TRIPLES
 from tests.runs import finished
 from tests.truths.pose import centre, is_near, off, pixels_off, rms, share_near
-from workbench.algorithms import ransac
-from workbench.algorithms.camera_search import Searched
+from workbench.algorithms.cameras.camera_search import Searched
+from workbench.algorithms.robust import ransac
 from workbench.errors import InputError
-from workbench.geometry.alignment import degrees_between
+from workbench.geometry.motions.alignment import degrees_between
 from workbench.scene import Camera, Classes, Curve, Picture, Points, Segments, caption_of
 
 

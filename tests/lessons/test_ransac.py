@@ -14,10 +14,10 @@ from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params
 from tests.lessons.ransac_runs import best, members, part, rivals, states_of, truth_of
 from tests.truths.ransac import most_trusted
-from workbench.algorithms.models import MODELS, PLANE
-from workbench.algorithms.ransac import Stop, iterations_needed
+from workbench.algorithms.robust.models import MODELS, PLANE
+from workbench.algorithms.robust.ransac import Stop, iterations_needed
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption
-from workbench.timeline import Timeline
 
 
 def page() -> str:

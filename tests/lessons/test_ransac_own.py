@@ -12,11 +12,11 @@ from lessons.ransac.presets import end
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params
 from tests.lessons.ransac_runs import best, members, part, states_of, truth_of
-from workbench.algorithms.models import MODELS
+from workbench.algorithms.robust.models import MODELS
 from workbench.errors import InputError
 from workbench.knobs import with_own_files
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Points
-from workbench.timeline import Timeline
 
 
 def test_an_own_cloud_and_what_does_not_fit_it(tmp_path):

@@ -11,15 +11,15 @@ from lessons.ransac.rows import subject_of
 from lessons.ransac.shapes import outline
 from lessons.ransac.state import Params
 from tests.lessons.ransac_runs import best, part, rivals, states_of, truth_of
-from workbench.algorithms.models import MODELS
-from workbench.algorithms.ransac import iterations_needed
-from workbench.algorithms.scores import count_inliers
+from workbench.algorithms.robust.models import MODELS
+from workbench.algorithms.robust.ransac import iterations_needed
+from workbench.algorithms.robust.scores import count_inliers
 from workbench.errors import InputError
 from workbench.exercise.driven import driven
 from workbench.exercise.finding import exercises_of
-from workbench.geometry.lines_planes import plane_from_points
+from workbench.geometry.shapes.lines_planes import plane_from_points
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Classes, Points, Segments
-from workbench.timeline import Timeline
 
 
 def test_the_student_functions_drive_the_run():

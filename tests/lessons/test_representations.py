@@ -11,11 +11,11 @@ from lessons.representations.lesson import lesson, run
 from lessons.representations.state import Cells, Fitted, Joined, Params, Patches, Searched, State
 from lessons.representations.subjects import HALF, measured, subject_of
 from tests.runs import finished
-from workbench.algorithms.octree import Level
-from workbench.geometry.bezier import bezier_patch
+from workbench.algorithms.spatial.octree import Level
+from workbench.geometry.fields.signed_distances import box_sdf
 from workbench.geometry.level_sets import edge_crossings, level_surface
 from workbench.geometry.meshes import euler_characteristic
-from workbench.geometry.signed_distances import box_sdf
+from workbench.geometry.shapes.bezier import bezier_patch
 from workbench.scene import Points, caption_of
 
 OURS = Functions(bezier_patch=bezier_patch, edge_crossings=edge_crossings)

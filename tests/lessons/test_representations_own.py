@@ -12,10 +12,10 @@ from lessons.representations.lesson import lesson, run
 from lessons.representations.state import Params
 from lessons.representations.subjects import OWN_SIZE, subject_of
 from workbench.errors import InputError
-from workbench.geometry.bezier import bezier_patch
-from workbench.geometry.containment import winding_numbers
+from workbench.geometry.fields.signed_distances import box_sdf
 from workbench.geometry.level_sets import edge_crossings
-from workbench.geometry.signed_distances import box_sdf
+from workbench.geometry.meshes.containment import winding_numbers
+from workbench.geometry.shapes.bezier import bezier_patch
 from workbench.scene import caption_of
 
 OURS = Functions(bezier_patch=bezier_patch, edge_crossings=edge_crossings)

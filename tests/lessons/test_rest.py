@@ -70,7 +70,7 @@ def ends_of(states: tuple[Any, ...]) -> set[str]:
 def stopping_modules() -> dict[str, type[Enum]]:
     """Return the reasons to stop that algorithms have, by module."""
     found = {}
-    for info in pkgutil.iter_modules(workbench.algorithms.__path__, "workbench.algorithms."):
+    for info in pkgutil.walk_packages(workbench.algorithms.__path__, "workbench.algorithms."):
         kind = getattr(importlib.import_module(info.name), "Stop", None)
         found |= {} if kind is None else {info.name: kind}
     return found

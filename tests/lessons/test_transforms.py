@@ -12,9 +12,9 @@ from lessons.transforms.lesson import lesson
 from lessons.transforms.presets import ENTRIES, directions_left, halfway
 from lessons.transforms.state import Compare, Method, Params
 from tests.lessons.transforms_runs import MOVE, built, exp_axis, moved, opened, opened_at, preset, survivors, timeline
-from workbench.geometry.affine import Kind, kind_of, transform
 from workbench.geometry.motions import inverse, motion, rotation_angle
-from workbench.geometry.rotations import (
+from workbench.geometry.motions.affine import Kind, kind_of, transform
+from workbench.geometry.motions.rotations import (
     angles_apart,
     axis_angle_from_rotation,
     euler_to_matrix,

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 import trimesh
 
+from lessons.transforms.composition import Factor, compose
 from lessons.transforms.lesson import lesson, run
 from lessons.transforms.presets import complete
 from lessons.transforms.state import Built, Moved, Params
 from tests.lessons.transforms_runs import MOVE, built, opened, opened_at, preset, timeline
-from workbench.algorithms.composition import Factor, compose
 from workbench.errors import InputError
-from workbench.geometry.affine import transform
 from workbench.geometry.motions import inverse, motion, rotation_angle
-from workbench.geometry.rotations import euler_to_matrix, rotation_from_axis_angle
+from workbench.geometry.motions.affine import transform
+from workbench.geometry.motions.rotations import euler_to_matrix, rotation_from_axis_angle
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Mesh, Table, caption_of
-from workbench.timeline import Timeline
 
 
 def last_built(params: Params, **slots) -> Built:

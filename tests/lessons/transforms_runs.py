@@ -6,8 +6,8 @@ from lessons.transforms.lesson import lesson
 from lessons.transforms.presets import complete
 from lessons.transforms.state import Built, Moved, Params
 from tests.runs import finished
-from workbench.geometry.rotations import axis_angle_from_rotation
-from workbench.timeline import Timeline
+from workbench.geometry.motions.rotations import axis_angle_from_rotation
+from workbench.run.timeline import Timeline
 
 MOVE = Params(half="move between two poses")
 

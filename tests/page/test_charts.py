@@ -9,8 +9,8 @@ import pytest
 from tests import fake
 from workbench.page.charts import chart_of, outline, series_of
 from workbench.page.steps import Steps
+from workbench.run.timeline import Series, Timeline
 from workbench.scene import Caption, Curve, Scalar
-from workbench.timeline import Series, Timeline
 
 
 def curve(x, y, kind: Any = "line") -> Curve:

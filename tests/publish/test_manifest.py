@@ -10,9 +10,9 @@ from dataclasses import replace
 import pytest
 
 from tests.publish.conftest import TINY
-from workbench import atomic
 from workbench.cli import main
 from workbench.errors import InputError
+from workbench.machinery import atomic
 from workbench.publish import site
 from workbench.publish.manifest import KEPT
 
@@ -245,7 +245,7 @@ def test_a_full_disk_leaves_nothing_half_written(out, monkeypatch):
     def full(file):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("workbench.atomic.os.fsync", full)
+    monkeypatch.setattr("workbench.machinery.atomic.os.fsync", full)
     before = contents(out)
     with pytest.raises(InputError, match="No space left"):
         site.publish(out, [replace(TINY, title="Loud")])

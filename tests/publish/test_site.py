@@ -14,10 +14,10 @@ from workbench.page.document import RECORDED, SCRIPTS, STATIC, STYLES, bare
 from workbench.page.steps import Steps
 from workbench.publish import runs, site
 from workbench.publish.pages import lesson_page
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption
-from workbench.timeline import Timeline
-from workbench.typeset import math_font_css
 from workbench.wire.packing import run_text
+from workbench.words.typeset import math_font_css
 
 SMALL = replace(fake.lesson, presets=fake.lesson.presets[:1])
 

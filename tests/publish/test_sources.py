@@ -87,7 +87,7 @@ def test_a_lesson_depends_on_what_runs_draws_records_and_renders_it(name):
     assert {
         f"lessons/{name}/page.md",
         f"lessons/{name}/draw.py",
-        "workbench/timeline.py",
+        "workbench/run/timeline.py",
         "workbench/recording/sink.py",
         "workbench/recording/write.py",
         "workbench/wire/primitives.py",

@@ -127,7 +127,7 @@ def test_a_run_that_is_interrupted_leaves_nothing(tmp_path, monkeypatch):
     def interrupted(*args, **kwargs):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("workbench.atomic.os.fsync", interrupted)
+    monkeypatch.setattr("workbench.machinery.atomic.os.fsync", interrupted)
     with pytest.raises(KeyboardInterrupt):
         record(fake.lesson, tmp_path / "a.rrd")
     assert os.listdir(tmp_path) == []
@@ -135,7 +135,7 @@ def test_a_run_that_is_interrupted_leaves_nothing(tmp_path, monkeypatch):
 
 def test_what_a_killed_record_left_is_removed_by_the_next(tmp_path):
     code = (
-        "import os, signal, sys; from pathlib import Path; from workbench import atomic;"
+        "import os, signal, sys; from pathlib import Path; from workbench.machinery import atomic;"
         "atomic.os.fsync = lambda file: os.kill(os.getpid(), signal.SIGKILL);"
         "atomic.write_atomic(Path(sys.argv[1]), b'half')"
     )
@@ -153,7 +153,7 @@ def test_a_full_disk_leaves_nothing_half_written(tmp_path, monkeypatch):
     def full(file):
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("workbench.atomic.os.fsync", full)
+    monkeypatch.setattr("workbench.machinery.atomic.os.fsync", full)
     with pytest.raises(InputError, match=r"a\.rrd: cannot be written: No space left"):
         record(fake.lesson, tmp_path / "a.rrd")
     assert os.listdir(tmp_path) == []

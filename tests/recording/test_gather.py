@@ -11,8 +11,8 @@ from workbench.recording import gather, record_bytes
 from workbench.recording.gather import unions
 from workbench.recording.sink import RerunSink
 from workbench.recording.streams import stream_bytes
+from workbench.run.timeline import Timeline
 from workbench.scene import Field, Points
-from workbench.timeline import Timeline
 
 RNG = np.random.default_rng(0)
 P, COLORS = RNG.normal(size=(200, 3)), RNG.integers(0, 256, (200, 3), dtype=np.uint8)

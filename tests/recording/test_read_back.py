@@ -19,7 +19,7 @@ from workbench.recording.read import FORMAT, read_chunks, reopening
 from workbench.recording.sink import entity_of
 from workbench.recording.viewer_files import binary
 from workbench.recording.write import record_bytes
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 LESSONS = [fake.lesson, *catalog().values()]
 

@@ -16,7 +16,7 @@ from workbench.recording.canonical import id_in
 from workbench.recording.read import read_chunks
 from workbench.recording.streams import application_id
 from workbench.recording.write import record_bytes
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -65,7 +65,7 @@ def test_progress_is_told_step_by_step():
 def test_equal_runs_have_equal_content_under_one_id_and_others_another(tmp_path):
     """Across processes too: there, whatever hangs on the time or on a random seed differs."""
     code = (
-        "import sys; from pathlib import Path; from tests import fake; from workbench.timeline import Timeline;"
+        "import sys; from pathlib import Path; from tests import fake; from workbench.run.timeline import Timeline;"
         "from workbench.recording import record_bytes; run = Timeline(fake.lesson, fake.Params(steps=3)).complete();"
         "Path(sys.argv[1]).write_bytes(record_bytes(run))"
     )

@@ -5,7 +5,7 @@ import functools
 import numpy as np
 
 from lessons.calibration.state import State
-from workbench.algorithms.board_adjustment import Adjustment
+from workbench.algorithms.least_squares.board_adjustment import Adjustment
 
 K, LENS = np.array([[536.0, 0, 342], [0, 536, 236], [0, 0, 1]]), (-0.27, 0.05, 0.0015, -0.0005, 0.0)
 

@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from workbench.algorithms.pan_tilt import Followed
-from workbench.algorithms.parallels import Met
-from workbench.algorithms.placing import Scattered, Walked
-from workbench.algorithms.voyages import Travelled
+from lessons.coordinates.pan_tilt import Followed
+from lessons.coordinates.parallels import Met
+from lessons.coordinates.placing import Scattered, Walked
+from lessons.coordinates.voyages import Travelled
 
 EARTH = 6_371_008.8
 CAPS = 1 - np.cos(np.pi / 6)  # the share of a sphere's area within 30 degrees of a pole

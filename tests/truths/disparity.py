@@ -7,7 +7,7 @@ import numpy as np
 
 from lessons.disparity.lesson import lesson
 from tests.verdicts import Run
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 
 CHOSEN, CHECKED = -6, -5  # from the end: the last map before the check, and the check
 

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from lessons.graphs.state import State
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 
 
 def kept(work: Callable[[Any], Any]) -> Callable[[Any], Any]:

@@ -8,7 +8,7 @@ import scipy
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from workbench.data import flatland
+from lessons.learning import flatland
 
 CENTRES, RADII = flatland.DISCS[:, :2], flatland.DISCS[:, 2]
 

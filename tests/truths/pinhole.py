@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tests.verdicts import Run
-from workbench.data.street import street
+from workbench.data.views.street import street
 
 STAGES = ("world", "camera", "divide", "distort", "pixels", "back")
 CRATE = np.array([[-1.4, 5.5, 0.0], [-1.4, 5.5, 1.0]])

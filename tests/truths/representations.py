@@ -8,8 +8,8 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from lessons.representations.state import Params, State, Surface
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.sampling import points_on_faces, unit_points
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.geometry.points.sampling import points_on_faces, unit_points
 
 HALVES = {"box": (0.5, 0.35, 0.25), "two boxes": (0.6, 0.3, 0.3)}
 

@@ -10,7 +10,7 @@ from lessons.chamfer_emd.captions import caption as caption
 from tests.own_seed import of_preset
 from tests.readings import NUMBER, number, says
 from tests.verdicts import Claim, Run
-from workbench.algorithms.flow import Stop
+from workbench.algorithms.transport.flow import Stop
 
 FIGURE = rf"(<?{NUMBER})"
 SHARE = rf"({NUMBER}) %"

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 
+from lessons.coordinates.placing import Walked
 from tests.readings import LENGTH, NUMBER, near, near_length, number, says
 from tests.truths.coordinates import (
     apart,
@@ -15,7 +16,6 @@ from tests.truths.coordinates import (
     straight_over_shortest,
 )
 from tests.verdicts import Claim, Run
-from workbench.algorithms.placing import Walked
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "right"]
 

@@ -26,7 +26,7 @@ from tests.truths.disparity import (
     wrong,
 )
 from tests.verdicts import Claim, Run
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 

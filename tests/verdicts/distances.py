@@ -12,8 +12,8 @@ from tests.own_seed import of_preset
 from tests.readings import LENGTH, NUMBER, near, near_length, number, says, says_percent
 from tests.truths.distances import by_heat, errors, mahalanobis, true_distances
 from tests.verdicts import Claim, Run
-from workbench.algorithms.heat_method import HeatState
-from workbench.data.surfaces import sphere
+from workbench.algorithms.surfaces.heat_method import HeatState
+from workbench.data.shapes.surfaces import sphere
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 

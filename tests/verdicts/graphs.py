@@ -11,9 +11,9 @@ from tests.own_seed import of_preset
 from tests.readings import NUMBER, POWER, near, number, says_percent
 from tests.truths.graphs import A, correct, modes, off, parts, told, volume
 from tests.verdicts import Claim, Run
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 

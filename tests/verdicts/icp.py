@@ -24,7 +24,7 @@ from tests.truths.icp import (
     try_home,
 )
 from tests.verdicts import Claim, Run
-from workbench.algorithms.icp import Stop
+from workbench.algorithms.registration.icp import Stop
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 

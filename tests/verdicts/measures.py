@@ -21,8 +21,8 @@ from tests.truths.measures import (
     walls,
 )
 from tests.verdicts import Claim, Run
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Throws
 
 VALUE = rf"({NUMBER})"
 ERROR = rf"(exact|off by less than 0\.01 %|\+?{NUMBER} %)"

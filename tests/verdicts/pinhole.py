@@ -30,7 +30,7 @@ from tests.truths.pinhole import (
     shot_gap,
 )
 from tests.verdicts import Claim, Run
-from workbench.data.street import BALL_CENTER, BALL_RADIUS, street
+from workbench.data.views.street import BALL_CENTER, BALL_RADIUS, street
 from workbench.scene import Caption
 
 POINT = rf"\(({NUMBER}), ({NUMBER}), ({NUMBER})\)"

@@ -14,9 +14,9 @@ from lessons.pose.trials import ANEW
 from tests.readings import LENGTH, NUMBER, near, near_length, number
 from tests.truths.pose import is_near, is_right, off, pixels_off, rms, share_near
 from tests.verdicts import Claim, Run
-from workbench.data.sightings import random_views
-from workbench.geometry.camera_motions import sqpnp
-from workbench.geometry.control_points import epnp
+from workbench.data.views.sightings import random_views
+from workbench.geometry.cameras.camera_motions import sqpnp
+from workbench.geometry.cameras.control_points import epnp
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right", "until_the_end"]
 OF_MANY = {replace(one.params, seed=0) for one in (*lesson.questions, lesson.preset("tiny"), lesson.preset("safe"))}

@@ -9,7 +9,7 @@ from lessons.representations.captions import caption as caption
 from tests.readings import LENGTH, NUMBER, near, near_length, number, says_percent
 from tests.truths.representations import distance, errors, mesh_of, sizes, surface_of
 from tests.verdicts import Claim, Run
-from workbench.algorithms.octree import Level
+from workbench.algorithms.spatial.octree import Level
 
 VALUE, WAY = rf"({NUMBER})", rf"({LENGTH})"
 PERCENT = rf"({NUMBER} %|less than 0\.01 %)"

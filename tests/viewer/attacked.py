@@ -7,7 +7,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from tests import fake
 from tests.fake_page import FakePage
 from tests.loops import run_apart
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 from workbench.viewer.server import Server
 
 HERE = "?lesson=fake"

@@ -9,9 +9,9 @@ import numpy as np
 
 from tests import fake
 from tests.loops import run_apart
-from workbench import links
 from workbench.lesson import Lesson, Preset, View
-from workbench.timeline import Timeline
+from workbench.run import links
+from workbench.run.timeline import Timeline
 from workbench.viewer.connection import PageConnection
 from workbench.viewer.runs import Runs
 

@@ -17,7 +17,7 @@ from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
 from tests import fake
-from workbench import links
+from workbench.run import links
 from workbench.viewer import own_files
 from workbench.viewer.server import Server
 

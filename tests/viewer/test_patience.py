@@ -23,7 +23,7 @@ UNBOUND = resource.RLIM_INFINITY
 FULL = """
 import os, resource, sys
 from tests import fake
-from workbench import links
+from workbench.run import links
 from workbench.viewer.server import Server
 
 server = Server(links.Place(fake.lesson, fake.Params()))

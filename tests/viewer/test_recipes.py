@@ -21,9 +21,10 @@ import pytest
 
 from tests.fake_page import FakePage
 from tests.loops import run_apart
-from workbench import cli, flags
+from workbench import cli
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run import flags
+from workbench.run.timeline import Timeline
 from workbench.viewer.server import Server
 
 ROOT = Path(__file__).parents[2]

@@ -20,9 +20,9 @@ from tests import fake
 from tests.fake_page import FakePage
 from tests.loops import run_apart
 from tests.viewer.attacked import HERE, goes_on, meanwhile, until
-from workbench import links
 from workbench.knobs import fields_of
 from workbench.lesson import catalog
+from workbench.run import links
 from workbench.viewer import connection as connection_module
 from workbench.viewer import patience
 from workbench.viewer import server as server_module

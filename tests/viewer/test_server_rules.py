@@ -10,7 +10,7 @@ import websockets
 from tests.fake_page import FakePage
 from tests.loops import run_apart
 from workbench.errors import InputError
-from workbench.hosts import Hosts, is_loopback
+from workbench.machinery.hosts import Hosts, is_loopback
 from workbench.viewer.addresses import addresses
 from workbench.viewer.rules import Rules
 from workbench.viewer.server import Server

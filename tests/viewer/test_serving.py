@@ -14,7 +14,7 @@ import pytest
 
 from workbench.cli import main
 from workbench.errors import InputError
-from workbench.hosts import listening
+from workbench.machinery.hosts import listening
 from workbench.viewer.serving import serve
 
 ROOT = Path(__file__).resolve().parents[2]

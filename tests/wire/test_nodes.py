@@ -22,8 +22,8 @@ from tests.fake import PHOTO, K
 from tests.wire.kinds import ENDS, FACE, KINDS, MOVED, SHEARED
 from tests.wire.reading import Reader
 from workbench.lesson import View
+from workbench.run.timeline import Timeline
 from workbench.scene import PALETTE, Camera, Classes, Field, Label, Mesh, Picture, Points, Scene, Segments, color_rows
-from workbench.timeline import Timeline
 from workbench.wire.nodes import SCENE, Maker, Node
 from workbench.wire.packing import PageWire
 from workbench.wire.primitives import AT_ORIGIN, wxyz_of

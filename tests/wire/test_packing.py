@@ -14,8 +14,8 @@ from tests import fake
 from tests.wire.kinds import KINDS
 from tests.wire.reading import Reader, alike
 from workbench.lesson import View
+from workbench.run.timeline import Timeline
 from workbench.scene import Points
-from workbench.timeline import Timeline
 from workbench.wire import packing
 from workbench.wire.nodes import Content, Kind, Maker, digest
 from workbench.wire.packing import PageWire, packed, run_bytes, run_text

@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.geometry.motions import exp_se3, log_se3, motion
-from workbench.geometry.rotations import (
+from workbench.geometry.motions.rotations import (
     EulerOrder,
     axis_angle_from_rotation,
     great_circle,

@@ -13,17 +13,17 @@ from jaxtyping import Float
 
 from workbench.errors import InputError
 from workbench.geometry.cameras import normalize
-from workbench.geometry.epipolar import (
+from workbench.geometry.motions import angle_between, apply
+from workbench.geometry.two_views.epipolar import (
     epipolar_constraints,
     fundamental_from_cameras,
     rank_two,
     refine_fundamental,
 )
-from workbench.geometry.essential import equal_singular_values, essential_from_fundamental, refine_motion
-from workbench.geometry.homography import homogeneous
-from workbench.geometry.motions import angle_between, apply
-from workbench.geometry.rectification import Rectification, rectify
-from workbench.geometry.triangulation import before_both, camera_matrix
+from workbench.geometry.two_views.essential import equal_singular_values, essential_from_fundamental, refine_motion
+from workbench.geometry.two_views.homography import homogeneous
+from workbench.geometry.two_views.rectification import Rectification, rectify
+from workbench.geometry.two_views.triangulation import before_both, camera_matrix
 from workbench.tracing import traced
 
 EightPoint = Callable[[np.ndarray, np.ndarray], np.ndarray]

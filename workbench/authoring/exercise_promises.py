@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 
 from workbench.authoring.promises import Found, Subject
-from workbench.authors import at
 from workbench.exercise.grading import Outcome, Report, grade_file, grade_function
 from workbench.exercise.model import Exercise, Function
 from workbench.exercise.starter import sample, starter, write_starter
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson
+from workbench.machinery.authors import at
 
 LEAST_CHECKS, LEAST_MISTAKES, LEAST_ALTERNATIVES, LEAST_EXAMPLES = 4, 3, 1, 2
 TASK = (40, 600)

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson
-from workbench.typeset import WORDING
+from workbench.words.typeset import WORDING
 
 _CLAUSE = r"(?:\A|\n\s*\n|\n\s*(?:[-*#|]|\d+\.)|[.:;,!?(|–—…])\s*(?:(?:and|or|then|now|just|simply|please)\s+)?"
 _ASKED = rf"(?:{_CLAUSE}|\b(?:you|you\s+(?:can|may|must)|or|then)\s+)"

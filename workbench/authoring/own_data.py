@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from workbench.authoring.promises import Found, Subject, promise
-from workbench.authors import at
 from workbench.knobs import paths_of, showing
+from workbench.machinery.authors import at
 
 Given = dict[str, str]
 """By own-data knob the name of the file that it is handed."""

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from workbench.authoring.live_words import elsewhere, live_words, on_page
 from workbench.authoring.new import TEMPLATE, TITLE
 from workbench.authoring.promises import ONLY_LIVE, Found, Subject, length_of, opens, promise
-from workbench.authors import place
 from workbench.errors import AuthorError, InputError
+from workbench.machinery.authors import place
 from workbench.page.article import LINK, TERM, article_html
-from workbench.typeset import page_of
+from workbench.words.typeset import page_of
 
 PARTS = ("Conventions", "Watch", "Predict", "Break it", "Your turn", "Pitfalls", "References")
 """What a page has, among other parts."""

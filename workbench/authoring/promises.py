@@ -12,15 +12,15 @@ from dataclasses import replace
 from typing import Any, TypeAlias
 
 from workbench.authoring.live_words import live_words
-from workbench.authors import at
 from workbench.errors import InputError
-from workbench.flags import RESERVED
 from workbench.knobs import Field, changed, fields_of, from_json, to_json
 from workbench.lesson import Lesson, Preset, Question
-from workbench.questions import Answer, answer
+from workbench.machinery.authors import at
+from workbench.run.flags import RESERVED
+from workbench.run.questions import Answer, answer
+from workbench.run.timeline import Timeline
 from workbench.scene import Scene, in_space, same
-from workbench.timeline import Timeline
-from workbench.typeset import inline_html
+from workbench.words.typeset import inline_html
 
 Found: TypeAlias = Iterator[str | None]
 """None for each thing that holds, a line for each that does not."""

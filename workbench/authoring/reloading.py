@@ -8,8 +8,8 @@ from typing import Any
 from workbench import knobs
 from workbench.errors import AuthorError, InputError
 from workbench.lesson import Lesson
-from workbench.loading import load, taken_by
-from workbench.timeline import Timeline
+from workbench.run.loading import load, taken_by
+from workbench.run.timeline import Timeline
 
 FOLLOWED = (".py", ".md", ".svg", ".png", ".jpg", ".jpeg", ".webp")
 

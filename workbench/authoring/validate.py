@@ -21,11 +21,11 @@ from typing import Any
 from workbench.authoring import own_data, page_promises, view_promises  # noqa: F401 each adds to OF_LESSONS
 from workbench.authoring.exercise_promises import OF_EXERCISES
 from workbench.authoring.promises import OF_LESSONS, SECONDS, Found, Subject
-from workbench.authors import described, is_ours, place
 from workbench.errors import InputError, one_line
 from workbench.exercise.finding import exercises_of
 from workbench.lesson import catalog, find
-from workbench.loading import is_path, lesson_given
+from workbench.machinery.authors import described, is_ours, place
+from workbench.run.loading import is_path, lesson_given
 
 MEGABYTES = 6144
 _FRAME = re.compile(r'^  File "(.*)", line (\d+) in ', re.MULTILINE)

@@ -9,11 +9,11 @@ from jaxtyping import Float
 
 from workbench.apart import apart
 from workbench.data.files import finite, number_rows, read_cloud, stamp
-from workbench.data.formats import is_number, text_of, words_of
+from workbench.data.files.formats import is_number, text_of, words_of
 from workbench.data.framing import box
 from workbench.data.thinning import evenly
 from workbench.errors import InputError
-from workbench.geometry.algebraic_fits import fit_algebraic
+from workbench.geometry.shapes.algebraic_fits import fit_algebraic
 
 WIDTH = 2.0  # metres that points are long in the picture, where nothing round says how large they are
 LARGEST = 3.0  # times as large as the points a circle may be that they are shown by

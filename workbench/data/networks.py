@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float, Int
 
-from workbench.geometry.embedding import stress_layout
 from workbench.geometry.graphs import graph_of, hops
+from workbench.geometry.graphs.embedding import stress_layout
 
 # Actor: neighbours of a higher number x in how many contexts outside the club the two met.
 _KARATE = (

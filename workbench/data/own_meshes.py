@@ -7,9 +7,9 @@ from numpy import ndarray
 
 from workbench.data.files import read_mesh
 from workbench.errors import InputError
-from workbench.geometry.measures import surface_area
 from workbench.geometry.meshes import check_mesh, welded
-from workbench.geometry.repair import oriented, split_where_sheets_touch, without_repeats
+from workbench.geometry.meshes.measures import surface_area
+from workbench.geometry.meshes.repair import oriented, split_where_sheets_touch, without_repeats
 from workbench.numerals import counted
 
 

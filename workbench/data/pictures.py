@@ -14,7 +14,7 @@ from jaxtyping import UInt8
 
 from workbench.apart import apart
 from workbench.data.files import opened_image, stamp
-from workbench.data.formats import not_too_large
+from workbench.data.files.formats import not_too_large
 from workbench.errors import InputError
 
 if TYPE_CHECKING:

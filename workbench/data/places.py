@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from workbench.apart import apart
 from workbench.data.files import text_rows
-from workbench.data.formats import is_number
+from workbench.data.files.formats import is_number
 from workbench.errors import InputError
 
 MOST_PLACES = 2000

@@ -10,8 +10,8 @@ from workbench.data.files import read_cloud, read_pose
 from workbench.data.framing import FAR, Up, extent, frame
 from workbench.data.thinning import some_points, voxel_means
 from workbench.errors import InputError
-from workbench.geometry.alignment import MotionError, motion_error
 from workbench.geometry.motions import apply, motion
+from workbench.geometry.motions.alignment import MotionError, motion_error
 
 FINE_SOURCE, FINE_TARGET = 5000, 40_000
 FEWEST, MOST = 20, 5000  # points after thinning

@@ -16,15 +16,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, TextIO
 
-from workbench.atomic import write_atomic
 from workbench.errors import InputError, one_line
 from workbench.exercise.classfiles import class_csv, is_full, matrix_csv, summary
 from workbench.exercise.marking import Asked, Result, digest, empty, grade_student, summed
 from workbench.exercise.reports import SCHEMA_VERSION, ungraded
 from workbench.exercise.sandbox import best, named
 from workbench.exercise.submissions import HandIn, handed_in, with_roster
-from workbench.progress import Progress, bar
-from workbench.workers import parallel_map
+from workbench.machinery.atomic import write_atomic
+from workbench.machinery.progress import Progress, bar
+from workbench.machinery.workers import parallel_map
 
 Task = tuple[HandIn, Asked]
 LONGEST_SECONDS = 900.0

@@ -15,8 +15,8 @@ from workbench.exercise.model import Exercise, Function
 from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError
 from workbench.lesson import Lesson
+from workbench.run.timeline import Step, Timeline
 from workbench.scene import Caption, Mesh, Points, Primitive, Scalar, Scene, Segments, caption_of, ghost
-from workbench.timeline import Step, Timeline
 
 TOLERANCE = 1e-6  # of the larger of 1 and the size of what is compared
 DIFFERENCE = "exercise/difference"

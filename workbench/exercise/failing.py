@@ -9,7 +9,7 @@ from workbench.exercise.driven import driven, first_difference
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox import SandboxedFunction
 from workbench.lesson import Lesson, catalog
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 SECONDS = 8.0
 """How long a difference is looked for; the checks have told what is wrong already."""

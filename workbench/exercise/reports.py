@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-import workbench
-from workbench.atomic import write_atomic
 from workbench.errors import InputError, one_line
 from workbench.exercise.grading import Outcome, Report
 from workbench.exercise.model import Exercise
+from workbench.machinery.atomic import write_atomic
+from workbench.machinery.version import __version__
 
 SCHEMA_VERSION = 2
 SCHEMA = Path(__file__).with_name("result.schema.json")
@@ -79,7 +79,7 @@ def as_dict(report: Report) -> dict[str, Any]:
     """Return a report as plain data, after `result.schema.json`."""
     return {
         "schema": SCHEMA_VERSION,
-        "workbench": workbench.__version__,
+        "workbench": __version__,
         "exercise": report.exercise.name,
         "lesson": report.exercise.lesson,
         "file": report.file,

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox.budget import CALLS
@@ -16,7 +15,8 @@ from workbench.exercise.sandbox.function import MEGABYTES
 from workbench.exercise.sandbox.isolation import OUTPUT_BYTES
 from workbench.exercise.sandbox.python import ALLOWED
 from workbench.lesson import catalog
-from workbench.loading import word_for
+from workbench.machinery.atomic import write_atomic
+from workbench.run.loading import word_for
 
 
 def starter(exercise: Exercise, megabytes: int = MEGABYTES) -> str:

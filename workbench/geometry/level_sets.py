@@ -10,8 +10,8 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Float, Int
 
+from workbench.geometry.fields.voxels import Grid
 from workbench.geometry.polylines import segments
-from workbench.geometry.voxels import Grid
 
 EdgeCrossings = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 """edge_crossings(p_a, p_b, f_a, f_b) -> where the field is zero on each edge."""

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from workbench.atomic import write_atomic
 from workbench.errors import InputError, one_line
 from workbench.exercise.grading import Report
 from workbench.exercise.marking import Asked, chosen, marked, not_handed_in
@@ -21,6 +20,7 @@ from workbench.exercise.submissions import handed_by
 from workbench.handout.assignment import Assignment, read
 from workbench.handout.picture import pictured
 from workbench.handout.results import prairielearn
+from workbench.machinery.atomic import write_atomic
 
 NOT_YET = "was not graded: the grader ended before, or ran out of time. This is not about your code; tell your teacher."
 Written = Callable[[Sequence[Report], Sequence[dict[str, Any]], Sequence[dict[str, str]]], dict[str, Any]]

@@ -9,12 +9,12 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.sandbox.function import MEGABYTES
 from workbench.exercise.starter import commands, sample, starter
 from workbench.handout import gradescope, prairielearn
 from workbench.handout.assignment import Assignment
+from workbench.machinery.atomic import write_atomic
 
 SECONDS = 560.0
 KINDS = {"full": sample, "none": starter}

@@ -11,7 +11,7 @@ from html import escape
 
 from workbench.errors import AuthorError
 from workbench.lesson import Lesson
-from workbench.typeset import page_of, wording
+from workbench.words.typeset import page_of, wording
 
 _LINK = re.compile(r'<a href="run:([^"@]*)(?:@(-?\d+))?">')
 LINK = re.compile(r"\]\(run:([^)@\s]*)(?:@(-?\d+))?\)")

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from workbench.axis import Axis, axis, labelled, value_axis
 from workbench.page.legend import css_color, escape
+from workbench.run.timeline import Series, plotted_values
 from workbench.scene import PALETTE, Curve, Table
-from workbench.timeline import Series, plotted_values
+from workbench.words.axis import Axis, axis, labelled, value_axis
 
 NARROW_BAR = 0.96
 """How much of the room between two bars a bar takes."""

@@ -9,7 +9,7 @@ from typing import Any
 from workbench.lesson import Lesson
 from workbench.page.article import PLACE
 from workbench.page.lessons import lesson_data
-from workbench.typeset import math_font_css
+from workbench.words.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
 MATH = "math.css"

@@ -4,7 +4,7 @@ from typing import Any
 
 from workbench.knobs import Field, Gizmo, Pick, changed, fields_of
 from workbench.lesson import Lesson, Preset, Question
-from workbench.typeset import inline_html
+from workbench.words.typeset import inline_html
 
 
 def lesson_data(lesson: Lesson) -> dict[str, Any]:

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from workbench.images import webp
+from workbench.machinery.images import webp
 from workbench.page.charts import chart_of, series_charts, series_of, table_html
 from workbench.page.code import moment_data, source_html
 from workbench.page.legend import bar_html, legend_html
+from workbench.run.timeline import Step, Timeline
 from workbench.scene import Curve, Field, Picture, Scene, Table, in_space
-from workbench.timeline import Step, Timeline
 
 
 class Steps:

@@ -7,6 +7,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from workbench.lesson import Lesson, View
+from workbench.run.timeline import Timeline
 from workbench.scene import (
     PALETTE,
     Axes,
@@ -19,7 +20,6 @@ from workbench.scene import (
     color_rows,
     in_space,
 )
-from workbench.timeline import Timeline
 
 SIZE = 320, 200
 FINER = 3  # drawn so many times as large, then made smaller: its edges are smooth

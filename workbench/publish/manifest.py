@@ -14,8 +14,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from workbench.atomic import remove_leftovers, write_atomic
 from workbench.errors import InputError
+from workbench.machinery.atomic import remove_leftovers, write_atomic
 
 KEPT = ".published.json"
 FORMATS = (2, 3)  # that are read; the last is written

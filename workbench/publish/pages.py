@@ -13,8 +13,8 @@ from workbench.page.document import in_script, lesson_document
 from workbench.page.exercise import exercises_html
 from workbench.publish.manifest import Listed
 from workbench.publish.runs import PAGE, question_run
-from workbench.questions import answer
-from workbench.timeline import Timelines
+from workbench.run.questions import answer
+from workbench.run.timeline import Timelines
 
 LESSONS = "lessons.js"
 """The file of a site that names all its lessons."""

@@ -11,15 +11,15 @@ from typing import Any
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, Question, Sweep, catalog
-from workbench.links import show_command
+from workbench.machinery.workers import WorkerLostError, parallel_map
 from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
 from workbench.publish.sources import sources_digest
 from workbench.recording import file_name, record_bytes
-from workbench.timeline import Timeline
+from workbench.run.links import show_command
+from workbench.run.timeline import Timeline
 from workbench.wire.client import client_html
 from workbench.wire.packing import run_text
-from workbench.workers import WorkerLostError, parallel_map
 
 CLIENT = "viser.js"
 """The file of a site with viser's client, which draws the scenes of all runs."""

@@ -7,12 +7,12 @@ from urllib.parse import unquote, urlsplit
 
 import viser
 
-import workbench
 from workbench.errors import InputError
 from workbench.lesson import Lesson
+from workbench.machinery.progress import Progress
+from workbench.machinery.version import __version__
 from workbench.page.document import MATH, RECORDED, SCRIPTS, STATIC, STYLES, THIRD_PARTIES, bare
 from workbench.page.thumbnail import thumbnail
-from workbench.progress import Progress
 from workbench.publish.lock import only_writer
 from workbench.publish.manifest import NAME, Listed, Manifest
 from workbench.publish.pages import LESSONS, answers, course_page, lesson_page, lessons_script
@@ -29,8 +29,8 @@ from workbench.publish.runs import (
     runs_of,
 )
 from workbench.recording import equal_content
-from workbench.timeline import Timelines
-from workbench.typeset import math_font_css
+from workbench.run.timeline import Timelines
+from workbench.words.typeset import math_font_css
 
 PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = 300_000, 1_000_000, 4_000_000, 3_000_000
 COURSE_PAGE = "index.html"
@@ -92,7 +92,7 @@ def _publish(
     manifest.remove_leftovers()
     names = {lesson.name for lesson in lessons}
     others = {} if remove_others else {name: one for name, one in manifest.lessons.items() if name not in names}
-    made_by = f"workbench {workbench.__version__}, viser {viser.__version__}"
+    made_by = f"workbench {__version__}, viser {viser.__version__}"
     if others and manifest.made_by != made_by:
         raise InputError(f"{out}: its other lessons were published by another version; publish all of them again")
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]

@@ -12,9 +12,9 @@ from typing import Any, TypeAlias
 import numpy as np
 import rerun as rr
 
-from workbench.axis import Axis, axis, number, value_axis
 from workbench.recording.glyphs import safe
 from workbench.scene import PALETTE, Curve, Field, color_map
+from workbench.words.axis import Axis, axis, number, value_axis
 
 WIDTH, HEIGHT = 300.0, 186.0
 LEFT, RIGHT, TOP, BOTTOM = 40.0, 290.0, 24.0, 138.0  # the frame of a chart on its canvas

@@ -12,8 +12,8 @@ import rerun as rr
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import plotted
 from workbench.recording.sink import entity_of, markdown
+from workbench.run.timeline import Series, plotted_values
 from workbench.scene import PALETTE, Caption, Scalar
-from workbench.timeline import Series, plotted_values
 
 TONES = {"info": "", "good": "✓ ", "wrong": "✗ "}
 

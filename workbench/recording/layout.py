@@ -8,14 +8,14 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from workbench.axis import value_axis
 from workbench.lesson import View
 from workbench.recording.chart import LEGEND_WIDTH, Canvas
 from workbench.recording.contents import Contents
 from workbench.recording.glyphs import safe
 from workbench.recording.sink import TABLES, entity_of
+from workbench.run.timeline import plotted_values
 from workbench.scene import Scalar
-from workbench.timeline import plotted_values
+from workbench.words.axis import value_axis
 
 RERUN_FOV = 55.0  # degrees, of the viewer's eye, from top to bottom
 LEAST_TILT = np.radians(1.0)

@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from workbench.recording.glyphs import safe
-from workbench.typeset import math_html
+from workbench.words.typeset import math_html
 
 THIN = "\u2009"
 """A space that an author set; others stand about operators, but not in scripts."""

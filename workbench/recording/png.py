@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import rerun as rr
 
-from workbench.images import png, png_of_levels, resized
+from workbench.machinery.images import png, png_of_levels, resized
 from workbench.scene import UNKNOWN, Field, color_map
 
 IMAGE = "/image"

@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 from rerun.chunk import RrdReader
 
-from workbench import __version__, knobs
+from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
+from workbench.machinery.version import __version__
 from workbench.recording.viewer_files import binary, quiet_environment
 from workbench.scene import Scalar
 

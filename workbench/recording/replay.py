@@ -16,7 +16,7 @@ from starlette.responses import FileResponse, Response
 from starlette.routing import Route
 
 from workbench.errors import InputError
-from workbench.hosts import Hosts, listening
+from workbench.machinery.hosts import Hosts, listening
 from workbench.recording.viewer_files import binary, quiet_environment, rerun_version, web_viewer
 
 POLICY = (

@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from workbench.atomic import remove_leftovers, write_atomic
 from workbench.errors import InputError
-from workbench.typeset import cache_folder
+from workbench.machinery.atomic import remove_leftovers, write_atomic
+from workbench.words.typeset import cache_folder
 
 NAMES = ("re_viewer.js", "re_viewer_bg.wasm")
 PATIENCE = 60.0

@@ -10,12 +10,12 @@ from typing import Any, TextIO
 import numpy as np
 import rerun as rr
 
-from workbench import __version__, knobs
-from workbench.atomic import remove_leftovers, write_atomic
+from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
-from workbench.loading import load
-from workbench.progress import Progress, bar
+from workbench.machinery.atomic import remove_leftovers, write_atomic
+from workbench.machinery.progress import Progress, bar
+from workbench.machinery.version import __version__
 from workbench.recording.columns import facts, send_captions, send_series
 from workbench.recording.contents import contents_of, to_json
 from workbench.recording.gather import unions
@@ -25,8 +25,9 @@ from workbench.recording.plain_page import plain_page
 from workbench.recording.read import FORMAT, digest
 from workbench.recording.sink import RerunSink, document
 from workbench.recording.streams import application_id, stream_bytes
-from workbench.timeline import Timeline
-from workbench.typeset import wording
+from workbench.run.loading import load
+from workbench.run.timeline import Timeline
+from workbench.words.typeset import wording
 
 
 @dataclass(frozen=True)

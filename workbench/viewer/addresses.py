@@ -2,7 +2,7 @@
 
 import socket
 
-from workbench.hosts import is_loopback
+from workbench.machinery.hosts import is_loopback
 
 KEY = "key"
 """The name of the token in a link."""

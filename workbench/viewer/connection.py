@@ -14,16 +14,16 @@ from typing import Any
 
 import numpy as np
 
-from workbench import links
 from workbench.authoring.reloading import carried
-from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
 from workbench.knobs import paths_of, with_own_files
 from workbench.lesson import Lesson
-from workbench.picking import picked_params
-from workbench.questions import answer
-from workbench.session import Session
-from workbench.timeline import Timeline
+from workbench.machinery.authors import Blaming
+from workbench.run import links
+from workbench.run.picking import picked_params
+from workbench.run.questions import answer
+from workbench.run.session import Session
+from workbench.run.timeline import Timeline
 from workbench.viewer.following import Following
 from workbench.viewer.own_files import OwnFiles
 from workbench.viewer.requests import Requests, read_request

@@ -3,16 +3,16 @@
 from collections.abc import Callable, Mapping
 from html import escape
 
-from workbench import links
-from workbench.authors import Blaming
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson
+from workbench.machinery.authors import Blaming
 from workbench.page.article import PLACE, article_html
 from workbench.page.course import Card, course_document
 from workbench.page.document import lesson_document
 from workbench.page.exercise import exercises_html, watched_html
+from workbench.run import links
 from workbench.viewer.terminal import tell_terminal
 
 ROOT = "page/"

@@ -1,6 +1,6 @@
 """Who may talk to the live server: by the Host that a browser names, the Origin of the page it shows, and a token.
 
-A browser must name this machine (`workbench.hosts`). Where others are let in, they bring a token: in the link at the
+A browser must name this machine (`workbench.machinery.hosts`). Where others are let in, they bring a token: in the link at the
 first visit, in a cookie from then on. A page of another origin opens no websocket and reads nothing, and no other site
 shows a page in a frame.
 """
@@ -16,7 +16,7 @@ from starlette.responses import HTMLResponse, PlainTextResponse, RedirectRespons
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from workbench.errors import InputError
-from workbench.hosts import Hosts, name_in
+from workbench.machinery.hosts import Hosts, name_in
 from workbench.viewer.addresses import KEY
 
 _PAGE = (

@@ -13,8 +13,8 @@ from typing import Any, TypeVar
 
 from workbench.lesson import Lesson
 from workbench.page.steps import Steps
+from workbench.run.timeline import Timeline, Timelines
 from workbench.scene import arrays
-from workbench.timeline import Timeline, Timelines
 from workbench.viewer.scheduling import Scheduler
 from workbench.wire.nodes import Maker
 

@@ -12,7 +12,7 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 
 from workbench.apart import tell_when_waiting
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 SLICE = 0.02
 """Seconds of computing until somebody else has a turn; a single step may take longer."""

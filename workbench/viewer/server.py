@@ -20,16 +20,15 @@ from starlette.responses import FileResponse, PlainTextResponse, RedirectRespons
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from workbench import links
 from workbench.authoring.reloading import Edited, carried
 from workbench.errors import InputError
 from workbench.exercise.watching import Watched
-from workbench.hosts import listening
 from workbench.lesson import Lesson, catalog
+from workbench.machinery.hosts import listening
 from workbench.page.code import source_html
 from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES, THIRD_PARTIES
 from workbench.page.thumbnail import thumbnail
-from workbench.typeset import math_font_css
+from workbench.run import links
 from workbench.viewer.addresses import Doors
 from workbench.viewer.connection import PageConnection
 from workbench.viewer.documents import LessonPages, course_page, lesson_page, start_address
@@ -40,6 +39,7 @@ from workbench.viewer.rules import Gate, Rules, page_response
 from workbench.viewer.runs import MOST_BYTES, Runs
 from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
+from workbench.words.typeset import math_font_css
 
 FILES = (*STYLES, *LIVE, *SCRIPTS, THIRD_PARTIES)
 MOST_PAGES = 400

@@ -7,11 +7,11 @@ import webbrowser
 from collections.abc import Iterator
 from typing import Any
 
-from workbench import links
 from workbench.authoring.reloading import Edited
 from workbench.errors import InputError
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson
+from workbench.run import links
 from workbench.viewer.addresses import Doors
 from workbench.viewer.runs import settle
 from workbench.viewer.server import Server

@@ -6,7 +6,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import PlainTextResponse, Response
 
 from workbench.errors import InputError
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 from workbench.viewer.connection import PageConnection
 from workbench.viewer.terminal import tell_terminal
 

@@ -4,17 +4,17 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from workbench import links
-from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
 from workbench.exercise.driven import Pair, calls_it, first_difference
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson, View
-from workbench.links import show_command
+from workbench.machinery.authors import Blaming
 from workbench.page.lessons import files_of, values_of
 from workbench.page.steps import Steps
-from workbench.session import Look, Session
-from workbench.timeline import Timeline
+from workbench.run import links
+from workbench.run.links import show_command
+from workbench.run.session import Look, Session
+from workbench.run.timeline import Timeline
 from workbench.viewer.runs import Runs
 from workbench.viewer.terminal import tell_terminal
 from workbench.wire.packing import PageWire

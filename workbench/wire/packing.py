@@ -12,8 +12,8 @@ from typing import Any
 import zstandard
 
 from workbench.lesson import View
+from workbench.run.timeline import Timeline
 from workbench.scene import Scene
-from workbench.timeline import Timeline
 from workbench.wire.nodes import MAKER, Content, Kind, Maker, Node
 from workbench.wire.stage import camera_of
 

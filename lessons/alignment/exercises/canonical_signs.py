@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from lessons.alignment.exercises import GRADERS, STUDENTS, a_lopsided_cloud, a_rotation
 from workbench.exercise import Function, Verdict, alternative, check, contract, fail, full, left_alone, mistake, worst
-from workbench.geometry import principal_axes as geometry
+from workbench.geometry.motions import principal_axes as geometry
 
 
 @contract(

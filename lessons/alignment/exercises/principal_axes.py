@@ -19,7 +19,7 @@ from workbench.exercise import (
     refused,
     worst,
 )
-from workbench.geometry import principal_axes as geometry
+from workbench.geometry.motions import principal_axes as geometry
 
 SKEWED = 1e-5  # how far V^T V may be from the identity: rounding, also of single precision
 TURNED = ([-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0])

@@ -19,7 +19,7 @@ from workbench.exercise import (
     refused,
     worst,
 )
-from workbench.geometry import alignment
+from workbench.geometry.motions import alignment
 
 
 @contract(

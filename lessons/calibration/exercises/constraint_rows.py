@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from lessons.calibration.exercises import GRADERS, STUDENTS, rows_verdict, views
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import calibration
+from workbench.geometry.cameras import calibration
 
 
 @contract(

@@ -20,8 +20,7 @@ from workbench.exercise import (
     motion_verdict,
     worst,
 )
-from workbench.geometry import calibration
-from workbench.geometry.cameras import intrinsics
+from workbench.geometry.cameras import calibration, intrinsics
 from workbench.geometry.motions import inverse, motion
 
 

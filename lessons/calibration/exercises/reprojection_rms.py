@@ -18,7 +18,7 @@ from workbench.exercise import (
     mistake,
     worst,
 )
-from workbench.geometry import calibration
+from workbench.geometry.cameras import calibration
 
 
 @contract(

@@ -19,7 +19,7 @@ from lessons.chamfer_emd.exercises import (
 )
 from lessons.chamfer_emd.exercises import one_sided as one
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import shape_distances
+from workbench.geometry.points import shape_distances
 
 
 @contract(

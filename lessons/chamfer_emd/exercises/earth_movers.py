@@ -21,7 +21,7 @@ from lessons.chamfer_emd.exercises import (
 )
 from lessons.chamfer_emd.exercises import chamfer as two
 from lessons.chamfer_emd.exercises import one_sided as one
-from workbench.algorithms import transport
+from workbench.algorithms.transport import exact as transport
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
 
 

@@ -19,7 +19,7 @@ from lessons.chamfer_emd.exercises import (
     value_verdict,
 )
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import shape_distances
+from workbench.geometry.points import shape_distances
 
 
 @contract(

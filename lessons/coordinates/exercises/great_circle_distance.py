@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from lessons.coordinates.exercises import GRADERS, STUDENTS, numbers, row_by_row
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import globe
+from workbench.geometry.shapes import globe
 
 
 @contract(

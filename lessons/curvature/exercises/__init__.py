@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from workbench.data import surfaces
-from workbench.data.surfaces import Surface
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.surfaces import Surface
 from workbench.exercise import HiddenSeed, Verdict, against, band, fail, partial
 from workbench.geometry.meshes import face_areas, on_boundary
 from workbench.geometry.motions import exp_so3

@@ -17,7 +17,7 @@ from lessons.curvature.exercises import (
     some_rotation,
     with_a_flat_face,
 )
-from workbench.data import surfaces
+from workbench.data.shapes import surfaces
 from workbench.exercise import (
     Function,
     Verdict,
@@ -32,9 +32,8 @@ from workbench.exercise import (
     number,
     worst,
 )
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import mixed_areas
-from workbench.geometry.meshes import euler_characteristic, face_angles, on_boundary
+from workbench.geometry.meshes import curvature, euler_characteristic, face_angles, on_boundary
+from workbench.geometry.meshes.laplacian import mixed_areas
 
 
 def renumbered(p: np.ndarray, faces: np.ndarray, rng: np.random.Generator) -> Mesh:

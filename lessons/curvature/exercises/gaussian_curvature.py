@@ -19,11 +19,10 @@ from lessons.curvature.exercises import (
     without_border,
 )
 from lessons.curvature.exercises.angle_defects import sum_of_the_angles
-from workbench.data import surfaces
+from workbench.data.shapes import surfaces
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import mixed_areas
-from workbench.geometry.meshes import on_boundary
+from workbench.geometry.meshes import curvature, on_boundary
+from workbench.geometry.meshes.laplacian import mixed_areas
 
 
 @contract(

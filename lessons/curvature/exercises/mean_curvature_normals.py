@@ -16,12 +16,11 @@ from lessons.curvature.exercises import (
     thirds,
     without_border,
 )
-from workbench.data import surfaces
-from workbench.data.surfaces import Surface
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.surfaces import Surface
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import mixed_areas
-from workbench.geometry.meshes import on_boundary, vertex_normals
+from workbench.geometry.meshes import curvature, on_boundary, vertex_normals
+from workbench.geometry.meshes.laplacian import mixed_areas
 
 
 @contract(

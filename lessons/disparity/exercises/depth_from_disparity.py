@@ -22,7 +22,7 @@ from workbench.exercise import (
     partial,
     worst,
 )
-from workbench.geometry import stereo
+from workbench.geometry.cameras import stereo
 
 
 @contract(

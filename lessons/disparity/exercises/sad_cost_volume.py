@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float, Real
 
 from lessons.disparity.exercises import GRADERS, STUDENTS, cells_verdict, inner, textures
-from workbench.algorithms import cost_volume
+from workbench.algorithms.stereo import cost_volume
 from workbench.exercise import (
     Function,
     Verdict,

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Int, Real
 
 from lessons.disparity.exercises import GRADERS, STUDENTS, textures
-from workbench.algorithms import cost_volume, disparity_map
+from workbench.algorithms.stereo import cost_volume, disparity_map
 from workbench.exercise import Function, Verdict, alternative, band, check, contract, full, left_alone, mistake, worst
 
 

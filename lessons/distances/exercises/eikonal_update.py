@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.distances.exercises import GRADERS, STUDENTS, values_verdict
-from workbench.algorithms import fast_marching
+from workbench.algorithms.surfaces import fast_marching
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
 
 Values = Float[np.ndarray, " n"]

@@ -8,7 +8,7 @@ from jaxtyping import Float
 
 from lessons.distances.exercises import GRADERS, STUDENTS, values_verdict
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import metrics
+from workbench.geometry.points import metrics
 
 
 @contract(

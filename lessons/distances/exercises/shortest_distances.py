@@ -11,7 +11,7 @@ from jaxtyping import Float, Int
 
 from lessons.distances.exercises import GRADERS, STUDENTS, values_verdict
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import geodesics
+from workbench.geometry.meshes import geodesics
 
 Edges = Int[np.ndarray, "e 2"]
 Lengths = Float[np.ndarray, " e"]

@@ -22,7 +22,7 @@ from workbench.exercise import (
     worst,
 )
 from workbench.exercise.model import number
-from workbench.geometry import epipolar
+from workbench.geometry.two_views import epipolar
 
 
 @contract(

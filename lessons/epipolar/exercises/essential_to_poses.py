@@ -23,8 +23,8 @@ from workbench.exercise import (
     worst,
 )
 from workbench.exercise.judging import degrees_between
-from workbench.geometry import essential
 from workbench.geometry.motions import exp_so3, motion, skew
+from workbench.geometry.two_views import essential
 
 
 @contract(

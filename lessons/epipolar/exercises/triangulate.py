@@ -7,8 +7,8 @@ from jaxtyping import Float
 
 from lessons.epipolar.exercises import GRADERS, STUDENTS, Pair, a_pair, pixels_of
 from workbench.exercise import Function, Verdict, alternative, band, beside, check, contract, left_alone, mistake, worst
-from workbench.geometry import triangulation
 from workbench.geometry.motions import apply
+from workbench.geometry.two_views import triangulation
 
 
 @contract(

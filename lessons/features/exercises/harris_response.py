@@ -8,7 +8,7 @@ from jaxtyping import Float
 
 from lessons.features.exercises import GRADERS, STUDENTS
 from workbench.exercise import Function, Verdict, alternative, band, beside, check, contract, left_alone, mistake, worst
-from workbench.geometry import keypoints
+from workbench.geometry.features import keypoints
 
 
 @contract(

@@ -7,7 +7,7 @@ from jaxtyping import Float, Int
 
 from lessons.features.exercises import GRADERS, STUDENTS
 from workbench.exercise import Function, Verdict, alternative, check, contract, fail, full, left_alone, mistake, worst
-from workbench.geometry import matching
+from workbench.geometry.features import matching
 
 
 @contract(

@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from lessons.fitting.exercises import GRADERS, STUDENTS, entries
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry.circles_spheres import linearise_sphere
+from workbench.geometry.shapes.circles_spheres import linearise_sphere
 
 
 @contract(

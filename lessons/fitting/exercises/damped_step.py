@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.fitting.exercises import GRADERS, STUDENTS, entries
-from workbench.algorithms import least_squares
+from workbench.algorithms.least_squares import descent as least_squares
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
 
 

@@ -8,7 +8,7 @@ from jaxtyping import Float
 from lessons.graphs.exercises import GRADERS, STUDENTS, matrix_verdict, weighted
 from workbench.data.networks import karate
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import graphs
+from workbench.geometry.graphs import adjacency as graphs
 
 Inputs = tuple[np.ndarray, np.ndarray, np.ndarray]
 

@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from lessons.graphs.exercises import GRADERS, STUDENTS, matrix_verdict
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import graphs
+from workbench.geometry.graphs import adjacency as graphs
 from workbench.geometry.motions import exp_so3
 
 

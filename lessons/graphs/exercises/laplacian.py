@@ -18,7 +18,7 @@ from workbench.exercise import (
     mistake,
     worst,
 )
-from workbench.geometry import graphs
+from workbench.geometry.graphs import adjacency as graphs
 
 
 @contract(

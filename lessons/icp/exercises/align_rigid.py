@@ -20,8 +20,7 @@ from workbench.exercise import (
     refused,
     worst,
 )
-from workbench.geometry import alignment
-from workbench.geometry.motions import apply, exp_so3, inverse, motion
+from workbench.geometry.motions import alignment, apply, exp_so3, inverse, motion
 
 
 @contract(

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from lessons.icp.exercises import GRADERS, STUDENTS, a_motion
-from workbench.algorithms.icp import nearest
+from workbench.algorithms.registration.icp import nearest
 from workbench.exercise import (
     Function,
     Verdict,

@@ -19,8 +19,7 @@ from workbench.exercise import (
     number,
     worst,
 )
-from workbench.geometry import alignment
-from workbench.geometry.motions import apply, exp_so3, motion, skew
+from workbench.geometry.motions import alignment, apply, exp_so3, motion, skew
 
 
 @contract(

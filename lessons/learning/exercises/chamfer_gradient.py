@@ -8,7 +8,7 @@ from jaxtyping import Float
 
 from lessons.learning.exercises import GRADERS, STUDENTS, entries_verdict
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import shape_distances
+from workbench.geometry.points import shape_distances
 
 HINT = "2/n (p_i − its nearest q), plus 2/m (p_i − q_j) for every q_j whose nearest is p_i."
 

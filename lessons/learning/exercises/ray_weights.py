@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from lessons.learning.exercises import GRADERS, STUDENTS, entries_verdict
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import volume_rendering
+from workbench.geometry.cameras import volume_rendering
 
 HINT = "w_i = T_i (1 − exp(−density_i · spacing)); T_i is what passes all samples before i, and not i itself."
 

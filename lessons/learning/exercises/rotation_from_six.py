@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from lessons.learning.exercises import GRADERS, STUDENTS, entries_verdict
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import rotation_outputs
+from workbench.geometry.motions import rotation_outputs
 
 HINT = "u = a / |a|; v is b without its part along u, normalised; the third column is u × v."
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from workbench.data import solids, surfaces
+from workbench.data.shapes import solids, surfaces
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.geometry.motions import exp_so3
 

@@ -20,8 +20,8 @@ from workbench.exercise import (
     partial,
     worst,
 )
-from workbench.geometry import sampling
 from workbench.geometry.meshes import face_areas
+from workbench.geometry.points import sampling
 
 CORNERS = "np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0]]), np.array([[0, 1, 2]])"
 

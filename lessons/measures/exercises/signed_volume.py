@@ -17,7 +17,7 @@ from lessons.measures.exercises import (
     without_a_side,
 )
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry.measures import tetrahedra, volume_about
+from workbench.geometry.meshes.measures import tetrahedra, volume_about
 
 
 @contract(

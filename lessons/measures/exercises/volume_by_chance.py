@@ -7,7 +7,7 @@ from jaxtyping import Bool
 
 from lessons.measures.exercises import GRADERS, STUDENTS, relative_verdict
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, refused, worst
-from workbench.geometry import sampling
+from workbench.geometry.points import sampling
 
 
 @contract(

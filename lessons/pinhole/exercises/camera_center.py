@@ -23,7 +23,7 @@ from workbench.exercise import (
     partial,
     worst,
 )
-from workbench.geometry import cameras
+from workbench.geometry.cameras import pinhole as cameras
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
 

@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from lessons.pinhole.exercises import GRADERS, STUDENTS
 from workbench.exercise import Function, Verdict, alternative, band, beside, check, contract, left_alone, mistake, worst
-from workbench.geometry import distortion
+from workbench.geometry.cameras import distortion
 
 
 @contract(

@@ -6,11 +6,11 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.pose.exercises import GRADERS, STUDENTS, a_view
-from workbench.algorithms import camera_search
+from workbench.algorithms.cameras import camera_search
 from workbench.exercise import Function, Verdict, alternative, check, contract, fail, full, left_alone, mistake, worst
-from workbench.geometry.camera_motions import reprojection_errors
+from workbench.geometry.cameras.camera_motions import reprojection_errors
+from workbench.geometry.cameras.three_points import p3p
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
-from workbench.geometry.three_points import p3p
 from workbench.numerals import brief
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.pose.exercises import GRADERS, STUDENTS, a_view
-from workbench.algorithms import camera_search
+from workbench.algorithms.cameras import camera_search
 from workbench.exercise import (
     Function,
     Verdict,
@@ -18,9 +18,9 @@ from workbench.exercise import (
     motion_verdict,
     worst,
 )
-from workbench.geometry.alignment import align_rigid
+from workbench.geometry.cameras.three_points import motions_from_lengths, unit_rays
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
-from workbench.geometry.three_points import motions_from_lengths, unit_rays
+from workbench.geometry.motions.alignment import align_rigid
 
 
 @contract(

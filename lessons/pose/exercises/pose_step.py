@@ -20,7 +20,7 @@ from workbench.exercise import (
     number,
     worst,
 )
-from workbench.geometry.camera_motions import gauss_newton_step, linearised, refined
+from workbench.geometry.cameras.camera_motions import gauss_newton_step, linearised, refined
 from workbench.geometry.motions import apply, exp_so3, motion, skew
 
 

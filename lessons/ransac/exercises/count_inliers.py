@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.ransac.exercises import GRADERS, STUDENTS
-from workbench.algorithms import scores
+from workbench.algorithms.robust import scores
 from workbench.exercise import (
     Function,
     Verdict,

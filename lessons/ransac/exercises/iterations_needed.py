@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from lessons.ransac.exercises import GRADERS
-from workbench.algorithms import ransac
+from workbench.algorithms.robust import ransac
 from workbench.exercise import (
     Function,
     Verdict,

@@ -25,8 +25,8 @@ from workbench.exercise import (
     partial,
     worst,
 )
-from workbench.geometry import lines_planes
 from workbench.geometry.motions import exp_so3
+from workbench.geometry.shapes import lines_planes
 
 NO_UNIT = 1e-5  # how far a normal's length may be from 1: rounding, also of single precision
 

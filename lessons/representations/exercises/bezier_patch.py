@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from lessons.representations.exercises import GRADERS, STUDENTS, rows_verdict, written
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import bezier
+from workbench.geometry.shapes import bezier
 
 FLAT = "np.mgrid[0.0:4, 0.0:4, 0.0:1].reshape(3, 4, 4).transpose(1, 2, 0)"
 

@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from lessons.representations.exercises import GRADERS, STUDENTS, rows_verdict, written
 from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import signed_distances
+from workbench.geometry.fields import signed_distances
 
 
 @contract(

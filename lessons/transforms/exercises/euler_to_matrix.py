@@ -21,8 +21,8 @@ from workbench.exercise import (
     rotation_verdict,
     worst,
 )
-from workbench.geometry import rotations
-from workbench.geometry.rotations import EULER_ORDERS, rotation_about
+from workbench.geometry.motions import rotations
+from workbench.geometry.motions.rotations import EULER_ORDERS, rotation_about
 
 
 @contract(

@@ -23,8 +23,7 @@ from workbench.exercise import (
     rotation_verdict,
     worst,
 )
-from workbench.geometry import rotations
-from workbench.geometry.motions import exp_so3, skew
+from workbench.geometry.motions import exp_so3, rotations, skew
 
 
 @contract(

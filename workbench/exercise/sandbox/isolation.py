@@ -16,7 +16,7 @@ from typing import IO
 
 from workbench.errors import InputError
 from workbench.exercise.sandbox import bubblewrap, python
-from workbench.threads import as_here
+from workbench.machinery.threads import as_here
 
 START_SECONDS = 30.0
 """How long Python and numpy may take to start."""

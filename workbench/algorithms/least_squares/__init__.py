@@ -1,0 +1,49 @@
+"""Nonlinear least squares, step by step.
+
+- `descent`: nonlinear least squares in small steps: Gauss and Newton's, and Levenberg and
+  Marquardt's that can be taken back.
+- `board_adjustment`: refines a camera, its lens and the poses of a board together: Levenberg-
+  Marquardt with the poses eliminated.
+"""
+
+from workbench.algorithms.least_squares.descent import (
+    CHANGE,
+    FIRST_DAMPING,
+    LEAST_DAMPING,
+    Along,
+    DampedStep,
+    Descent,
+    Descents,
+    Linearise,
+    Phase,
+    Retract,
+    Stop,
+    Walked,
+    along_step,
+    covariance,
+    damped_step,
+    descend,
+    descend_many,
+    with_its_way,
+)
+
+__all__ = [
+    "CHANGE",
+    "FIRST_DAMPING",
+    "LEAST_DAMPING",
+    "Along",
+    "DampedStep",
+    "Descent",
+    "Descents",
+    "Linearise",
+    "Phase",
+    "Retract",
+    "Stop",
+    "Walked",
+    "along_step",
+    "covariance",
+    "damped_step",
+    "descend",
+    "descend_many",
+    "with_its_way",
+]

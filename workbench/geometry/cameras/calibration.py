@@ -1,0 +1,133 @@
+"""What pictures of a flat board say of a camera, in closed form: Zhang's constraints, poses, a first lens.
+
+A board lies in the plane Z = 0 of its own frame, so a picture of it is a homography H ~ K [r1 r2 t], which takes (X, Y) in
+metres to pixels. That r1 and r2 are orthonormal makes two equations for B = K^-T K^-1 of every picture.
+
+Reference: Zhang, A Flexible New Technique for Camera Calibration, PAMI 2000, sections 2 and 3.
+"""
+
+import numpy as np
+from jaxtyping import Float
+
+from workbench.geometry.motions import apply, motion
+from workbench.geometry.motions.alignment import nearest_rotation
+
+_NO_SKEW = [0, 2, 3, 4, 5]  # the columns of B11, B22, B13, B23, B33: without skew B12 is 0
+
+
+def constraint_rows(H_image_board: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "2 6"]:
+    """Return the rows v12 and v11 - v22 of a view: their products with b = (B11, B12, B22, B13, B23, B33) are zero.
+
+    Reference: Zhang 2000, eq. 7 and 8.
+
+    Examples:
+        >>> rows = constraint_rows(np.array([[500.0, 0, 320], [0, 500, 240], [0, 0, 1]]))  # straight ahead, K itself
+        >>> rows[0].tolist()
+        [0.0, 250000.0, 0.0, 0.0, 0.0, 0.0]
+    """
+    h1, h2 = H_image_board[:, 0], H_image_board[:, 1]
+    return np.stack([_products(h1, h2), _products(h1, h1) - _products(h2, h2)])
+
+
+def _products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return v with v · b = aᵀ B b, for B symmetric (Zhang, eq. 7)."""
+    return np.array(
+        [
+            a[0] * b[0],
+            a[0] * b[1] + a[1] * b[0],
+            a[1] * b[1],
+            a[2] * b[0] + a[0] * b[2],
+            a[2] * b[1] + a[1] * b[2],
+            a[2] * b[2],
+        ]
+    )
+
+
+def intrinsics_from_constraints(rows: Float[np.ndarray, "m 6"]) -> Float[np.ndarray, "3 3"] | None:
+    """Return the camera without skew whose B makes all products with the rows smallest, or None where there is none.
+
+    None where fewer than four rows are given (two views), where a value is not finite, and where the B that is found is
+    not positive definite: no camera sees such views.
+
+    Reference: Zhang 2000, 3.1 and appendix B; K by Cholesky's factors instead of his formulas.
+    """
+    if len(rows) < 4 or not np.isfinite(rows).all():
+        return None
+    b = np.linalg.svd(rows[:, _NO_SKEW])[2][-1]
+    B = np.array([[b[0], 0.0, b[2]], [0.0, b[1], b[3]], [b[2], b[3], b[4]]])
+    try:
+        K = np.linalg.inv(np.linalg.cholesky(B if b[0] > 0 else -B).T)  # B = (K^-T)(K^-1), K^-T lower triangular
+    except np.linalg.LinAlgError:
+        return None
+    K /= K[2, 2]
+    return K if np.isfinite(K).all() else None
+
+
+def pose_from_homography(
+    K: Float[np.ndarray, "3 3"], H_image_board: Float[np.ndarray, "3 3"]
+) -> Float[np.ndarray, "4 4"]:
+    """Return T_camera_board, metres, with the board before the camera.
+
+    K^-1 H is [r1 r2 t] up to a scale, which makes r1 and r2 one long on average; of the two signs one has the board's
+    origin at a positive depth. Noise leaves r1 and r2 not quite orthogonal: the nearest rotation takes their place.
+
+    Args:
+        K: Intrinsics, pixels.
+        H_image_board: The view's homography, from metres of the board to pixels, of any scale and sign.
+
+    Raises:
+        ValueError: If K cannot be inverted, or the homography is zero.
+
+    Reference: Zhang 2000, 3.1, and appendix C.
+    """
+    try:
+        r1, r2, t = np.linalg.solve(K, H_image_board).T
+    except np.linalg.LinAlgError:
+        raise ValueError("K has no inverse") from None
+    size = np.linalg.norm(r1) + np.linalg.norm(r2)
+    if not size > 0:
+        raise ValueError("the homography is zero")
+    scale = np.copysign(2.0 / size, t[2])
+    r1, r2 = scale * r1, scale * r2
+    return motion(nearest_rotation(np.column_stack([r1, r2, np.cross(r1, r2)])), scale * t)
+
+
+def linear_lens(
+    K: Float[np.ndarray, "3 3"],
+    Ts_camera_board: Float[np.ndarray, "k 4 4"],
+    p_board: Float[np.ndarray, "n 3"],
+    uv: Float[np.ndarray, "k n 2"],
+    terms: int = 2,
+) -> Float[np.ndarray, " terms"]:
+    """Return the radial coefficients k1, k2, ... that explain best, by linear least squares, how far pixels are off.
+
+    Camera and poses stay as they are. They were found as if there were no lens, and have taken up most of what it does:
+    the coefficients come out far too small, or with the other sign.
+
+    Args:
+        K: Intrinsics, pixels.
+        Ts_camera_board: Poses of the board.
+        p_board: Its points, metres.
+        uv: Their pixels in every view.
+        terms: How many coefficients.
+
+    Reference: Zhang 2000, 3.3, eq. 13.
+    """
+    p = np.concatenate([apply(T, p_board) for T in Ts_camera_board])
+    xy = p[:, :2] / p[:, 2:]
+    s = (xy**2).sum(axis=1, keepdims=True)
+    ideal = xy * [K[0, 0], K[1, 1]]
+    columns = np.stack([(ideal * s ** (i + 1)).ravel() for i in range(terms)], axis=1)
+    return np.linalg.lstsq(columns, (uv.reshape(-1, 2) - K[:2, 2] - ideal).ravel(), rcond=None)[0]
+
+
+def reprojection_rms(residuals: Float[np.ndarray, "n 2"]) -> float:
+    """Return the root of the mean squared length of the residuals, pixels: per point, so sqrt(2) times that per coordinate.
+
+    Reference: OpenCV's calibrateCamera returns this number.
+
+    Examples:
+        >>> reprojection_rms(np.array([[3.0, 4.0], [5.0, 0.0]]))
+        5.0
+    """
+    return float(np.sqrt(np.square(residuals).sum(axis=-1).mean()))

@@ -1,0 +1,399 @@
+"""Pinhole cameras: from world points to pixels and back to rays.
+
+Conventions (OpenCV's): the camera frame has +X right, +Y down, +Z forward; a pixel is (u, v) = (column, row) and
+pixel centres are at integers, so a picture of width w spans u from -0.5 to w - 0.5. The motion `T_camera_world` takes
+world points into the camera frame. One point goes
+
+    p_camera = R p_world + t,   xy = (X/Z, Y/Z),   xy' = distort(xy),   (u, v, 1) = K (x', y', 1).
+
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., chapters 6 (camera), 7.4 (distortion), 8.6
+(vanishing points).
+"""
+
+import math
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from workbench.geometry.cameras.distortion import NONE, Distortion, bend, chunks, invertible_radius, undistort
+from workbench.geometry.motions import across, apply, inverse, motion
+
+OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
+"""Takes points of an OpenCV camera frame to the OpenGL frame of the same camera (+Y up, looking along -Z)."""
+
+
+def intrinsics(
+    f: float, cx: float, cy: float, *, fy: float | None = None, skew: float = 0.0
+) -> Float[np.ndarray, "3 3"]:
+    """Return K from the focal length and the principal point, all in pixels.
+
+    Args:
+        f: Focal length along u; also along v unless `fy` is given.
+        cx: Column of the principal point, where the optical axis meets the picture.
+        cy: Row of the principal point.
+        fy: Focal length along v, for pixels that are not square.
+        skew: Shift of u per unit of normalised y; zero for real sensors.
+
+    Raises:
+        ValueError: If a focal length is not positive and finite.
+
+    Examples:
+        >>> intrinsics(500.0, 319.5, 239.5).tolist()
+        [[500.0, 0.0, 319.5], [0.0, 500.0, 239.5], [0.0, 0.0, 1.0]]
+    """
+    fy = f if fy is None else fy
+    if not (0 < f < math.inf and 0 < fy < math.inf):
+        raise ValueError(f"focal lengths must be positive and finite, got {f} and {fy}")
+    return np.array([[f, skew, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
+
+
+def focal_from_field_of_view(angle: float, size: int) -> float:
+    """Return the focal length in pixels at which `size` pixels span this angle (radians, below pi).
+
+    Raises:
+        ValueError: If the angle is not between 0 and pi.
+
+    Examples:
+        >>> round(focal_from_field_of_view(math.pi / 2, 640), 6)
+        320.0
+    """
+    if not 0 < angle < math.pi:
+        raise ValueError(f"a pinhole's field of view lies between 0 and pi radians, got {angle}")
+    return 0.5 * size / math.tan(0.5 * angle)
+
+
+def crop_intrinsics(K: Float[np.ndarray, "3 3"], left: float, top: float) -> Float[np.ndarray, "3 3"]:
+    """Return the K of the part of a picture whose pixel (0, 0) was (left, top): only the principal point moves.
+
+    Args:
+        K: Intrinsics of the whole picture, pixels.
+        left: Its column that becomes column 0.
+        top: Its row that becomes row 0.
+    """
+    return np.array([[1.0, 0.0, -left], [0.0, 1.0, -top], [0.0, 0.0, 1.0]]) @ K
+
+
+def resize_intrinsics(K: Float[np.ndarray, "3 3"], scale_u: float, scale_v: float) -> Float[np.ndarray, "3 3"]:
+    """Return the K of a picture whose width and height were multiplied by these factors.
+
+    Pixel centres are at integers, so it is the edge at -0.5 that stays: u_new + 0.5 = scale_u (u + 0.5).
+
+    Args:
+        K: Intrinsics of the old picture, pixels.
+        scale_u: New width over old width.
+        scale_v: New height over old height.
+
+    Raises:
+        ValueError: If a factor is not positive.
+    """
+    if not (scale_u > 0 and scale_v > 0):
+        raise ValueError(f"a picture is resized by positive factors, got {scale_u} and {scale_v}")
+    S = np.array([[scale_u, 0.0, 0.5 * scale_u - 0.5], [0.0, scale_v, 0.5 * scale_v - 0.5], [0.0, 0.0, 1.0]])
+    return S @ K
+
+
+def look_at(
+    p_world_eye: Float[np.ndarray, "3"],
+    p_world_target: Float[np.ndarray, "3"],
+    n_world_up: Float[np.ndarray, "3"] | None = None,
+) -> Float[np.ndarray, "4 4"]:
+    """Return the T_camera_world of a camera at `eye` whose axis goes through `target`, with `up` upwards in the picture.
+
+    Args:
+        p_world_eye: Camera centre, metres.
+        p_world_target: A point that shall be seen at the principal point.
+        n_world_up: Direction that points up in the picture; +Z where it is not given.
+
+    Raises:
+        ValueError: If eye and target coincide.
+
+    Note:
+        Looking straight along `up` leaves the roll open; then the world axis furthest from it takes its place.
+
+    Examples:
+        >>> T_camera_world = look_at(np.array([0.0, -5.0, 0.0]), np.zeros(3))
+        >>> (T_camera_world @ np.array([0.0, 0.0, 0.0, 1.0]))[:3].round(6).tolist()  # the target: 5 m ahead
+        [0.0, 0.0, 5.0]
+    """
+    up = np.array([0.0, 0.0, 1.0]) if n_world_up is None else n_world_up
+    v_forward = p_world_target - p_world_eye
+    distance = np.linalg.norm(v_forward)
+    if not distance > 0:
+        raise ValueError(f"eye and target coincide at {p_world_eye}: the viewing direction is undefined")
+    n_forward = v_forward / distance
+    v_right = np.cross(n_forward, up)
+    if np.linalg.norm(v_right) < 1e-9 * np.linalg.norm(up):
+        v_right = np.cross(n_forward, np.eye(3)[np.argmin(np.abs(n_forward))])
+    n_right = v_right / np.linalg.norm(v_right)
+    R_camera_world = np.stack([n_right, np.cross(n_forward, n_right), n_forward])
+    return motion(R_camera_world, -R_camera_world @ p_world_eye)
+
+
+def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "3"]:
+    """Return where the camera is in the world, metres: C = -R^T t, the point that it takes to its own origin.
+
+    Reference: Hartley and Zisserman, 6.1, eq. 6.7.
+
+    Examples:
+        >>> camera_center(look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3))).round(6).tolist()
+        [0.0, -5.0, 1.0]
+    """
+    R_camera_world, t = T_camera_world[:3, :3], T_camera_world[:3, 3]
+    return -R_camera_world.T @ t
+
+
+def depths(p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, " n"]:
+    """Return Z in the camera frame, metres: the distance along the optical axis, not along the ray."""
+    return p_world @ T_camera_world[2, :3] + T_camera_world[2, 3]
+
+
+def in_front(
+    p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"], near: float = 0.0
+) -> Bool[np.ndarray, " n"]:
+    """Return which points have a depth above `near`; NaN rows have not.
+
+    Args:
+        p_world: Points, metres.
+        T_camera_world: World-to-camera motion, metres.
+        near: Depth that must be exceeded, metres.
+
+    Examples:
+        >>> in_front(np.array([[0.0, 0.0, 2.0], [0.0, 0.0, -2.0]]), np.eye(4)).tolist()
+        [True, False]
+    """
+    return depths(p_world, T_camera_world) > near
+
+
+def project(
+    p_world: Float[np.ndarray, "n 3"],
+    T_camera_world: Float[np.ndarray, "4 4"],
+    K: Float[np.ndarray, "3 3"],
+    distortion: Distortion = NONE,
+    *,
+    near: float = 0.0,
+) -> Float[np.ndarray, "n 2"]:
+    """Return the pixels (u, v) = (column, row) at which a camera sees the points.
+
+    Args:
+        p_world: Points, metres.
+        T_camera_world: World-to-camera motion, metres.
+        K: Intrinsics, pixels.
+        distortion: The lens.
+        near: Depth in metres that a point must exceed to be seen.
+
+    Returns:
+        Pixels, also outside the picture. A row is NaN where the point lies at or behind `near`, or so far out that the
+        lens model folds (`invertible_radius`): dividing anyway would give a pixel that looks valid.
+
+    Reference: Hartley and Zisserman, 6.1, eq. 6.8.
+
+    Examples:
+        >>> p_world = np.array([[0.1, 0.0, 2.0], [0.0, 0.0, -1.0]])  # the second is behind the camera
+        >>> project(p_world, np.eye(4), intrinsics(500.0, 319.5, 239.5)).round(6).tolist()
+        [[344.5, 239.5], [nan, nan]]
+    """
+    ideal = not any(distortion)
+    reach = invertible_radius(distortion) ** 2
+    P = K @ T_camera_world[:3] if ideal else T_camera_world[:3]
+    uv = np.empty((len(p_world), 2))
+    with np.errstate(all="ignore"):
+        for rows in chunks(len(p_world)):
+            x, y, z = P[:, :3] @ p_world[rows].T + P[:, 3:]
+            inverse_depth = 1.0 / np.where(z > near, z, np.nan)
+            x *= inverse_depth
+            y *= inverse_depth
+            if not ideal:
+                if reach < math.inf:
+                    x[x * x + y * y >= reach] = np.nan
+                    y[np.isnan(x)] = np.nan
+                x, y = bend(x, y, *distortion)
+                x, y = K[0, 0] * x + K[0, 1] * y + K[0, 2], K[1, 1] * y + K[1, 2]
+            uv[rows, 0], uv[rows, 1] = x, y
+    return uv
+
+
+def project_orthographic(
+    p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"], K: Float[np.ndarray, "3 3"]
+) -> Float[np.ndarray, "n 2"]:
+    """Return pixels of a parallel projection: (u, v, 1) = K (X, Y, 1), depth plays no part.
+
+    Args:
+        p_world: Points, metres; those behind the camera are seen too.
+        T_camera_world: World-to-camera motion, metres.
+        K: Here its focal lengths are pixels per metre.
+
+    Note:
+        It is the limit of `project` with (K, T) from `dolly` as its factor grows; then f / Z is the scale.
+    """
+    xy = apply(T_camera_world, p_world)[:, :2]
+    return xy @ K[:2, :2].T + K[:2, 2]
+
+
+def dolly(
+    T_camera_world: Float[np.ndarray, "4 4"], K: Float[np.ndarray, "3 3"], subject_depth: float, factor: float
+) -> tuple[Float[np.ndarray, "4 4"], Float[np.ndarray, "3 3"]]:
+    """Return the camera moved back along its axis with f lengthened, so that the plane of the subject keeps its size.
+
+    Args:
+        T_camera_world: World-to-camera motion, metres.
+        K: Intrinsics, pixels.
+        subject_depth: Depth of the plane that keeps its size, metres.
+        factor: New depth of that plane over the old one; the focal length grows by it too.
+
+    Returns:
+        The new T_camera_world and K. As the factor grows, the picture tends to the orthographic one with f / Z pixels
+        per metre, at a rate of one over the factor.
+    """
+    T_back = T_camera_world.copy()
+    T_back[2, 3] += (factor - 1.0) * subject_depth
+    K_long = K.copy()
+    K_long[:2, :2] *= factor
+    return T_back, K_long
+
+
+def normalize(
+    uv: Float[np.ndarray, "n 2"], K: Float[np.ndarray, "3 3"], distortion: Distortion = NONE
+) -> Float[np.ndarray, "n 2"]:
+    """Return ideal normalised coordinates of pixels: K and then the lens undone; NaN where the lens has no inverse.
+
+    Args:
+        uv: Pixels (column, row).
+        K: Intrinsics, pixels.
+        distortion: The lens.
+
+    Returns:
+        (X/Z, Y/Z), without unit.
+    """
+    y = (uv[:, 1] - K[1, 2]) / K[1, 1]
+    x = (uv[:, 0] - K[0, 2] - K[0, 1] * y) / K[0, 0]
+    xy = np.stack([x, y], axis=1)
+    return undistort(xy, distortion) if any(distortion) else xy
+
+
+def pixel_rays(
+    uv: Float[np.ndarray, "n 2"],
+    T_camera_world: Float[np.ndarray, "4 4"],
+    K: Float[np.ndarray, "3 3"],
+    distortion: Distortion = NONE,
+) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "n 3"]]:
+    """Return the camera centre and the unit direction, in the world, along which each pixel looks.
+
+    Args:
+        uv: Pixels (column, row).
+        T_camera_world: World-to-camera motion, metres.
+        K: Intrinsics, pixels.
+        distortion: The lens.
+
+    Returns:
+        The centre in the world, metres; and one direction per pixel, NaN where the lens has no inverse.
+
+    Examples:
+        >>> centre, n_world = pixel_rays(np.array([[320.0, 240.0]]), np.eye(4), intrinsics(500.0, 320.0, 240.0))
+        >>> centre.tolist(), n_world.tolist()
+        ([0.0, 0.0, 0.0], [[0.0, 0.0, 1.0]])
+    """
+    xy = normalize(uv, K, distortion)
+    v_camera = np.column_stack([xy, np.ones(len(xy))])
+    n_camera = v_camera / np.linalg.norm(v_camera, axis=1, keepdims=True)
+    return camera_center(T_camera_world), n_camera @ T_camera_world[:3, :3]
+
+
+def back_project(
+    uv: Float[np.ndarray, "n 2"],
+    depth: Float[np.ndarray, " n"],
+    T_camera_world: Float[np.ndarray, "4 4"],
+    K: Float[np.ndarray, "3 3"],
+    distortion: Distortion = NONE,
+) -> Float[np.ndarray, "n 3"]:
+    """Return the world points, metres, that are seen at these pixels at these depths Z (not ray lengths).
+
+    Args:
+        uv: Pixels (column, row).
+        depth: Depth Z of each, metres.
+        T_camera_world: World-to-camera motion, metres.
+        K: Intrinsics, pixels.
+        distortion: The lens.
+
+    Examples:
+        >>> K = intrinsics(500.0, 319.5, 239.5)
+        >>> back_project(np.array([[344.5, 239.5]]), np.array([2.0]), np.eye(4), K).round(6).tolist()
+        [[0.1, 0.0, 2.0]]
+    """
+    xy = normalize(uv, K, distortion)
+    p_camera = np.column_stack([xy, np.ones(len(xy))]) * depth[:, None]
+    return apply(inverse(T_camera_world), p_camera)
+
+
+def ray_lengths(
+    uv: Float[np.ndarray, "n 2"],
+    depth: Float[np.ndarray, " n"],
+    K: Float[np.ndarray, "3 3"],
+    distortion: Distortion = NONE,
+) -> Float[np.ndarray, " n"]:
+    """Return the distance from the camera centre of points at these depths, metres: Z sqrt(1 + x² + y²).
+
+    Args:
+        uv: Pixels (column, row).
+        depth: Depth Z of each, metres.
+        K: Intrinsics, pixels.
+        distortion: The lens.
+
+    Examples:
+        >>> ray_lengths(np.array([[620.0, 640.0]]), np.array([2.0]), intrinsics(500.0, 320.0, 240.0)).round(6).tolist()
+        [2.828427]
+    """
+    xy = normalize(uv, K, distortion)
+    return depth * np.sqrt(1.0 + np.einsum("ni,ni->n", xy, xy))
+
+
+def vanishing_points(
+    v_world: Float[np.ndarray, "n 3"],
+    T_camera_world: Float[np.ndarray, "4 4"],
+    K: Float[np.ndarray, "3 3"],
+    distortion: Distortion = NONE,
+) -> Float[np.ndarray, "n 2"]:
+    """Return the pixel in which all lines of a world direction meet: the picture of the point at infinity.
+
+    Args:
+        v_world: Directions of any length; v and -v share their point.
+        T_camera_world: World-to-camera motion; only its rotation matters, where the camera is does not.
+        K: Intrinsics, pixels.
+        distortion: The lens.
+
+    Returns:
+        Pixels; NaN for a direction parallel to the picture, whose lines stay parallel in it.
+
+    Reference: Hartley and Zisserman, 8.6.1, eq. 8.15: v = K R d.
+    """
+    R_camera_world = T_camera_world[:3, :3]
+    v_camera = v_world @ R_camera_world.T
+    length = np.linalg.norm(v_camera, axis=1, keepdims=True)
+    parallel = np.abs(v_camera[:, 2:]) <= 1e-12 * length
+    forward = np.where(parallel, np.nan, v_camera * np.copysign(1.0, v_camera[:, 2:]))
+    return project(forward, np.eye(4), K, distortion)
+
+
+def sphere_outline(
+    p_world_center: Float[np.ndarray, "3"], radius: float, T_camera_world: Float[np.ndarray, "4 4"], n: int = 96
+) -> Float[np.ndarray, "n 3"]:
+    """Return n points of the circle in which the camera's rays touch a sphere, metres; in the picture it is an ellipse.
+
+    Args:
+        p_world_center: Centre of the sphere, metres.
+        radius: Its radius, metres.
+        T_camera_world: World-to-camera motion, metres.
+        n: How many points.
+
+    Raises:
+        ValueError: If the camera is inside the sphere.
+    """
+    v_center = p_world_center - camera_center(T_camera_world)
+    distance = float(np.linalg.norm(v_center))
+    if not distance > radius:
+        raise ValueError(f"the camera is inside the sphere: distance {distance:.3g} m, radius {radius:.3g} m")
+    n_axis = v_center / distance
+    n_side, n_up = across(n_axis)
+    angle = np.linspace(0.0, 2.0 * np.pi, n, endpoint=False)
+    circle = np.cos(angle)[:, None] * n_side + np.sin(angle)[:, None] * n_up
+    cosine = math.sqrt(1.0 - (radius / distance) ** 2)
+    return p_world_center - radius * radius / distance * n_axis + radius * cosine * circle

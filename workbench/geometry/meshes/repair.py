@@ -1,0 +1,61 @@
+"""Mends a triangle mesh without moving a point of its surface: repeats, turned faces, sheets that touch.
+
+Nothing here refuses a mesh: what cannot be mended is left as it is, for `workbench.geometry.meshes.check_mesh` to name.
+"""
+
+import numpy as np
+import scipy
+from jaxtyping import Float, Int
+
+from workbench.geometry.meshes.triangles import corner_fans, distinct_rows, edge_keys, half_edges
+
+Points = Float[np.ndarray, "v 3"]
+Faces = Int[np.ndarray, "f 3"]
+
+
+def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
+    """Return the faces without those that name the same three vertices in the same sense once more."""
+    first = np.argmin(faces, axis=1)[:, None]
+    started_alike = np.take_along_axis(faces, (first + np.arange(3)) % 3, axis=1)
+    kept, _ = distinct_rows(started_alike)
+    return faces[np.sort(kept)]
+
+
+def oriented(faces: Faces) -> Faces:
+    """Return the faces turned round until neighbours agree which side is outside; in each piece as few as possible.
+
+    A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an edge, stay as they are.
+    """
+    half, f = half_edges(faces), len(faces)
+    keys = edge_keys(half)
+    order = np.argsort(keys, kind="stable")
+    same = np.flatnonzero(np.diff(keys[order]) == 0)
+    if (np.diff(same) == 1).any():
+        return faces
+    one, two = order[same], order[same + 1]
+    # Each face twice, as it is (i) and turned (i + f); an edge joins those that agree. Half-edge k*f + i is one of face i.
+    agree = half[one, 0] != half[two, 0]
+    a, b = np.concatenate([one % f, one % f + f]), np.where(agree, two % f, two % f + f)
+    b = np.concatenate([b, (b + f) % (2 * f)])
+    links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(2 * f, 2 * f))
+    count, piece = scipy.sparse.csgraph.connected_components(links, directed=False)
+    as_they_are = np.bincount(piece[:f], minlength=count)
+    turn = (as_they_are[piece[f:]] > as_they_are[piece[:f]]) & (piece[:f] != piece[f:])
+    tie = (as_they_are[piece[f:]] == as_they_are[piece[:f]]) & (
+        piece[f:] < piece[:f]
+    )  # either side of the piece will do
+    return np.where((turn | tie)[:, None], faces[:, ::-1], faces)
+
+
+def split_where_sheets_touch(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Faces]:
+    """Return the mesh with a vertex for each fan of faces where several fans meet in one; new ones come behind the old.
+
+    Angles, areas and places stay; pieces that touched in a point are no longer connected there.
+    """
+    fan_vertex, fan = corner_fans(faces)
+    # The first fan of each vertex keeps it, the others get new ones.
+    order = np.argsort(fan_vertex, kind="stable")
+    more = order[1:][np.diff(fan_vertex[order]) == 0]
+    name = fan_vertex.copy()
+    name[more] = len(p) + np.arange(len(more))
+    return np.concatenate([p, p[fan_vertex[more]]]), name[fan].reshape(3, -1).T

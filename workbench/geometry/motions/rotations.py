@@ -1,0 +1,315 @@
+"""Rotations by their other names: an axis and an angle, 24 kinds of Euler angles, unit quaternions.
+
+All of them stand for the matrix `R_a_b` that takes coordinates of frame b to frame a. Angles are radians and positive
+counter-clockwise about their axis (right-hand rule). Quaternions are (w, x, y, z).
+
+An Euler order is three letters. Lower case turns about the fixed axes of the world, one after the other; upper case
+turns about the body's own axes, which the earlier turns have carried along. So "xyz" with (a, b, c) is the matrix
+Rz(c) Ry(b) Rx(a), and "XYZ" is Rx(a) Ry(b) Rz(c).
+"""
+
+from typing import Literal, get_args
+
+import numpy as np
+from jaxtyping import Float
+
+from workbench.geometry.motions.rigid import exp_so3, log_so3
+
+Axis = Literal["x", "y", "z"]
+EulerOrder = Literal[
+    "xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy", "zxz", "zyz",
+    "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ",
+]  # fmt: skip
+EULER_ORDERS: tuple[EulerOrder, ...] = get_args(EulerOrder)
+
+_LOCKED = 1e-12  # sine of the angle between the first and the third axis below which they count as one
+
+
+def rotation_from_axis_angle(axis: Float[np.ndarray, "3"], angle: float) -> Float[np.ndarray, "3 3"]:
+    """Return the rotation by an angle about an axis through the origin (Rodrigues' formula).
+
+    Args:
+        axis: Direction of any length but zero.
+        angle: Radians, right-hand rule.
+
+    Raises:
+        ValueError: If the axis is zero or not finite; it names no direction.
+
+    Reference: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, eq. 2.14.
+
+    Examples:
+        >>> R = rotation_from_axis_angle(np.array([0.0, 0.0, 2.0]), np.pi / 2)  # of any length
+        >>> (R @ np.array([1.0, 0.0, 0.0])).round(6).tolist()
+        [0.0, 1.0, 0.0]
+    """
+    length = np.linalg.norm(axis)
+    if not 0.0 < length < np.inf:
+        raise ValueError(f"the axis {axis} names no direction")
+    return exp_so3(axis * (angle / length))
+
+
+def axis_angle_from_rotation(R: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndarray, "3"], float]:
+    """Return the unit axis and the angle in [0, pi] of a rotation.
+
+    Note:
+        The identity turns about no axis in particular; x is returned. At half a turn both signs of the axis are right.
+    """
+    w = log_so3(R)
+    largest = np.abs(w).max()
+    if largest == 0.0:
+        return np.array([1.0, 0.0, 0.0]), 0.0
+    axis = w / largest  # first, so that the square of a tiny angle does not vanish
+    return axis / np.linalg.norm(axis), float(np.linalg.norm(w))
+
+
+def rotation_about(axis: Axis, angle: float) -> Float[np.ndarray, "3 3"]:
+    """Return the rotation by an angle in radians about one coordinate axis."""
+    return _about("xyz".index(axis), angle)
+
+
+def euler_to_matrix(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3 3"]:
+    """Return the rotation that three successive turns make.
+
+    Args:
+        angles: Radians, one for each letter, in the order of the letters.
+        order: Three axes; lower case: fixed world axes, upper case: the body's own axes.
+
+    Raises:
+        ValueError: If the order is not one of the 24.
+
+    Reference: Diebel, Representing Attitude, 2006, section 5.1; his R takes world to body, ours body to world.
+
+    Examples:
+        >>> angles = np.array([0.1, 0.2, 0.3])
+        >>> bool(np.allclose(euler_to_matrix(angles, "xyz"), euler_to_matrix(angles[::-1], "ZYX")))
+        True
+    """
+    (i, j, k), carried = _letters(order)
+    first, second, third = _about(i, angles[0]), _about(j, angles[1]), _about(k, angles[2])
+    return first @ second @ third if carried else third @ second @ first
+
+
+def matrix_to_euler(R: Float[np.ndarray, "3 3"], order: EulerOrder) -> Float[np.ndarray, "3"]:
+    """Return three angles that make this rotation, in the order of the letters.
+
+    The middle angle is in [-pi/2, pi/2] where the three letters differ and in [0, pi] where the first comes back; the
+    other two are in [-pi, pi].
+
+    Args:
+        R: A rotation matrix (not checked).
+        order: As in `euler_to_matrix`.
+
+    Raises:
+        ValueError: If the order is not one of the 24.
+
+    Note:
+        In gimbal lock only the sum or the difference of the outer angles is determined; the last one is then zero.
+        `euler_to_matrix` gives R back there too, and arbitrarily close to it.
+
+    Reference: derived from the product in `euler_to_matrix`: the third turn leaves its own axis alone, so where R takes
+        that axis gives the first two angles, and what they leave of R is the third.
+
+    Examples:
+        >>> matrix_to_euler(euler_to_matrix(np.array([0.1, 0.2, 0.3]), "ZYX"), "ZYX").round(6).tolist()
+        [0.1, 0.2, 0.3]
+    """
+    (i, j, k), carried = _letters(order)
+    if not carried:  # the same product, read from its other end
+        i, k = k, i
+    n_third = R[:, k]
+    away = 3 - i - j  # the axis that is neither the first nor the second
+    sign = 1.0 if (j - i) % 3 == 1 else -1.0
+    aside = np.hypot(n_third[j], n_third[away])
+    if k == i:
+        a, b = np.arctan2(n_third[j], -sign * n_third[away]), np.arctan2(aside, n_third[i])
+    else:
+        a, b = np.arctan2(-sign * n_third[j], n_third[k]), np.arctan2(sign * n_third[i], aside)
+    if aside > _LOCKED:
+        c = _angle_about(k, _about(j, b).T @ _about(i, a).T @ R)
+    elif carried:
+        a, c = _angle_about(i, R @ _about(j, b).T), 0.0
+    else:
+        a, c = 0.0, _angle_about(k, _about(j, b).T @ R)
+    return np.array([a, b, c] if carried else [c, b, a])
+
+
+def euler_axes(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3 3"]:
+    """Return the three directions in the world, one per row, about which the three angles turn the body now.
+
+    A small change of the angles turns the body by `change @ euler_axes(angles, order)` (a rotation vector in world
+    axes).
+    """
+    (i, j, k), carried = _letters(order)
+    if not carried:
+        i, k = k, i
+        angles = angles[::-1]
+    R_first = _about(i, angles[0])
+    axes = np.array([np.eye(3)[i], R_first[:, j], R_first @ _about(j, angles[1])[:, k]])
+    return axes if carried else axes[::-1]
+
+
+def gimbal_margin(angles: Float[np.ndarray, "3"], order: EulerOrder) -> float:
+    """Return the sine of the angle between the first and the third turning axis: 1 at best, 0 in gimbal lock."""
+    first, _, third = euler_axes(angles, order)
+    return float(np.linalg.norm(np.cross(first, third)))
+
+
+def locked_family(
+    angles: Float[np.ndarray, "3"], order: EulerOrder, turns: Float[np.ndarray, "n"]
+) -> Float[np.ndarray, "n 3"]:
+    """Return the triples that make the same rotation as these angles in gimbal lock, one for each turn.
+
+    Args:
+        angles: A triple in gimbal lock, radians.
+        order: As in `euler_to_matrix`.
+        turns: By how much the first angle is to differ; the third makes up for it.
+
+    Raises:
+        ValueError: If the angles are not in gimbal lock, where no such family exists.
+    """
+    if gimbal_margin(angles, order) > _LOCKED:
+        raise ValueError(f"{np.degrees(angles)} degrees in order {order} are not in gimbal lock")
+    first, _, third = euler_axes(angles, order)
+    return angles + np.outer(turns, [1.0, 0.0, -np.sign(first @ third)])
+
+
+def other_triple(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3"]:
+    """Return the second triple of angles that makes the same rotation; there always is one, lock or not."""
+    (i, _, k), _ = _letters(order)
+    a, b, c = angles
+    return np.array([a + np.pi, -b if i == k else np.pi - b, c + np.pi])
+
+
+def triple_past_lock(angles: Float[np.ndarray, "3"], order: EulerOrder, turn: float) -> Float[np.ndarray, "3"]:
+    """Return the triple, of the two nearest to these, that turns the body further in the direction lost in gimbal lock.
+
+    The lost direction is at right angles to all axes of the three angles, so no small change of them turns about it.
+
+    Args:
+        angles: The three angles, radians, in gimbal lock.
+        order: Their axes.
+        turn: How much further, radians.
+    """
+    first, second, _ = euler_axes(angles, order)
+    R = exp_so3(turn * np.cross(first, second)) @ euler_to_matrix(angles, order)
+    found = matrix_to_euler(R, order)
+    return min((found, other_triple(found, order)), key=lambda triple: angles_apart(triple, angles))
+
+
+def angles_apart(triple: Float[np.ndarray, "3"], other: Float[np.ndarray, "3"]) -> float:
+    """Return by how much the angle differs that differs most, radians; a full turn is no difference.
+
+    Examples:
+        >>> round(angles_apart(np.array([3.0, 0.0, 0.0]), np.array([3.0 - 2 * np.pi, 0.1, 0.0])), 6)
+        0.1
+    """
+    return float(np.abs((triple - other + np.pi) % (2.0 * np.pi) - np.pi).max())
+
+
+def quaternion_from_matrix(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"]:
+    """Return the unit quaternion (w, x, y, z) of a rotation that has w >= 0; its negative is the same rotation.
+
+    Examples:
+        >>> quaternion_from_matrix(rotation_about("z", np.pi)).round(6).tolist()
+        [0.0, 0.0, 0.0, 1.0]
+    """
+    w = log_so3(R)
+    half = 0.5 * np.linalg.norm(w)
+    return np.concatenate([[max(np.cos(half), 0.0)], 0.5 * np.sinc(half / np.pi) * w])
+
+
+def matrix_from_quaternion(q: Float[np.ndarray, "4"]) -> Float[np.ndarray, "3 3"]:
+    """Return the rotation of a quaternion (w, x, y, z) of any length.
+
+    Raises:
+        ValueError: If the quaternion is zero or not finite.
+
+    Reference: Solà, Quaternion kinematics for the error-state Kalman filter, 2017, section 2.5.
+    """
+    length = np.linalg.norm(q)
+    if not 0.0 < length < np.inf:
+        raise ValueError(f"the quaternion {q} names no rotation")
+    w, x, y, z = q / length
+    return np.array(
+        [
+            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+        ]
+    )
+
+
+def quaternion_product(p: Float[np.ndarray, "4"], q: Float[np.ndarray, "4"]) -> Float[np.ndarray, "4"]:
+    """Return the quaternion of the rotation that turns by q first and then by p: R(p) R(q).
+
+    Examples:
+        >>> p, q = (quaternion_from_matrix(rotation_about(axis, 0.3)) for axis in ("x", "z"))
+        >>> R = matrix_from_quaternion(quaternion_product(p, q))
+        >>> bool(np.allclose(R, rotation_about("x", 0.3) @ rotation_about("z", 0.3)))
+        True
+    """
+    return np.concatenate([[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
+
+
+def great_circle(q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float) -> Float[np.ndarray, "4"]:
+    """Return the unit quaternion at the fraction t of the arc from one to the other, signs taken as they are.
+
+    Args:
+        q_start: Unit quaternion (w, x, y, z).
+        q_end: Unit quaternion, taken with the sign it has.
+        t: 0 at the start, 1 at the end.
+
+    Note:
+        q and -q are one rotation but two points of the sphere: with the wrong one of them the arc is the long way
+        round. Opposite quaternions have no one arc between them; the start is returned.
+
+    Reference: Shoemake, Animating rotation with quaternion curves, SIGGRAPH 1985.
+    """
+    angle = 2.0 * np.arctan2(np.linalg.norm(q_end - q_start), np.linalg.norm(q_end + q_start))
+    if np.sin(angle) < 1e-12 and angle > 1.0:
+        return q_start
+    near, far = np.sinc((1 - t) * angle / np.pi) * (1 - t), np.sinc(t * angle / np.pi) * t
+    q = near * q_start + far * q_end
+    return q / np.linalg.norm(q)
+
+
+def slerp(q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float) -> Float[np.ndarray, "4"]:
+    """Return the unit quaternion at the fraction t of the shortest turn from one rotation to the other.
+
+    Args:
+        q_start: Unit quaternion (w, x, y, z).
+        q_end: Unit quaternion; the sign that lies nearer to the start is used.
+        t: 0 at the start, 1 at the end; the turn has constant speed.
+
+    Note:
+        Half a turn can go either way round; the way that the signs of the two quaternions give is taken.
+
+    Examples:
+        >>> q_start, q_end = np.array([1.0, 0.0, 0.0, 0.0]), quaternion_from_matrix(rotation_about("z", 0.8))
+        >>> bool(np.allclose(matrix_from_quaternion(slerp(q_start, q_end, 0.25)), rotation_about("z", 0.2)))
+        True
+    """
+    return great_circle(q_start, q_end if q_start @ q_end >= 0 else -q_end, t)
+
+
+def _letters(order: str) -> tuple[tuple[int, int, int], bool]:
+    """Return the three axes as indices, and whether the body carries them along."""
+    if order not in EULER_ORDERS:
+        raise ValueError(f"{order!r} is not an Euler order; there are 24, such as 'xyz' and 'ZYX'")
+    i, j, k = ("xyz".index(letter) for letter in order.lower())
+    return (i, j, k), order.isupper()
+
+
+def _about(axis: int, angle: float) -> np.ndarray:
+    R = np.eye(3)
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    R[j, j] = R[k, k] = np.cos(angle)
+    R[k, j] = np.sin(angle)
+    R[j, k] = -R[k, j]
+    return R
+
+
+def _angle_about(axis: int, R: np.ndarray) -> float:
+    """Return the angle of a rotation that is known to be about this axis."""
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    return float(np.arctan2(R[k, j] - R[j, k], R[j, j] + R[k, k]))

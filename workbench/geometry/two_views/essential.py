@@ -1,0 +1,118 @@
+"""The motion between two calibrated cameras, held by the essential matrix up to the length of its translation.
+
+Convention: `E` takes normalised points of the first camera to lines of the second, `xy_second_h.T @ E @ xy_first_h = 0`, and
+`T_second_first` takes points of the first camera's frame to the second's: E = [t]x R. No picture tells how long t is.
+
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.6.
+"""
+
+import numpy as np
+from jaxtyping import Float
+
+from workbench.geometry.motions import across, exp_so3, motion, skew
+from workbench.geometry.refinement import levenberg_marquardt
+from workbench.geometry.two_views.epipolar import outer_products, sampson_slopes
+from workbench.geometry.two_views.homography import homogeneous, normalising_similarity
+
+_QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+_GENERATORS = np.array([skew(axis) for axis in np.eye(3)])
+_FORTH = np.array([1.0, 0.61, 0.37])
+"""A direction that no camera is likely to move across: of t and -t the one that has a part along it comes first."""
+_Motion = tuple[np.ndarray, np.ndarray]
+
+
+def essential_from_fundamental(
+    F: Float[np.ndarray, "3 3"], K_first: Float[np.ndarray, "3 3"], K_second: Float[np.ndarray, "3 3"]
+) -> Float[np.ndarray, "3 3"]:
+    """Return E = K'^T F K, of Frobenius norm one: what is left of F once the lenses' focal lengths are known.
+
+    Args:
+        F: Fundamental matrix, first to second.
+        K_first: Intrinsics of the first camera, pixels.
+        K_second: Intrinsics of the second camera, pixels.
+
+    Note:
+        Of an estimated F the two large singular values are not equal, as those of a motion are: see `equal_singular_values`.
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 9.12.
+    """
+    E = K_second.T @ F @ K_first
+    return E / np.linalg.norm(E)
+
+
+def equal_singular_values(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
+    """Return the nearest essential matrix: singular values (s, s, 0) with s the mean of the two largest.
+
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.6.1 and 11.7.3.
+    """
+    U, s, Vt = np.linalg.svd(E)
+    return 0.5 * (s[0] + s[1]) * U[:, :2] @ Vt[:2]
+
+
+def essential_to_poses(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4 4 4"]:
+    """Return the four motions T_second_first that an essential matrix allows, with translations of length one.
+
+    Two rotations, half a turn about the baseline apart, and for each the translation forth and back: (R, t), (R, -t),
+    (R', t), (R', -t). The sign of E and its scale play no part. R is the smaller turn, and t points along (1, 0.61, 0.37):
+    equal singular values leave U and V open, and each library takes its own.
+
+    Note:
+        Of a matrix that is none, as estimates are, they are those of the nearest one.
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.6.2, result 9.19.
+    """
+    U, _, Vt = np.linalg.svd(E)
+    U, Vt = U * np.copysign(1.0, np.linalg.det(U)), Vt * np.copysign(1.0, np.linalg.det(Vt))
+    rotations = sorted((U @ W @ Vt for W in (_QUARTER, _QUARTER.T)), key=np.trace, reverse=True)
+    t = U[:, 2] * np.copysign(1.0, U[:, 2] @ _FORTH)
+    return np.stack([motion(R, side * t) for R in rotations for side in (1.0, -1.0)])
+
+
+def refine_motion(
+    T_second_first: Float[np.ndarray, "4 4"],
+    uv_first: Float[np.ndarray, "n 2"],
+    uv_second: Float[np.ndarray, "n 2"],
+    K_first: Float[np.ndarray, "3 3"],
+    K_second: Float[np.ndarray, "3 3"],
+    *,
+    steps: int = 10,
+) -> Float[np.ndarray, "4 4"]:
+    """Return the motion near this one, with |t| = 1, whose matches have the smallest sum of squared Sampson distances.
+
+    Five unknowns: a turn of R (three) and of t (two). A seven-number fundamental matrix has two more than the cameras have,
+    which is what makes a pose out of it less certain.
+
+    Args:
+        T_second_first: The motion to begin with.
+        uv_first: Pixels of the first image.
+        uv_second: Their matches in the second.
+        K_first: Intrinsics of the first camera, pixels.
+        K_second: Intrinsics of the second camera, pixels.
+        steps: Linear systems solved at most.
+
+    Raises:
+        ValueError: If the translation is zero.
+
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 11.4.3 and eq. 11.9.
+    """
+    length = np.linalg.norm(T_second_first[:3, 3])
+    if not length > 0.0:
+        raise ValueError("a motion without translation has no epipolar geometry to refine")
+    S = normalising_similarity(np.concatenate([uv_first, uv_second]))
+    x, y = S @ homogeneous(uv_first).T, S @ homogeneous(uv_second).T
+    outer = outer_products(y, x)
+    left, right = np.linalg.inv(S @ K_second).T, np.linalg.inv(S @ K_first)
+
+    def linearise(unknown: _Motion) -> tuple[np.ndarray, np.ndarray]:
+        R, t = unknown
+        residuals, by_F = sampson_slopes(left @ skew(t) @ R @ right, x, y, outer)
+        turned = skew(t) @ _GENERATORS @ R
+        moved = np.array([skew(side) @ R for side in across(t)])
+        by_step = (left @ np.concatenate([turned, moved]) @ right).reshape(5, 9)
+        return residuals, (by_step @ by_F).T
+
+    def retract(unknown: _Motion, step: np.ndarray) -> _Motion:
+        R, t = unknown
+        t_moved = t + step[3:] @ np.stack(across(t))
+        return exp_so3(step[:3]) @ R, t_moved / np.linalg.norm(t_moved)
+
+    start = T_second_first[:3, :3], T_second_first[:3, 3] / length
+    return motion(*levenberg_marquardt(linearise, retract, start, steps=steps))
