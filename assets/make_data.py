@@ -28,7 +28,9 @@ def main() -> None:
     cloud("rabbit_source.ply", scans.p_source)
     np.savetxt(DATA / "rabbit_pose.txt", T_target_source)
     floor = rng.uniform(-1, 1, (700, 3)) * [1, 1, 0] + rng.normal(0, 0.01, (700, 3))
-    cloud("floor_and_clutter.ply", np.vstack([floor, rng.uniform([-1, -1, 0], [1, 1, 1], (500, 3))]))
+    cloud(
+        "floor_and_clutter.ply", np.vstack([floor, rng.uniform([-1, -1, 0], [1, 1, 1], (500, 3))])
+    )
     surface = torus(2000)
     trimesh.Trimesh(surface.p, surface.faces, process=False).export(DATA / "torus.ply")
     views = synthetic_pair("spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), 2.0, rng)

@@ -32,7 +32,9 @@ ENOUGH = 20
 tests_begun = 0
 
 
-def checked_at_first(decorate: Callable[..., Callable[[Any], Any]]) -> Callable[..., Callable[[Any], Any]]:
+def checked_at_first(
+    decorate: Callable[..., Callable[[Any], Any]],
+) -> Callable[..., Callable[[Any], Any]]:
     """Return jaxtyping's decorator, but so that only the first calls of a function in each test are checked."""
 
     def decorator(**options: Any) -> Callable[[Any], Any]:

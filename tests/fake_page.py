@@ -49,9 +49,16 @@ class FakePage:
         """Return the page; by hand, since a client that could do more would cost more than a page."""
         where = urlsplit(self.address)
         headers = {"Host": where.netloc, "Connection": "close"}
-        headers |= {name: value for name, value in self.headers.items() if name in ("Host", "Cookie")}
+        headers |= {
+            name: value for name, value in self.headers.items() if name in ("Host", "Cookie")
+        }
         reader, writer = await asyncio.open_connection(where.hostname, where.port)
-        lines = [f"GET {where.path}{self.query} HTTP/1.1", *(f"{k}: {v}" for k, v in headers.items()), "", ""]
+        lines = [
+            f"GET {where.path}{self.query} HTTP/1.1",
+            *(f"{k}: {v}" for k, v in headers.items()),
+            "",
+            "",
+        ]
         writer.write("\r\n".join(lines).encode())
         head, _, body = (await reader.read()).partition(b"\r\n\r\n")
         writer.close()
@@ -63,7 +70,9 @@ class FakePage:
 
     async def socket(self, path: str, **options: Any) -> Any:
         """Open a websocket of this page."""
-        headers = {name: value for name, value in self.headers.items() if name not in ("Origin", "Host")}
+        headers = {
+            name: value for name, value in self.headers.items() if name not in ("Origin", "Host")
+        }
         server = urlsplit(self.address)
         address = f"ws{self.address.removeprefix('http')}{path}"
         if "Host" in self.headers:
@@ -107,7 +116,10 @@ class FakePage:
         """Move a knob, and wait for the first picture of the run that it asks for."""
         before = self.run["run"]
         await self.say(verb="change", values={name: value})
-        await self.until(lambda page: page.run["run"] != before and page.step.get("run") == page.run["run"], seconds)
+        await self.until(
+            lambda page: page.run["run"] != before and page.step.get("run") == page.run["run"],
+            seconds,
+        )
 
     async def close(self) -> None:
         """Leave."""
@@ -121,7 +133,10 @@ class FakePage:
         with contextlib.suppress(websockets.ConnectionClosed):
             async for part in self.live:
                 if isinstance(part, bytes):
-                    self.scene_bytes, self.scene_came = self.scene_bytes + len(part), time.perf_counter()
+                    self.scene_bytes, self.scene_came = (
+                        self.scene_bytes + len(part),
+                        time.perf_counter(),
+                    )
                 else:
                     self.bytes += len(part)
                     self._hear(json.loads(part))

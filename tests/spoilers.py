@@ -69,18 +69,24 @@ def _passages(lesson: Lesson) -> Iterator[Passage]:
         yield Passage(f"caption where {preset.name} opens", shown, preset.params)
     yield Passage("caption where the page opens", captions[default, lesson.first_step], default)
     for question in lesson.questions:
-        yield Passage(f"question {question.name}", plain(inline_html(question.text)), None, question.name)
-    for field in fields_of(lesson.params):
-        value = ", ".join(map(str, field.default)) if isinstance(field.default, tuple) else str(field.default)
-        shown = (
-            f"{field.label}: {field.knob.hint}. {', '.join(field.choices)}. {field.label}: {value} {field.knob.unit}"
+        yield Passage(
+            f"question {question.name}", plain(inline_html(question.text)), None, question.name
         )
+    for field in fields_of(lesson.params):
+        value = (
+            ", ".join(map(str, field.default))
+            if isinstance(field.default, tuple)
+            else str(field.default)
+        )
+        shown = f"{field.label}: {field.knob.hint}. {', '.join(field.choices)}. {field.label}: {value} {field.knob.unit}"
         yield Passage(f"knob {field.name}", shown)
 
 
 def blocks(page: str) -> list[str]:
     """Return the paragraphs, list items, headings and table rows of a page, as they read."""
-    parts = re.split(r"</?(?:p|li|tr|h\d|ul|ol|table|thead|tbody|section|pre|blockquote)\b[^>]*>", page)
+    parts = re.split(
+        r"</?(?:p|li|tr|h\d|ul|ol|table|thead|tbody|section|pre|blockquote)\b[^>]*>", page
+    )
     return [text for text in map(plain, parts) if text]
 
 
@@ -105,7 +111,9 @@ def _by_preset(lesson: Lesson, text: str) -> Iterator[tuple[str, Any]]:
 def read(name: str, innocent: str) -> Iterator[Passage]:
     """Yield the passages that stand before a question, without what the rules would misread."""
     for passage in passages(name):
-        yield replace(passage, text=re.sub(innocent or "(?!)", "…", passage.text, flags=re.IGNORECASE))
+        yield replace(
+            passage, text=re.sub(innocent or "(?!)", "…", passage.text, flags=re.IGNORECASE)
+        )
 
 
 @functools.cache
@@ -117,10 +125,14 @@ def facts(name: str) -> tuple[dict[tuple[Any, int], str], dict[str, float]]:
     }
     captions: dict[tuple[Any, int], str] = {}
     answers: dict[str, float] = {}
-    for params in dict.fromkeys([question.params for question in lesson.questions] + [params for params, _ in opened]):
+    for params in dict.fromkeys(
+        [question.params for question in lesson.questions] + [params for params, _ in opened]
+    ):
         asked = [question for question in lesson.questions if question.params == params]
         timeline = finished(name, params)
-        captions |= {(params, step): timeline[step].caption.text for of, step in opened if of == params}
+        captions |= {
+            (params, step): timeline[step].caption.text for of, step in opened if of == params
+        }
         answers |= {question.name: question.answer(timeline.states()) for question in asked}
     return captions, answers
 
@@ -133,7 +145,15 @@ def opens(lesson: Lesson, preset: Preset) -> int:
 
 ONES = {"zero": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9,
         "ten": 10, "eleven": 11, "twelve": 12}  # fmt: skip
-WORDS = ONES | {"none": 0, "dozen": 12, "twenty": 20, "thirty": 30, "forty": 40, "fifty": 50, "hundred": 100}
+WORDS = ONES | {
+    "none": 0,
+    "dozen": 12,
+    "twenty": 20,
+    "thirty": 30,
+    "forty": 40,
+    "fifty": 50,
+    "hundred": 100,
+}
 PARTS = {"half": 2, "halves": 2, "third": 3, "quarter": 4, "fifth": 5, "sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9,
          "tenth": 10, "twentieth": 20, "hundredth": 100}  # fmt: skip
 UNITS = {
@@ -144,7 +164,9 @@ UNITS = {
 }  # fmt: skip
 BASE = {base for base, _ in UNITS.values()}
 COUNT = rf"[−-]?\d[\d,]*(?:\.\d+)?|½|\b(?:{'|'.join(WORDS)})\b"
-NUMBERS = re.compile(rf"(?<![\w.])(?:{COUNT})(?:(?:,| or| and| to|, or|, and|–| →) (?:{COUNT}))*", re.IGNORECASE)
+NUMBERS = re.compile(
+    rf"(?<![\w.])(?:{COUNT})(?:(?:,| or| and| to|, or|, and|–| →) (?:{COUNT}))*", re.IGNORECASE
+)
 PART = re.compile(
     rf"\b(?:(a|{'|'.join(ONES)}) )?({'|'.join(PARTS)})s?\b|\b({'|'.join(WORDS)}|\d+) (?:in|out of) ({'|'.join(WORDS)}|\d+)\b"
     rf"|\b(twice|doubles?|doubled)\b|\b({'|'.join(WORDS)}|\d+)(?:fold| times)\b",
@@ -188,10 +210,16 @@ def units_of(question: Question) -> set[str]:
     if question.unit in UNITS:
         return {UNITS[question.unit][0]}
     counted = re.findall(r"[Hh]ow many ([a-z]+)|\d ([a-z]+)", question.text)
-    return {stem(word) for word in (*itertools.chain(*counted), question.unit) if word and word not in SMALL}
+    return {
+        stem(word)
+        for word in (*itertools.chain(*counted), question.unit)
+        if word and word not in SMALL
+    }
 
 
-def by_number(question: Question, right: float, texts: Iterable[Passage]) -> Iterator[tuple[Passage, str]]:
+def by_number(
+    question: Question, right: float, texts: Iterable[Passage]
+) -> Iterator[tuple[Passage, str]]:
     """Yield the passages that hold a number which would be accepted as right."""
     units, about = units_of(question), words(question.text)
     enough = 2 if question.unit in UNITS else 1
@@ -242,7 +270,11 @@ def stem(word: str) -> str:
 @functools.cache
 def words(text: str) -> set[str]:
     """Return the stems of the content words of a text: without small words, numbers and units."""
-    found = {stem(word) for word in re.findall(r"[^\W\d_]+", text) if word.lower() not in SMALL and word not in UNITS}
+    found = {
+        stem(word)
+        for word in re.findall(r"[^\W\d_]+", text)
+        if word.lower() not in SMALL and word not in UNITS
+    }
     return found - {stem(word) for word in (*WORDS, *PARTS)}
 
 
@@ -251,7 +283,9 @@ def choice_words(text: str) -> set[str]:
     return words(text) or {stem(word) for word in re.findall(r"\w+", text)}
 
 
-def by_choice(question: Question, right: float, texts: Iterable[Passage]) -> Iterator[tuple[Passage, str]]:
+def by_choice(
+    question: Question, right: float, texts: Iterable[Passage]
+) -> Iterator[tuple[Passage, str]]:
     """Yield the passages with a sentence that states the right choice more than any wrong one."""
     says = [choice_words(choice) for choice in question.choices]
     own = [mine - set().union(*(other for other in says if other is not mine)) for mine in says]
@@ -266,10 +300,15 @@ def by_choice(question: Question, right: float, texts: Iterable[Passage]) -> Ite
             stated = {stem(word) for word in re.findall(r"\w+", sentence)}
             held = [len(mine & stated) / len(mine) if mine else 0.0 for mine in own]
             if held[which] > max(part for i, part in enumerate(held) if i != which):
-                yield passage, f"says {', '.join(sorted(own[which] & stated))!r} of {question.choices[which]!r}"
+                yield (
+                    passage,
+                    f"says {', '.join(sorted(own[which] & stated))!r} of {question.choices[which]!r}",
+                )
 
 
-def by_hand(question: Question, patterns: Iterable[str], texts: Iterable[Passage]) -> Iterator[tuple[Passage, str]]:
+def by_hand(
+    question: Question, patterns: Iterable[str], texts: Iterable[Passage]
+) -> Iterator[tuple[Passage, str]]:
     """Yield the passages with a sentence that was listed as one that tells the answer."""
     for passage, pattern in itertools.product(texts, patterns):
         found = re.search(pattern, passage.text, re.IGNORECASE)
@@ -277,7 +316,9 @@ def by_hand(question: Question, patterns: Iterable[str], texts: Iterable[Passage
             yield passage, f"says {found.group()!r}"
 
 
-def spoilers(name: str, question: Question, giveaways: Iterable[str], innocent: str = "") -> list[str]:
+def spoilers(
+    name: str, question: Question, giveaways: Iterable[str], innocent: str = ""
+) -> list[str]:
     """Return one line for every passage that gives the answer away, with what does."""
     texts, right = list(read(name, innocent)), facts(name)[1][question.name]
     found = [*(by_choice if question.choices else by_number)(question, right, texts)]

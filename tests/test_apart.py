@@ -97,10 +97,20 @@ def zeros_png(side: int) -> bytes:
     """Return a picture of side x side black pixels, packed to a thousandth."""
 
     def chunk(kind: bytes, content: bytes) -> bytes:
-        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+        return (
+            struct.pack(">I", len(content))
+            + kind
+            + content
+            + struct.pack(">I", zlib.crc32(kind + content))
+        )
 
     head = chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 0, 0, 0, 0))
-    return b"\x89PNG\r\n\x1a\n" + head + chunk(b"IDAT", zlib.compress(bytes((side + 1) * side))) + chunk(b"IEND", b"")
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + head
+        + chunk(b"IDAT", zlib.compress(bytes((side + 1) * side)))
+        + chunk(b"IEND", b"")
+    )
 
 
 def packed_rows(row: bytes, times: int) -> bytes:
@@ -133,7 +143,10 @@ LARGE = {
     "wide.xyz": (lambda: b"1 " * (33 * 10**6 // 2), read_cloud),
     "rows.txt": (lambda: b"1 2 3 4\n" * (33 * 10**6 // 8), read_matches),
     "rows.obj": (lambda: b"v 0 0 0\n" * (33 * 10**6 // 8), read_cloud),
-    "faces.obj": (lambda: b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + b"f 1 2 3\n" * (33 * 10**6 // 8), read_mesh),
+    "faces.obj": (
+        lambda: b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + b"f 1 2 3\n" * (33 * 10**6 // 8),
+        read_mesh,
+    ),
     "rows.off": (lambda: b"OFF\n5500000 0 0\n" + b"0 0 0\n" * 5_500_000, read_mesh),
     "rows.ply": (
         lambda: (
@@ -175,7 +188,9 @@ def test_a_file_that_is_made_to_cost_much_costs_little(uploads, name):
 def test_a_command_may_read_more_than_a_page(uploads):
     path = uploads / "many.xyz"
     path.write_bytes(b"1 2 3\n" * (PAGE.points + 1))
-    with pytest.raises(InputError, match=r"at most 500,000 are read on a page; more is read where `workbench show`"):
+    with pytest.raises(
+        InputError, match=r"at most 500,000 are read on a page; more is read where `workbench show`"
+    ):
         read_cloud(path)
     forgotten(uploads)
     assert len(read_cloud(path)) == PAGE.points + 1

@@ -5,7 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.words.axis import LONGEST_LABEL, apart, axis, labelled, number, settled, ticks, value_axis
+from workbench.words.axis import (
+    LONGEST_LABEL,
+    apart,
+    axis,
+    labelled,
+    number,
+    settled,
+    ticks,
+    value_axis,
+)
 
 finite = st.floats(-1e6, 1e6)
 

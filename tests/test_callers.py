@@ -34,8 +34,16 @@ def left_over(tree: ast.Module) -> list[str]:
         targets = node.targets if isinstance(node, ast.Assign) else ()
         names += [target.id for target in targets if isinstance(target, ast.Name)]
     exported = {"lesson", "__all__", "SCHEMA"}  # the last is for programs that read reports
-    return [name for name in names if not USES[name] and name not in exported and not name.startswith("__")]
+    return [
+        name
+        for name in names
+        if not USES[name] and name not in exported and not name.startswith("__")
+    ]
 
 
 def test_what_is_defined_is_used_or_shown():
-    assert {str(path.relative_to(ROOT)): found for path, tree in TREES.items() if (found := left_over(tree))} == {}
+    assert {
+        str(path.relative_to(ROOT)): found
+        for path, tree in TREES.items()
+        if (found := left_over(tree))
+    } == {}

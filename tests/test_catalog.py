@@ -20,7 +20,9 @@ def registered(monkeypatch):
     """Registers entry points of third parties; the catalogue is read anew."""
 
     def register(*values: str) -> None:
-        entries = [importlib.metadata.EntryPoint("theirs", value, "workbench.lessons") for value in values]
+        entries = [
+            importlib.metadata.EntryPoint("theirs", value, "workbench.lessons") for value in values
+        ]
         monkeypatch.setattr(importlib.metadata, "entry_points", lambda group: entries)
 
     catalog.cache_clear()
@@ -30,7 +32,9 @@ def registered(monkeypatch):
 
 def test_the_course_is_in_its_order():
     assert list(catalog())[:3] == ["transforms", "pinhole", "icp"]
-    assert [lesson.order for lesson in catalog().values()] == sorted(lesson.order for lesson in catalog().values())
+    assert [lesson.order for lesson in catalog().values()] == sorted(
+        lesson.order for lesson in catalog().values()
+    )
 
 
 def test_a_third_party_s_lesson_joins(registered):
@@ -39,7 +43,8 @@ def test_a_third_party_s_lesson_joins(registered):
 
 
 @pytest.mark.parametrize(
-    ("value", "said"), [("no_such_module:lesson", "no_such_module"), ("tests.fake:run", "of type Lesson")]
+    ("value", "said"),
+    [("no_such_module:lesson", "no_such_module"), ("tests.fake:run", "of type Lesson")],
 )
 def test_a_third_party_s_broken_lesson_is_left_out_and_named(registered, value, said):
     registered(value)
@@ -61,7 +66,9 @@ def test_a_lesson_from_a_file_or_a_line_that_says_why_not(tmp_path):
         file.write_text(text)
         with pytest.raises(InputError, match=f"mine.py: .*{said}"):
             load(file)
-    with pytest.raises(InputError, match="no lesson is named 'nothing'; there are: transforms, pinhole"):
+    with pytest.raises(
+        InputError, match="no lesson is named 'nothing'; there are: transforms, pinhole"
+    ):
         find("nothing")
 
 

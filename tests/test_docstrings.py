@@ -27,7 +27,9 @@ def name_of(path: Path) -> str:
 
 
 def public(body: list[ast.stmt]) -> list[ast.FunctionDef]:
-    return [node for node in body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
+    return [
+        node for node in body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")
+    ]
 
 
 def functions() -> dict[str, ast.FunctionDef]:
@@ -38,7 +40,9 @@ def functions() -> dict[str, ast.FunctionDef]:
         found |= {f"{name_of(path)}.{node.name}": node for node in public(body)}
         for owner in body:
             if isinstance(owner, ast.ClassDef) and not owner.name.startswith("_"):
-                found |= {f"{name_of(path)}.{owner.name}.{node.name}": node for node in public(owner.body)}
+                found |= {
+                    f"{name_of(path)}.{owner.name}.{node.name}": node for node in public(owner.body)
+                }
     return found
 
 
@@ -66,7 +70,11 @@ def section(text: str, heading: str) -> str:
 def raised(node: ast.FunctionDef) -> set[str]:
     """The errors that a function raises in its own body."""
     thrown = [part.exc for part in ast.walk(node) if isinstance(part, ast.Raise) and part.exc]
-    return {part.func.id for part in thrown if isinstance(part, ast.Call) and isinstance(part.func, ast.Name)}
+    return {
+        part.func.id
+        for part in thrown
+        if isinstance(part, ast.Call) and isinstance(part.func, ast.Name)
+    }
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
@@ -93,19 +101,27 @@ def test_arguments_are_explained_by_their_names(name):
 def test_errors_are_announced(name):
     node = FUNCTIONS[name]
     for error in raised(node):
-        assert f"{error}:" in section(text_of(node), "Raises"), f"{name} raises {error} and does not say so"
+        assert f"{error}:" in section(text_of(node), "Raises"), (
+            f"{name} raises {error} and does not say so"
+        )
 
 
 @pytest.mark.parametrize("path", MODULES, ids=name_of)
 def test_a_module_names_its_source(path):
     cited = re.search(r"^ *References?: \S", path.read_text(encoding="utf-8"), re.MULTILINE)
-    assert bool(cited) != (name_of(path) in NO_PAPER), f"{name_of(path)}: a Reference, or a reason in NO_PAPER"
+    assert bool(cited) != (name_of(path) in NO_PAPER), (
+        f"{name_of(path)}: a Reference, or a reason in NO_PAPER"
+    )
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_everything_that_goes_in_and_comes_out_has_a_type(name):
     node = FUNCTIONS[name]
     named = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs, node.args.vararg]
-    bare = [part.arg for part in named if part and part.annotation is None and part.arg not in ("self", "cls")]
+    bare = [
+        part.arg
+        for part in named
+        if part and part.annotation is None and part.arg not in ("self", "cls")
+    ]
     assert not bare, f"{name}: no type for {bare}"
     assert node.returns is not None, f"{name}: no type for what it returns"

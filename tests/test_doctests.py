@@ -24,7 +24,9 @@ def examples() -> list[tuple[str, str, str]]:
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 text = ast.get_docstring(node) if isinstance(node, WITH_DOCSTRING) else None
                 if text and ">>>" in text:
-                    module = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+                    module = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(
+                        ".__init__"
+                    )
                     found.append((module, getattr(node, "name", path.stem), text))
     return found
 
@@ -45,11 +47,15 @@ def test_the_most_used_functions_have_examples():
     assert len(EXAMPLES) >= 20
 
 
-@pytest.mark.parametrize(("module", "name", "text"), EXAMPLES, ids=[f"{module}.{name}" for module, name, _ in EXAMPLES])
+@pytest.mark.parametrize(
+    ("module", "name", "text"), EXAMPLES, ids=[f"{module}.{name}" for module, name, _ in EXAMPLES]
+)
 def test_an_example_gives_what_it_shows(module, name, text):
     said = failures(module, name, text)
     assert not said, said
 
 
 def test_an_example_that_does_not_hold_is_found():
-    assert "Expected:" in failures("workbench.geometry.motions.rigid", "wrong", ">>> rotation_angle(np.eye(3))\n1.0\n")
+    assert "Expected:" in failures(
+        "workbench.geometry.motions.rigid", "wrong", ">>> rotation_angle(np.eye(3))\n1.0\n"
+    )

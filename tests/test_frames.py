@@ -31,10 +31,20 @@ FILES = sorted([*(ROOT / "workbench").rglob("*.py"), *(ROOT / "lessons").rglob("
 def frames_of(node: ast.expr) -> tuple[str, ...] | None:
     """Return (to, from) of a motion, (frame,) of a point or vector, None where the expression says nothing."""
     if isinstance(node, ast.Name):
-        kind, *words = node.id.rstrip("s").split("_") if node.id.startswith(("Ts_", "Rs_")) else node.id.split("_")
+        kind, *words = (
+            node.id.rstrip("s").split("_")
+            if node.id.startswith(("Ts_", "Rs_"))
+            else node.id.split("_")
+        )
         words = words[:2] if kind in ("T", "R", "Ts", "Rs") else words[:1]
-        if kind in ("T", "R", "Ts", "Rs", "p", "v", "n") and words and all(word in FRAMES for word in words):
-            return tuple(words) if len(words) == (2 if kind in ("T", "R", "Ts", "Rs") else 1) else None
+        if (
+            kind in ("T", "R", "Ts", "Rs", "p", "v", "n")
+            and words
+            and all(word in FRAMES for word in words)
+        ):
+            return (
+                tuple(words) if len(words) == (2 if kind in ("T", "R", "Ts", "Rs") else 1) else None
+            )
         return None
     if isinstance(node, ast.Attribute) and node.attr == "T":
         inner = frames_of(node.value)
@@ -67,7 +77,9 @@ def product(node: ast.AST, left, right):
         return (left[0], right[1])
     if len(left) == 2 and len(right) == 1:
         if left[1] != right[0]:
-            raise FrameError(f"line {node.lineno}: a motion from {left[1]} meets a point in {right[0]}")  # type: ignore[attr-defined]
+            raise FrameError(
+                f"line {node.lineno}: a motion from {left[1]} meets a point in {right[0]}"
+            )  # type: ignore[attr-defined]
         return (left[0],)
     if len(left) == 1 and len(right) == 2:  # rows: p_b @ R_a_b.T is a point in a
         if left[0] != right[0]:

@@ -9,7 +9,12 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 MACHINERY = {"workbench.machinery"}
-BASE = MACHINERY | {"workbench.errors", "workbench.apart", "workbench.words.axis", "workbench.tracing"}
+BASE = MACHINERY | {
+    "workbench.errors",
+    "workbench.apart",
+    "workbench.words.axis",
+    "workbench.tracing",
+}
 DRAWING = BASE | {"workbench.scene", "workbench.knobs"}
 RUN = {"timeline", "loading", "questions", "picking", "links", "session"}
 LESSON = DRAWING | {"workbench.lesson", *(f"workbench.run.{name}" for name in RUN)}
@@ -34,8 +39,10 @@ ALLOWED = {
     "workbench.run.picking": DRAWING,
     "workbench.wire": LESSON | {"workbench.wire"},
     "workbench.recording": LESSON | {"workbench.recording", "workbench.words"},
-    "workbench.exercise": LESSON | {"workbench.exercise", "workbench.recording", "workbench.numerals"},
-    "workbench.handout": LESSON | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail"},
+    "workbench.exercise": LESSON
+    | {"workbench.exercise", "workbench.recording", "workbench.numerals"},
+    "workbench.handout": LESSON
+    | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail"},
     "workbench.page": LESSON | {"workbench.page", "workbench.words", "workbench.numerals"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON
@@ -85,7 +92,9 @@ ALLOWED = {
 OUTSIDE = {"viser": ("workbench.wire", "workbench.publish.site"), "rerun": ("workbench.recording",)}
 
 FILES = [*(ROOT / "workbench").rglob("*.py"), *(ROOT / "lessons").rglob("*.py")]
-MODULES = sorted(path for path in FILES if "template" not in path.parts)  # a lesson to be copied to anywhere
+MODULES = sorted(
+    path for path in FILES if "template" not in path.parts
+)  # a lesson to be copied to anywhere
 
 
 def name_of(path: Path) -> str:
@@ -103,17 +112,23 @@ def imports(path: Path) -> set[str]:
             module = node.module or ""
             folder = ROOT / module.replace(".", "/")
             for alias in node.names:
-                there = (folder / f"{alias.name}.py").exists() or (folder / alias.name / "__init__.py").exists()
+                there = (folder / f"{alias.name}.py").exists() or (
+                    folder / alias.name / "__init__.py"
+                ).exists()
                 found.add(f"{module}.{alias.name}" if there else module)
     return found
 
 
 def inside(name: str, roots) -> bool:
-    return any(name == root or (root != "workbench" and name.startswith(root + ".")) for root in roots)
+    return any(
+        name == root or (root != "workbench" and name.startswith(root + ".")) for root in roots
+    )
 
 
 def rule(name: str):
-    return ALLOWED[max((part for part in ALLOWED if name == part or name.startswith(part + ".")), key=len)]
+    return ALLOWED[
+        max((part for part in ALLOWED if name == part or name.startswith(part + ".")), key=len)
+    ]
 
 
 @pytest.mark.parametrize("path", MODULES, ids=name_of)
@@ -126,7 +141,9 @@ def test_imports_point_one_way(path):
         if top in OUTSIDE:
             assert inside(name, OUTSIDE[top]), f"{name} imports {imported}"
         if name.startswith("lessons."):
-            assert top != "lessons" or imported.split(".")[1] == name.split(".")[1], f"{name} imports another lesson"
+            assert top != "lessons" or imported.split(".")[1] == name.split(".")[1], (
+                f"{name} imports another lesson"
+            )
 
 
 TOPS = ("workbench", "workbench.cli", "workbench.__main__", "workbench.notebook")
@@ -141,7 +158,9 @@ def test_every_part_has_a_rule_of_its_own():
 def part_of(name: str) -> str:
     """The room that a module is in: its group in the maths, its folder elsewhere."""
     parts = name.split(".")
-    return ".".join(parts[: 3 if parts[1:2] and parts[1] in ("geometry", "algorithms", "data") else 2])
+    return ".".join(
+        parts[: 3 if parts[1:2] and parts[1] in ("geometry", "algorithms", "data") else 2]
+    )
 
 
 def arrows() -> dict[str, set[str]]:
@@ -150,7 +169,11 @@ def arrows() -> dict[str, set[str]]:
     for path in MODULES:
         name = name_of(path)
         if name not in ("workbench", "workbench.__main__"):  # the package hands on what is above it
-            mine = {part_of(other) for other in imports(path) if other.startswith(("workbench.", "lessons."))}
+            mine = {
+                part_of(other)
+                for other in imports(path)
+                if other.startswith(("workbench.", "lessons."))
+            }
             drawn.setdefault(part_of(name), set()).update(mine - {part_of(name)})
     return drawn
 
@@ -169,8 +192,12 @@ def test_nothing_imports_the_package_itself():
         )
 
 
-@pytest.mark.parametrize("code", ["import workbench", "from workbench.lesson import catalog; catalog()"])
+@pytest.mark.parametrize(
+    "code", ["import workbench", "from workbench.lesson import catalog; catalog()"]
+)
 def test_the_catalogue_needs_no_viewer(code):
     check = f"import sys; {code}; print([m for m in ('viser', 'rerun', 'trimesh', 'skimage') if m in sys.modules])"
-    done = subprocess.run([sys.executable, "-c", check], capture_output=True, text=True, cwd=ROOT, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", check], capture_output=True, text=True, cwd=ROOT, check=True
+    )
     assert done.stdout.strip() == "[]"

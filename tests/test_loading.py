@@ -25,7 +25,9 @@ CIRCLE = ROOT / "tests" / "authors" / "circle"
 @pytest.fixture
 def folder(tmp_path) -> Path:
     """A lesson's folder outside the project, with imports of its own files."""
-    return Path(shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__")))
+    return Path(
+        shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__"))
+    )
 
 
 def change(file: Path, old: str, new: str) -> None:
@@ -43,7 +45,9 @@ def first_caption(lesson) -> str:
 def test_a_folder_is_loaded_anew_each_time_and_keeps_what_runs(folder):
     before = load(folder)
     stamp = (folder / "draw.py").stat()
-    change(folder / "draw.py", "The algebraic", "THE ALGEBRAIC")  # as long as before, in the same second
+    change(
+        folder / "draw.py", "The algebraic", "THE ALGEBRAIC"
+    )  # as long as before, in the same second
     os.utime(folder / "draw.py", ns=(stamp.st_atime_ns, stamp.st_mtime_ns))
     after = load(folder / "lesson.py")
     assert "The algebraic" in first_caption(before)
@@ -55,21 +59,31 @@ def test_two_folders_of_one_name_are_two_lessons(folder, tmp_path):
     other = Path(shutil.copytree(folder, tmp_path / "elsewhere" / "circle"))
     change(other / "state.py", "0.3, 1.0]", "0.3, 9.0]")
     captions = [first_caption(load(place)) for place in (folder, other, folder)]
-    assert ["radius 8.9" in caption or "radius 9.0" in caption for caption in captions] == [False, True, False]
+    assert ["radius 8.9" in caption or "radius 9.0" in caption for caption in captions] == [
+        False,
+        True,
+        False,
+    ]
 
 
 def test_an_error_in_a_file_of_the_folder_is_told_by_that_file_and_line(folder):
     change(folder / "draw.py", "import numpy as np\n", "import numpy as np\n1 / 0\n")
     before = set(sys.modules)
-    with pytest.raises(AuthorError, match=r"circle/draw\.py, line 4: ZeroDivisionError: .* in `1 / 0`"):
+    with pytest.raises(
+        AuthorError, match=r"circle/draw\.py, line 4: ZeroDivisionError: .* in `1 / 0`"
+    ):
         load(folder)
-    assert not [name for name in set(sys.modules) - before if name.startswith("lesson_") and "." in name]
+    assert not [
+        name for name in set(sys.modules) - before if name.startswith("lesson_") and "." in name
+    ]
     (folder / "draw.py").write_text("def (:\n")
     with pytest.raises(AuthorError, match=r"circle/draw\.py, line 1: SyntaxError"):
         load(folder)
 
 
-@pytest.mark.parametrize(("name", "said"), [("none", "no such file or folder"), ("empty", "without a lesson.py")])
+@pytest.mark.parametrize(
+    ("name", "said"), [("none", "no such file or folder"), ("empty", "without a lesson.py")]
+)
 def test_what_is_no_lesson_is_said(tmp_path, name, said):
     (tmp_path / "empty").mkdir()
     with pytest.raises(InputError, match=said):
@@ -78,7 +92,9 @@ def test_what_is_no_lesson_is_said(tmp_path, name, said):
 
 def test_a_name_of_the_catalogue_is_refused_with_both_places(folder):
     change(folder / "lesson.py", 'name="circle"', 'name="icp"')
-    with pytest.raises(InputError, match=r"circle: its name 'icp' is taken by lesson icp \(.*lessons/icp/.*\.py\)"):
+    with pytest.raises(
+        InputError, match=r"circle: its name 'icp' is taken by lesson icp \(.*lessons/icp/.*\.py\)"
+    ):
         lesson_given(str(folder))
 
 
@@ -113,9 +129,13 @@ def test_a_folder_is_shown_recorded_and_opened_again(folder, tmp_path, monkeypat
     assert show_command(lesson, params) == "workbench show circle --points=9"
 
 
-def test_a_folder_s_exercise_is_handed_out_watched_checked_and_graded(folder, tmp_path, monkeypatch, capsys):
+def test_a_folder_s_exercise_is_handed_out_watched_checked_and_graded(
+    folder, tmp_path, monkeypatch, capsys
+):
     watched = []
-    monkeypatch.setattr("workbench.viewer.serving.serve", lambda *place, **more: watched.append(more["watched"]))
+    monkeypatch.setattr(
+        "workbench.viewer.serving.serve", lambda *place, **more: watched.append(more["watched"])
+    )
     monkeypatch.chdir(tmp_path)
     assert main(["exercise", "--lesson", "circle"]) == 0
     assert capsys.readouterr().out.startswith("circle       fit_circle ")
@@ -137,13 +157,18 @@ def test_a_folder_s_exercise_is_handed_out_watched_checked_and_graded(folder, tm
     (tmp_path / "class").mkdir()
     mine.rename(tmp_path / "class" / "ada.py")
     assert main(["grade", "class", "--lesson", "circle", "--jobs=1"]) == 1
-    result = json.loads((tmp_path / "class" / "graded" / "students" / "ada.json").read_text(encoding="utf-8"))
+    result = json.loads(
+        (tmp_path / "class" / "graded" / "students" / "ada.json").read_text(encoding="utf-8")
+    )
     assert (result["error"], result["reports"][0]["mistake"]["name"]) == (None, "mean for centre")
 
 
 def test_an_exercise_of_no_lesson_says_which_there_are(folder, capsys):
     assert main(["exercise", "fit_line", "--lesson", str(folder)]) == 2
-    assert capsys.readouterr().err == "workbench: no exercise is named 'fit_line'; did you mean fit_circle?\n"
+    assert (
+        capsys.readouterr().err
+        == "workbench: no exercise is named 'fit_line'; did you mean fit_circle?\n"
+    )
 
 
 def test_what_a_folder_s_runs_depend_on_is_found(folder):

@@ -44,7 +44,11 @@ def asked_alone(name: str) -> list[Scene]:
     for question in lesson.questions:
         if question.params != lesson.params() and lesson.preset_of(question.params) is None:
             timeline = finished(name, question.params)
-            found.append(thinned(timeline[(-1 if question.step is None else question.step) % len(timeline)].scene))
+            found.append(
+                thinned(
+                    timeline[(-1 if question.step is None else question.step) % len(timeline)].scene
+                )
+            )
     return found
 
 
@@ -74,7 +78,11 @@ def _every(color: Any) -> Any:
 
 
 def _coarse(image: Any) -> Any:
-    return replace(image, values=image.values[::16, ::16]) if isinstance(image, Field) else image[::16, ::16]
+    return (
+        replace(image, values=image.values[::16, ::16])
+        if isinstance(image, Field)
+        else image[::16, ::16]
+    )
 
 
 def all_pairs(n: int) -> Iterator[int]:
@@ -112,7 +120,9 @@ def test_a_preset_after_another_shows_what_it_shows_alone(fed, name):
     walk_live(fed, opening, list(all_pairs(n)))
     asked = asked_alone(name)
     onwards = [i for k in range(n) for i in (n + k, k, n + (k + 1) % n)]
-    there_and_back = [i for k in range(len(asked)) for i in (2 * k % n, 2 * n + k, (2 * k + 1) % n, 2 * n + k)]
+    there_and_back = [
+        i for k in range(len(asked)) for i in (2 * k % n, 2 * n + k, (2 * k + 1) % n, 2 * n + k)
+    ]
     walk_live(fed, opening + later + asked, onwards + there_and_back)
     walk_live(fed, opening + later, onwards, by=1)
 
@@ -121,9 +131,13 @@ def test_a_preset_after_another_shows_what_it_shows_alone(fed, name):
 def test_a_preset_after_another_is_recorded_as_it_is_alone(name):
     opening, _ = scenes_of(name)
     n = len(opening)
-    in_space_only = [{path: thing for path, thing in scene.items() if in_space(thing)} for scene in opening]
+    in_space_only = [
+        {path: thing for path, thing in scene.items() if in_space(thing)} for scene in opening
+    ]
     walk_recorded(in_space_only, list(all_pairs(n)))
-    walk_recorded(opening, [*range(n), *reversed(range(n)), *range(0, n, 2), *range(1, n, 2)])  # charts take their time
+    walk_recorded(
+        opening, [*range(n), *reversed(range(n)), *range(0, n, 2), *range(1, n, 2)]
+    )  # charts take their time
 
 
 def test_a_walk_through_all_lessons_shows_each_as_alone(fed):
@@ -162,7 +176,9 @@ class Stream:
         """Return what is shown by entity and component, classes by name and colour; nothing of what was emptied."""
         return {
             entity: {
-                name: [self._classes[i] for i in values.to_pylist()] if name.endswith("class_ids") else values
+                name: [self._classes[i] for i in values.to_pylist()]
+                if name.endswith("class_ids")
+                else values
                 for name, values in components.items()
                 if len(values) or not name.startswith("EncodedImage")
             }

@@ -73,7 +73,9 @@ def vanish_or_hang(number: int) -> int:
 
 @pytest.mark.parametrize("start", ["spawn", "fork"])
 def test_what_is_lost_or_takes_too_long_costs_no_other(start):
-    found = parallel_map(vanish_or_hang, range(6), 2, seconds=3.0, lost=lambda number: -number, start=start)
+    found = parallel_map(
+        vanish_or_hang, range(6), 2, seconds=3.0, lost=lambda number: -number, start=start
+    )
     assert sorted(found) == [(0, 0), (1, -1), (2, -2), (3, 3), (4, 4), (5, 5)]
 
 
@@ -86,7 +88,10 @@ def test_workers_end_with_the_process_that_started_them(tmp_path, how):
     command = [sys.executable, str(script), str(tmp_path)]
     pipe: Any = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "start_new_session": True}
     process: Any
-    with subprocess.Popen(command, env=environment, preexec_fn=heed_ctrl_c, **pipe) as process, ended(process):
+    with (
+        subprocess.Popen(command, env=environment, preexec_fn=heed_ctrl_c, **pipe) as process,
+        ended(process),
+    ):
         places = [tmp_path / "a", tmp_path / "b"]
         until(lambda: process.poll() is not None or all(place.exists() for place in places))
         workers = [int(place.read_text()) for place in places]

@@ -45,7 +45,11 @@ def test_the_example_in_python(tmp_path, monkeypatch):
     assert shown == repr(recording)
     assert recording.params["start_angle"] == 60
     assert caption == recording.captions[-1]
-    seen = [values[np.isfinite(values)][-1] for path, values in recording.scalars.items() if path != "step"]
+    seen = [
+        values[np.isfinite(values)][-1]
+        for path, values in recording.scalars.items()
+        if path != "step"
+    ]
     printed = [float(re.findall(r": (\S+)", line)[0]) for line in curves]
     assert printed == pytest.approx(seen, rel=5e-3)
     assert len(curves) == 5
@@ -83,27 +87,38 @@ def test_the_lesson_is_published_with_its_summary_as_its_page(tmp_path, lesson_f
     page = (tmp_path / "site" / "turn" / "index.html").read_text(encoding="utf-8")
     assert "A turn" in page
     assert page.count("An arrow turns.") >= 2  # of the head, and on the page
-    assert "workbench show my_lesson.py" in (tmp_path / "site" / "turn" / "runs" / "default.js").read_text(
-        encoding="utf-8"
-    )
+    assert "workbench show my_lesson.py" in (
+        tmp_path / "site" / "turn" / "runs" / "default.js"
+    ).read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("command", [["show"], ["record", "-o", "a.rrd"], ["publish", "site", "--lesson"]])
-def test_a_page_that_is_not_there_is_one_line_with_lesson_and_path(capsys, monkeypatch, lesson_file, command):
+@pytest.mark.parametrize(
+    "command", [["show"], ["record", "-o", "a.rrd"], ["publish", "site", "--lesson"]]
+)
+def test_a_page_that_is_not_there_is_one_line_with_lesson_and_path(
+    capsys, monkeypatch, lesson_file, command
+):
     monkeypatch.chdir(lesson_file.parent)
-    text = lesson_file.read_text(encoding="utf-8").replace("params=Params", 'page=Path("none/page.md"), params=Params')
+    text = lesson_file.read_text(encoding="utf-8").replace(
+        "params=Params", 'page=Path("none/page.md"), params=Params'
+    )
     lesson_file.write_text("from pathlib import Path\n" + text, encoding="utf-8")
     assert main([*command, "my_lesson.py"]) == 2
     missing = lesson_file.parent / "none" / "page.md"
     line = capsys.readouterr().err
-    assert line == f"workbench: my_lesson.py: lesson turn: its page {missing}: No such file or directory\n"
+    assert (
+        line
+        == f"workbench: my_lesson.py: lesson turn: its page {missing}: No such file or directory\n"
+    )
 
 
 def test_a_page_that_goes_away_is_one_line_too(tmp_path, lesson_file):
     page = tmp_path / "page.md"
     page.write_text("# Here", encoding="utf-8")
     found = load(lesson_file)
-    lesson = Lesson(**{name: getattr(found, name) for name in found.__dataclass_fields__} | {"page": page})
+    lesson = Lesson(
+        **{name: getattr(found, name) for name in found.__dataclass_fields__} | {"page": page}
+    )
     assert lesson.text() == "# Here"
     page.unlink()
     with pytest.raises(InputError, match=r"lesson turn: its page .*page\.md: No such file"):
@@ -112,6 +127,10 @@ def test_a_page_that_goes_away_is_one_line_too(tmp_path, lesson_file):
 
 @pytest.mark.parametrize("lesson", course().values(), ids=lambda lesson: lesson.name)
 def test_every_lesson_of_the_course_has_its_row_and_its_picture(lesson):
-    row = next(line for line in README.splitlines() if line.startswith("|") and f"(`{lesson.name}`)" in line)
+    row = next(
+        line
+        for line in README.splitlines()
+        if line.startswith("|") and f"(`{lesson.name}`)" in line
+    )
     assert f"**{lesson.title}**" in row
     assert (ROOT / re.findall(r'src="(.*?)"', row)[0]).is_file()

@@ -21,7 +21,9 @@ class Bare:
 
 def bare(run, draw=None) -> Lesson:
     shown = draw or (lambda state: {"p": Points(state), "caption": Caption("A step happened")})
-    return Lesson(name="bare", title="Bare", summary="One line", params=Bare, run=run, draw=shown, order=1)
+    return Lesson(
+        name="bare", title="Bare", summary="One line", params=Bare, run=run, draw=shown, order=1
+    )
 
 
 def test_steps_are_computed_once_and_kept():
@@ -79,7 +81,9 @@ def test_shared_arrays_are_counted_once():
     assert timeline.bytes == p.nbytes
 
 
-@pytest.mark.parametrize(("trouble", "line"), [("input", "step 2 met a bad file"), ("crash", "RuntimeError: a bug")])
+@pytest.mark.parametrize(
+    ("trouble", "line"), [("input", "step 2 met a bad file"), ("crash", "RuntimeError: a bug")]
+)
 def test_a_run_that_fails_keeps_its_steps_and_says_why(trouble, line):
     timeline = Timeline(lesson, Params(trouble=trouble)).complete()
     assert len(timeline) == 2
@@ -179,7 +183,12 @@ def test_a_run_that_is_given_up_says_why_and_keeps_its_steps():
     timeline.extend()
     timeline.give_up("no time")
     timeline.give_up("later")
-    assert (len(timeline), timeline.finished, timeline.stopped, timeline.extend()) == (1, True, "no time", False)
+    assert (len(timeline), timeline.finished, timeline.stopped, timeline.extend()) == (
+        1,
+        True,
+        "no time",
+        False,
+    )
 
 
 def test_runs_are_dropped_by_size():
@@ -191,9 +200,12 @@ def test_runs_are_dropped_by_size():
 
 
 def test_the_slot_replaces_the_function():
-    flipped = Timeline(lesson, Params(steps=2), {"turn": lambda angle: np.diag([1, 1, -1, 1.0])}).complete()
+    flipped = Timeline(
+        lesson, Params(steps=2), {"turn": lambda angle: np.diag([1, 1, -1, 1.0])}
+    ).complete()
     plain = Timeline(lesson, Params(steps=2)).complete()
     assert not same(flipped[0].scene["source"], plain[0].scene["source"])
     assert same(
-        replace(flipped[0].scene["source"], T_world_object=None), replace(plain[0].scene["source"], T_world_object=None)
+        replace(flipped[0].scene["source"], T_world_object=None),
+        replace(plain[0].scene["source"], T_world_object=None),
     )  # type: ignore[type-var]

@@ -40,4 +40,13 @@ def lessons() -> None:
     Lesson(name="b", title="B", summary="", params=Others, run=run, draw=draw, order=1)  # pyright: ignore
     Lesson(name="c", title="C", summary="", params=Params, run=run, draw=draw_words, order=1)  # pyright: ignore
     preset = Preset("x", "X", "", Others())
-    Lesson(name="d", title="D", summary="", params=Params, run=run, draw=draw, order=1, presets=(preset,))  # pyright: ignore
+    Lesson(
+        name="d",
+        title="D",
+        summary="",
+        params=Params,
+        run=run,
+        draw=draw,
+        order=1,
+        presets=(preset,),
+    )  # pyright: ignore

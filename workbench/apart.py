@@ -61,7 +61,12 @@ class Allowance:
 
 
 COMMAND = Allowance(
-    unpacked=500 * 10**6, points=5_000_000, pixels=50_000_000, lines=1_000_000, seconds=60, memory=4 * 2**30
+    unpacked=500 * 10**6,
+    points=5_000_000,
+    pixels=50_000_000,
+    lines=1_000_000,
+    seconds=60,
+    memory=4 * 2**30,
 )
 PAGE = Allowance(
     unpacked=64 * 10**6,
@@ -141,7 +146,9 @@ def apart(read: Callable[P, R]) -> Callable[P, R]:
 def _read_elsewhere(read: Callable[..., R], path: Path, args: Any, kwargs: Any) -> R:
     for somebody in tuple(_waiting):
         somebody.stands_still()
-    asked = pickle.dumps((read.__module__, read.__qualname__, os.getcwd(), path.name, allowance(), args, kwargs))
+    asked = pickle.dumps(
+        (read.__module__, read.__qualname__, os.getcwd(), path.name, allowance(), args, kwargs)
+    )
     reader = _free.get()
     try:
         value, error, notes = reader.ask(asked, path.name)
@@ -174,7 +181,9 @@ class _Reader:
     def _told(self, asked: bytes) -> tuple[Any, str | None, tuple[str, ...]] | int:
         """Return the answer of the process, or how it ended without one."""
         process = self._running()
-        late = threading.Timer(4 * allowance().seconds + 10, process.kill)  # on a machine that is busy
+        late = threading.Timer(
+            4 * allowance().seconds + 10, process.kill
+        )  # on a machine that is busy
         late.daemon = True
         late.start()
         asking, answers = process.stdin, process.stdout

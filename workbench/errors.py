@@ -9,7 +9,9 @@ def written_out(text: str) -> str:
 
     A message often quotes a name out of a file, and that file may be anybody's.
     """
-    return "".join(sign if sign.isprintable() or sign in "\n\t" else repr(sign)[1:-1] for sign in text)
+    return "".join(
+        sign if sign.isprintable() or sign in "\n\t" else repr(sign)[1:-1] for sign in text
+    )
 
 
 def one_line(text: str) -> str:
@@ -21,8 +23,16 @@ def not_among(name: str, known: Iterable[str]) -> str:
     """Return the end of a message about a name that is none: which one was perhaps meant, else which there are."""
     names = list(known)
     meant = difflib.get_close_matches(name[:80], names, n=3)
-    meant += [one for one in names if one not in meant and one.replace("_", "") == name.replace("_", "")[:80]]
-    return f"did you mean {' or '.join(meant)}?" if meant else f"there are: {', '.join(names) or 'none'}"
+    meant += [
+        one
+        for one in names
+        if one not in meant and one.replace("_", "") == name.replace("_", "")[:80]
+    ]
+    return (
+        f"did you mean {' or '.join(meant)}?"
+        if meant
+        else f"there are: {', '.join(names) or 'none'}"
+    )
 
 
 class InputError(ValueError):

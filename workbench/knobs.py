@@ -164,7 +164,10 @@ class Field:
             raise ValueError
         low, high = self.knob.low, self.knob.high
         if clamp:
-            number = min(max(number, low if low is not None else number), high if high is not None else number)
+            number = min(
+                max(number, low if low is not None else number),
+                high if high is not None else number,
+            )
         elif (low is not None and number < low) or (high is not None and number > high):
             raise ValueError
         return round(number) if whole else number
@@ -205,7 +208,9 @@ def _read(owner: type, field: dataclasses.Field, hint: Any) -> Field:
     if field.default is dataclasses.MISSING:
         raise TypeError(f"{where}: needs a default")
     kind, choices, length = _kind(where, declared)
-    if kind in ("float", "int", "floats", "ints") and (knob.low is None or knob.high is None or knob.low >= knob.high):
+    if kind in ("float", "int", "floats", "ints") and (
+        knob.low is None or knob.high is None or knob.low >= knob.high
+    ):
         raise TypeError(f"{where}: a number needs Knob(hint, low, high) with low < high")
     if isinstance(knob.by, Gizmo) and not (kind == "floats" and length in (2, 3, 6)):
         wanted = "2 floats (a place at z = 0), 3 (a position) or 6 (with a rotation vector)"
@@ -233,7 +238,9 @@ def _kind(where: str, declared: Any) -> tuple[Kind, tuple[str, ...], int]:
     )
 
 
-def make(params: type[P], values: Mapping[str, Any], *, base: P | None = None, clamp: bool = False) -> P:
+def make(
+    params: type[P], values: Mapping[str, Any], *, base: P | None = None, clamp: bool = False
+) -> P:
     """Return Params from loose values (a link, JSON, a browser), every one checked.
 
     Args:
@@ -280,7 +287,9 @@ def with_own_files(params: P, mine: P) -> P:
     """
     if names_files(params) or not names_files(mine):
         return params
-    kept = paths_of(type(params)) + [field.name for field in fields_of(type(params)) if field.knob.of_files]
+    kept = paths_of(type(params)) + [
+        field.name for field in fields_of(type(params)) if field.knob.of_files
+    ]
     return dataclasses.replace(params, **{name: getattr(mine, name) for name in kept})  # type: ignore[type-var]
 
 
@@ -297,7 +306,9 @@ def showing(params: P, files: Iterable[str], *, kept: Collection[str] = ()) -> P
     """
     fields = {field.name: field for field in fields_of(type(params))}
     for name in files:
-        for other, wanted in fields[name].knob.needs.items() if getattr(params, name) is not None else ():
+        for other, wanted in (
+            fields[name].knob.needs.items() if getattr(params, name) is not None else ()
+        ):
             if getattr(params, other) in wanted:
                 continue
             if other in kept:
@@ -336,7 +347,9 @@ def in_words(message: str, params: type) -> str:
 
 def validated(params: Any) -> Any:
     """Return the params when every field is inside its range; raise InputError with one line when one is not."""
-    return make(type(params), {field.name: getattr(params, field.name) for field in fields_of(type(params))})
+    return make(
+        type(params), {field.name: getattr(params, field.name) for field in fields_of(type(params))}
+    )
 
 
 def to_json(params: Any) -> str:
@@ -378,7 +391,13 @@ def text_of(value: Any) -> str:
 
 
 def _plain(value: Any) -> Any:
-    return str(value) if isinstance(value, Path) else list(value) if isinstance(value, tuple) else value
+    return (
+        str(value)
+        if isinstance(value, Path)
+        else list(value)
+        if isinstance(value, tuple)
+        else value
+    )
 
 
 def _shown(value: Any) -> str:

@@ -59,7 +59,11 @@ class View:
         if np.linalg.norm(aside) > 1e-3 * np.linalg.norm(away):
             return eye
         above = np.sign(away @ up)
-        upwards = np.array([0.0, 1.0, 0.0]) if abs(up[1]) < 0.9 else np.array([0.0, 0.0, -above * np.sign(up[1])])
+        upwards = (
+            np.array([0.0, 1.0, 0.0])
+            if abs(up[1]) < 0.9
+            else np.array([0.0, 0.0, -above * np.sign(up[1])])
+        )
         return eye - above * 2e-3 * np.linalg.norm(away) * upwards
 
     def facing(self, right: float, up: float, nearer: float = 0.0) -> np.ndarray:
@@ -203,7 +207,9 @@ class Lesson(Generic[P, S]):
         """Yield what is wrong with the values given, as ends of lines that begin with the lesson's name."""
         if self.page is not None and not isinstance(self.page, Path):
             yield f": page is a Path, not {self.page!r}: Path(__file__).with_name(...) finds it beside the lesson"
-        yield from _not_called_with(self.run, "run", "the params and, by keyword, functions that have defaults")
+        yield from _not_called_with(
+            self.run, "run", "the params and, by keyword, functions that have defaults"
+        )
         yield from _not_called_with(self.draw, "draw", "one state")
         places: dict[str, str] = {}
         for what, ones in (("preset", self.presets), ("question", self.questions)):
@@ -211,7 +217,9 @@ class Lesson(Generic[P, S]):
                 if one.name in places:
                     yield f": {places[one.name]} and {what} {i} share the name {one.name!r}; each is a run of the page"
                 places[one.name] = f"{what} {i}"
-        for what, one in [("preset", p) for p in self.presets] + [("question", q) for q in self.questions]:
+        for what, one in [("preset", p) for p in self.presets] + [
+            ("question", q) for q in self.questions
+        ]:
             try:
                 self.validated(one.params)
             except InputError as error:
@@ -227,7 +235,9 @@ class Lesson(Generic[P, S]):
 
     def swept(self, sweep: Sweep) -> tuple[P, ...]:
         """Return the params of a sweep's runs: the default's, with its knob at each of its values."""
-        return tuple(self.validated(replace(self.params(), **{sweep.knob: value})) for value in sweep.values)  # type: ignore[type-var]
+        return tuple(
+            self.validated(replace(self.params(), **{sweep.knob: value})) for value in sweep.values
+        )  # type: ignore[type-var]
 
     def view_of(self, params: P) -> View:
         """Return how the run of these params is first seen: by its preset's camera where it has one."""
@@ -244,8 +254,14 @@ class Lesson(Generic[P, S]):
         if view is not None:
             return view
         choices = [field.name for field in fields_of(self.params) if field.kind == "choice"]
-        known = [(self.params(), self.view), *((preset.params, preset.view or self.view) for preset in self.presets)]
-        return max(known, key=lambda one: [getattr(one[0], name) == getattr(params, name) for name in choices])[1]
+        known = [
+            (self.params(), self.view),
+            *((preset.params, preset.view or self.view) for preset in self.presets),
+        ]
+        return max(
+            known,
+            key=lambda one: [getattr(one[0], name) == getattr(params, name) for name in choices],
+        )[1]
 
     def text(self) -> str:
         """Return the page, Markdown; title and summary where the lesson has none.
@@ -259,7 +275,9 @@ class Lesson(Generic[P, S]):
             return self.page.read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:
             why = getattr(error, "strerror", None) or "not UTF-8 text"
-            raise AuthorError(f"lesson {self.name}: its page {self.page.absolute()}: {why}") from None
+            raise AuthorError(
+                f"lesson {self.name}: its page {self.page.absolute()}: {why}"
+            ) from None
 
     def preset(self, name: str) -> Preset[P]:
         """Return a preset by name.
@@ -280,7 +298,9 @@ class Lesson(Generic[P, S]):
     def validated(self, params: P) -> P:
         """Return params when they are this lesson's and in range; raise InputError otherwise."""
         if not isinstance(params, self.params):
-            raise InputError(f"lesson {self.name} takes {self.params.__name__}, not {type(params).__name__}")
+            raise InputError(
+                f"lesson {self.name} takes {self.params.__name__}, not {type(params).__name__}"
+            )
         return validated(params)
 
 
@@ -297,7 +317,9 @@ def course() -> Mapping[str, Lesson]:
         if info.ispkg and importlib.util.find_spec(f"{info.name}.lesson") is not None:
             lesson = lesson_in(importlib.import_module(f"{info.name}.lesson"))
             if lesson.name in places:
-                raise InputError(f"{places[lesson.name]} and {info.name} are both named {lesson.name!r}: rename one")
+                raise InputError(
+                    f"{places[lesson.name]} and {info.name} are both named {lesson.name!r}: rename one"
+                )
             found.append(lesson)
             places[lesson.name] = info.name
     return _in_order(found)
@@ -317,7 +339,10 @@ def catalog() -> Mapping[str, Lesson]:
             lesson = lesson_in(importlib.import_module(entry.module), entry.attr or "lesson")
             if lesson.name in found:
                 raise InputError(f"its name {lesson.name!r} is taken by {places[lesson.name]}")
-        except (Exception, SystemExit) as error:  # somebody else's lesson must not take the course down
+        except (
+            Exception,
+            SystemExit,
+        ) as error:  # somebody else's lesson must not take the course down
             warnings.warn(LeftOutWarning(f"lesson {place} is left out: {error}"), stacklevel=1)
         else:
             found[lesson.name], places[lesson.name] = lesson, place
@@ -325,7 +350,10 @@ def catalog() -> Mapping[str, Lesson]:
 
 
 def _in_order(lessons: Iterable[Lesson]) -> Mapping[str, Lesson]:
-    return {lesson.name: lesson for lesson in sorted(lessons, key=lambda lesson: (lesson.order, lesson.name))}
+    return {
+        lesson.name: lesson
+        for lesson in sorted(lessons, key=lambda lesson: (lesson.order, lesson.name))
+    }
 
 
 def find(name: str) -> Lesson:

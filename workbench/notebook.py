@@ -54,13 +54,21 @@ def replay(
     Raises:
         InputError: If there is no such lesson, preset or param, a value is out of range, or the run gives no step.
     """
-    chosen = lesson if isinstance(lesson, Lesson) else load(lesson) if isinstance(lesson, Path) else find(lesson)
+    chosen = (
+        lesson
+        if isinstance(lesson, Lesson)
+        else load(lesson)
+        if isinstance(lesson, Path)
+        else find(lesson)
+    )
     if steps is not None and steps < 1:
         raise InputError(f"steps = {steps}: how many steps are kept, 1 or more")
     if height < LEAST_HEIGHT:
         raise InputError(f"height = {height}: the page needs {LEAST_HEIGHT} pixels or more")
     base = None if preset is None else chosen.preset(preset).params
-    return Replay(chosen, chosen.validated(knobs.make(chosen.params, params, base=base)), steps, height)
+    return Replay(
+        chosen, chosen.validated(knobs.make(chosen.params, params, base=base)), steps, height
+    )
 
 
 class Replay:
@@ -82,7 +90,9 @@ class Replay:
         while (steps is None or len(self.timeline) < steps) and self.timeline.extend():
             pass
         if not len(self.timeline):
-            raise InputError(self.timeline.stopped or f"lesson {lesson.name}: the run gives no step")
+            raise InputError(
+                self.timeline.stopped or f"lesson {lesson.name}: the run gives no step"
+            )
 
     def __repr__(self) -> str:
         """Return the run as text: its last caption and numbers, and the command that opens it live."""
@@ -121,7 +131,12 @@ class Replay:
             "answers": {},
         }
         document = lesson_document(
-            self.lesson, "", home="notebook", root=None, more={"RECORDED": known}, alone=(run.title, "")
+            self.lesson,
+            "",
+            home="notebook",
+            root=None,
+            more={"RECORDED": known},
+            alone=(run.title, ""),
         )
         own = client_script() + run_script(self.lesson, run, self.timeline)
         return document.replace("</body>", f"<script>{own}</script></body>")
@@ -130,7 +145,11 @@ class Replay:
         """Return the step where it opens, negative from the end."""
         preset, last = self.lesson.preset_of(self.params), len(self.timeline) - 1
         is_default = self.params == self.lesson.params()  # which may be a preset too
-        step = self.lesson.first_step if is_default or preset is None or preset.step is None else preset.step
+        step = (
+            self.lesson.first_step
+            if is_default or preset is None or preset.step is None
+            else preset.step
+        )
         return min(max(step, -last - 1), last)
 
     @functools.cached_property

@@ -16,7 +16,9 @@ ROUND_OFF = 1e-9
 def fixed(value: float, places: int) -> str:
     """Write a number with so many decimals, thousands set off; what rounds to zero is 0 without a sign."""
     text = f"{value:,.{places}f}"
-    return (text if any(digit in text for digit in "123456789") else text.lstrip("-")).replace("-", "−")
+    return (text if any(digit in text for digit in "123456789") else text.lstrip("-")).replace(
+        "-", "−"
+    )
 
 
 def brief(value: float, digits: int = 3) -> str:
@@ -26,7 +28,9 @@ def brief(value: float, digits: int = 3) -> str:
     """
     if abs(value) < ROUND_OFF:
         return "0"
-    text = f"{Context(prec=digits, rounding=ROUND_HALF_UP).create_decimal_from_float(float(value)):,f}"
+    text = (
+        f"{Context(prec=digits, rounding=ROUND_HALF_UP).create_decimal_from_float(float(value)):,f}"
+    )
     return (text.rstrip("0").rstrip(".") if "." in text else text).replace("-", "−")
 
 
@@ -72,13 +76,21 @@ def length(metres: float, digits: int = 3) -> str:
         return f"{_brief_or_power(metres / 1e3, digits)} km"
     if size >= 0.1:
         return f"{brief(metres, digits)} m"
-    return f"{brief(1e3 * metres, digits)} mm" if size >= 1e-6 else f"{brief(1e6 * metres, min(digits, 2))} µm"
+    return (
+        f"{brief(1e3 * metres, digits)} mm"
+        if size >= 1e-6
+        else f"{brief(1e6 * metres, min(digits, 2))} µm"
+    )
 
 
 def area(square_metres: float, digits: int = 3) -> str:
     """Write an area or a sum of squared lengths with so many significant digits, below a thousandth of a m² in mm²."""
     in_metres = abs(square_metres) >= 1e-3
-    return f"{brief(square_metres, digits)} m²" if in_metres else f"{brief(1e6 * square_metres, digits)} mm²"
+    return (
+        f"{brief(square_metres, digits)} m²"
+        if in_metres
+        else f"{brief(1e6 * square_metres, digits)} mm²"
+    )
 
 
 def pixels(count: float, digits: int = 3) -> str:

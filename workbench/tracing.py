@@ -45,7 +45,9 @@ class Moment:
 def source_of(function: Callable[..., Any]) -> tuple[tuple[str, ...], int]:
     """Return the source lines of a function without decorators, dedented, and the file line of the first."""
     lines, first = inspect.getsourcelines(function)
-    skip = next((i for i, line in enumerate(lines) if line.lstrip().startswith(("def ", "async def "))), 0)
+    skip = next(
+        (i for i, line in enumerate(lines) if line.lstrip().startswith(("def ", "async def "))), 0
+    )
     kept = lines[skip:]
     indent = len(kept[0]) - len(kept[0].lstrip())
     return tuple(line[indent:].rstrip("\n") if line.strip() else "" for line in kept), first + skip
@@ -105,7 +107,11 @@ def moment_of(generator: Any, function: Callable[..., Any]) -> Moment | None:
     frame = getattr(generator, "gi_frame", None)
     if frame is None:
         return None
-    return Moment(function, frame.f_lineno, tuple(describe(name, value) for name, value in frame.f_locals.items()))
+    return Moment(
+        function,
+        frame.f_lineno,
+        tuple(describe(name, value) for name, value in frame.f_locals.items()),
+    )
 
 
 def describe(name: str, value: object) -> Variable:
@@ -115,7 +121,9 @@ def describe(name: str, value: object) -> Variable:
         if value.size == 0:
             return Variable(name, shape, "empty")
         if value.ndim == 0 or value.size <= 4:
-            return Variable(name, shape, _short(np.array2string(value, precision=4, separator=", ")))
+            return Variable(
+                name, shape, _short(np.array2string(value, precision=4, separator=", "))
+            )
         if value.dtype == bool:
             return Variable(name, shape, f"{int(value.sum()):,} of {value.size:,} true")
         if value.dtype.kind in "iuf":

@@ -42,7 +42,9 @@ def axes_stage(params: Params, find: FindAxes | None, sign: Sign | None) -> Iter
     yield replace(state, moment="centroid")
     for k, now in enumerate(jacobi(covariance)):
         before = state.jacobi.A if state.jacobi else None
-        state = replace(state, moment="rotation" if k else "covariance", jacobi=now, before=before, rotations=k)
+        state = replace(
+            state, moment="rotation" if k else "covariance", jacobi=now, before=before, rotations=k
+        )
         yield state
     axes, axes_target = ((find or by_jacobi)(p) for p in (scans.p_source, scans.p_target))
     state = replace(
@@ -68,7 +70,9 @@ def by_jacobi(p: np.ndarray) -> np.ndarray:
     return ordered(np.diag(last.A).copy(), last.V)[1]
 
 
-def with_signs(axes: np.ndarray, p: np.ndarray, params: Params, sign: Sign = canonical_signs) -> np.ndarray:
+def with_signs(
+    axes: np.ndarray, p: np.ndarray, params: Params, sign: Sign = canonical_signs
+) -> np.ndarray:
     """Return axes with the signs of the chosen rule."""
     if params.signs == "none":
         return axes
@@ -131,7 +135,9 @@ def many_turns(params: Params, scans: Scans, axes_target: np.ndarray) -> Turns:
     """Turn the second scan at random, find its frame by the same recipe, and bring it over by the truth."""
     assert scans.T_target_source is not None
     rng = np.random.default_rng(params.seed)
-    turns = scipy.spatial.transform.Rotation.random(FRESH_TURNS if params.fresh else TURNS, rng=rng).as_matrix()
+    turns = scipy.spatial.transform.Rotation.random(
+        FRESH_TURNS if params.fresh else TURNS, rng=rng
+    ).as_matrix()
     brought = []
     for Q in turns:
         p_source = second_scan(params, rng) if params.fresh else scans.p_source

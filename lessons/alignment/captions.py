@@ -8,7 +8,12 @@ from workbench.geometry.motions import rotation_angle
 from workbench.numerals import angle, brief, fixed, length, percent
 from workbench.scene import Caption
 
-PARTS = ((1e-4, 1e2, " %"), (1e-7, 1e6, " millionths"), (1e-10, 1e9, " billionths"), (1e-12, 1e12, " trillionths"))
+PARTS = (
+    (1e-4, 1e2, " %"),
+    (1e-7, 1e6, " millionths"),
+    (1e-10, 1e9, " billionths"),
+    (1e-12, 1e12, " trillionths"),
+)
 RULES = {
     "none": "Signs stay as the rotations happened to leave them.",
     "largest-entry": "Axes 1 and 2 are turned so that their largest entry is positive; axis 3 is their cross product.",
@@ -104,15 +109,24 @@ def _skewness(state: AxesState) -> str:
 def _of_pose(state: AxesState) -> Caption:
     outcome = sure(state.outcome)
     near = f"its points lie {length(outcome.gap)} (RMS) from the nearest of the first"
-    box = f" The box along its axes holds {brief(state.box)} times the shape's own." if np.isfinite(state.box) else ""
+    box = (
+        f" The box along its axes holds {brief(state.box)} times the shape's own."
+        if np.isfinite(state.box)
+        else ""
+    )
     if not np.isfinite(outcome.rotation):
-        return Caption(f"Frame laid on frame: {near}. Nobody knows the truth here, and half a turn may look alike.")
+        return Caption(
+            f"Frame laid on frame: {near}. Nobody knows the truth here, and half a turn may look alike."
+        )
     off = angle(outcome.rotation)
     if outcome.home:
         return Caption(
-            f"Frame laid on frame: the second scan is {off} from the truth; {near}. It has come home.{box}", "good"
+            f"Frame laid on frame: the second scan is {off} from the truth; {near}. It has come home.{box}",
+            "good",
         )
-    return Caption(f"Frame laid on frame: {near}, and it is wrong, {off} from the truth.{box}", "wrong")
+    return Caption(
+        f"Frame laid on frame: {near}, and it is wrong, {off} from the truth.{box}", "wrong"
+    )
 
 
 def _of_turns(state: AxesState) -> Caption:
@@ -152,8 +166,12 @@ def _of_pairs(state: PairsState) -> Caption:
             )
         case "out":
             if now.mirror:
-                return Caption(f"U Vᵀ has the determinant −1: a mirror image, which no turn can make. {fall}.")
-            return Caption(f"U turns them on to the directions of the first scan; the determinant is +1. {fall}.")
+                return Caption(
+                    f"U Vᵀ has the determinant −1: a mirror image, which no turn can make. {fall}."
+                )
+            return Caption(
+                f"U turns them on to the directions of the first scan; the determinant is +1. {fall}."
+            )
         case "flip":
             return Caption(_of_flip(state, fall))
         case _:
@@ -170,9 +188,17 @@ def _of_scale(state: PairsState) -> Caption:
     now = state.now
     text = f"Scale {fixed(sure(now.scale), 3)} by least squares"
     if state.mirrored:
-        return Caption(f"{text}: RMSE {length(now.rmse)}. No turn and no scale makes a scan of its mirror image.")
+        return Caption(
+            f"{text}: RMSE {length(now.rmse)}. No turn and no scale makes a scan of its mirror image."
+        )
     if not np.isfinite(state.outcome.rotation):
         return Caption(f"{text}: RMSE {length(now.rmse)}.")
-    text += f", {fixed(state.true_scale, 3)} in truth; the turn is {angle(state.outcome.rotation)} off,"
+    text += (
+        f", {fixed(state.true_scale, 3)} in truth; the turn is {angle(state.outcome.rotation)} off,"
+    )
     text += f" RMSE {length(now.rmse)}."
-    return Caption(f"{text} It has come home.", "good") if state.home else Caption(f"{text} It is wrong.", "wrong")
+    return (
+        Caption(f"{text} It has come home.", "good")
+        if state.home
+        else Caption(f"{text} It is wrong.", "wrong")
+    )

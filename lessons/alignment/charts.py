@@ -12,7 +12,10 @@ CM2 = 1e4  # square centimetres in a square metre
 ROUNDING = 1e-16  # below this share nothing is left off the diagonal
 BINS = np.arange(0.0, 181.0, 10.0)
 OFF, TO_AXES = Chart("Off the diagonal", unit="of the norm"), Chart("Frame to the axes", unit="deg")
-OF_AXES, OF_H = Chart("Variance of each axis", "axis", "cm²"), Chart("Singular values of H", "direction", "cm²")
+OF_AXES, OF_H = (
+    Chart("Variance of each axis", "axis", "cm²"),
+    Chart("Singular values of H", "direction", "cm²"),
+)
 BY_DIRECTION = Chart("Variance by direction", "angle in the plane (deg)", "cm²")
 ENDS = Chart("Where many turns end", "rotation error (deg)", "turns")
 RMSE, TURN = Chart("RMSE", unit="m"), Chart("Rotation error", unit="deg")
@@ -23,9 +26,14 @@ def beside_axes(state: AxesState) -> dict[str, Primitive]:
     now = state.jacobi
     turning = now is not None and state.axes is None
     scene: dict[str, Primitive] = {
-        "off diagonal": OFF.scalar(max(now.off, ROUNDING) if turning and now else np.nan, "off the diagonal", log=True),
+        "off diagonal": OFF.scalar(
+            max(now.off, ROUNDING) if turning and now else np.nan, "off the diagonal", log=True
+        ),
         "to axes": TO_AXES.scalar(
-            max(_to_axes(state), 1e-9) if turning else np.nan, "frame to the true axes", "truth", log=True
+            max(_to_axes(state), 1e-9) if turning else np.nan,
+            "frame to the true axes",
+            "truth",
+            log=True,
         ),
     }
     if now is None:
@@ -35,7 +43,9 @@ def beside_axes(state: AxesState) -> dict[str, Primitive]:
         if state.before is not None and now.plane is not None:
             scene["variance"] = _variance(state.before, now.plane, now.angle)
     if state.variances is not None and state.moment in ("order", "signs"):
-        scene["variances"] = OF_AXES.bars(np.arange(1.0, 4.0), CM2 * state.variances, "along the axes")
+        scene["variances"] = OF_AXES.bars(
+            np.arange(1.0, 4.0), CM2 * state.variances, "along the axes"
+        )
     if state.moments is not None and state.variances is not None and state.moment == "signs":
         scene["moments"] = _moments(state.moments, state.variances)
     if state.outcome is not None and state.moment in ("pose", "turns"):
@@ -65,7 +75,10 @@ def _variance(A: np.ndarray, plane: tuple[int, int], turned: float) -> Curve:
 
 
 def _matrix(title: str, A: np.ndarray) -> Table:
-    rows = tuple((name, *(fixed(CM2 * value, 2) for value in row)) for name, row in zip("xyz", A, strict=True))
+    rows = tuple(
+        (name, *(fixed(CM2 * value, 2) for value in row))
+        for name, row in zip("xyz", A, strict=True)
+    )
     return Table(title, ("", "x", "y", "z"), rows)
 
 
@@ -81,7 +94,9 @@ def _outcome(state: AxesState) -> Table:
     if np.isfinite(outcome.rotation):
         rows.append(("rotation, to the truth", angle(outcome.rotation)))
     if outcome.axes is not None:
-        rows += [(f"axis {k + 1} off, up to its sign", angle(float(outcome.axes[k]))) for k in range(3)]
+        rows += [
+            (f"axis {k + 1} off, up to its sign", angle(float(outcome.axes[k]))) for k in range(3)
+        ]
     return Table("Frame on frame", ("", "distance"), tuple(rows))
 
 
@@ -91,13 +106,17 @@ def beside_pairs(state: PairsState) -> dict[str, Primitive]:
     begun = now.stage != "pairs"
     scene: dict[str, Primitive] = {
         "rmse": RMSE.scalar(now.rmse if begun else np.nan, "RMSE of the pairs"),
-        "rotation error": TURN.scalar(outcome.rotation if begun else np.nan, "rotation error", "truth"),
+        "rotation error": TURN.scalar(
+            outcome.rotation if begun else np.nan, "rotation error", "truth"
+        ),
     }
     if now.H is not None and now.stage == "cross":
         scene["cross"] = _matrix("Cross-covariance H (cm²)", now.H)
     if now.D is not None:
         signs = np.ones(3) if now.S is None else now.S
-        scene["singular"] = OF_H.bars(np.arange(1.0, 4.0), CM2 * now.D * signs, "with the sign it got")
+        scene["singular"] = OF_H.bars(
+            np.arange(1.0, 4.0), CM2 * now.D * signs, "with the sign it got"
+        )
     if now.scale is not None:
         scene["scales"] = _scales(state, now.scale)
     return scene

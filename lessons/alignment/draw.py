@@ -34,57 +34,91 @@ def draw(state: State) -> Scene:
 
 def _axes_stage(state: AxesState) -> dict[str, Primitive]:
     scans, outcome = state.scans, state.outcome if state.moment in ("pose", "turns") else None
-    T_world_source = np.eye(4) if outcome is None else scans.T_world_target @ outcome.T_target_source
+    T_world_source = (
+        np.eye(4) if outcome is None else scans.T_world_target @ outcome.T_target_source
+    )
     scene = _scans(scans, T_world_source)
     if state.moment == "cloud":
         return scene
     p_target = scans.p_target.mean(axis=0)
-    scene["centroids/source"] = Points(state.p_centre[None], "highlight", 0.03, T_world_source, name="centroid")
+    scene["centroids/source"] = Points(
+        state.p_centre[None], "highlight", 0.03, T_world_source, name="centroid"
+    )
     scene["centroids/target"] = Points(p_target[None], "highlight", 0.03, scans.T_world_target)
     if state.jacobi is None:
         return scene
     covariance = state.jacobi.V @ state.jacobi.A @ state.jacobi.V.T
     if outcome is None:
         scene["ellipsoid"] = Mesh(
-            _ellipsoid(state.p_centre, covariance), BALL.faces, "highlight", opacity=0.2, name="2 standard deviations"
+            _ellipsoid(state.p_centre, covariance),
+            BALL.faces,
+            "highlight",
+            opacity=0.2,
+            name="2 standard deviations",
         )
     if state.axes is None:
         reach = BEYOND * SIGMAS * np.sqrt(np.maximum(np.diag(state.jacobi.A), 1e-6))
         return scene | _lines("frame", state.p_centre, state.jacobi.V * reach, "turned {}", "xyz")
     axes, axes_target = signed_axes(state)
-    reach = BEYOND * SIGMAS * np.sqrt(np.maximum(np.einsum("ij,ik,kj->j", axes, covariance, axes), 1e-6))
+    reach = (
+        BEYOND
+        * SIGMAS
+        * np.sqrt(np.maximum(np.einsum("ij,ik,kj->j", axes, covariance, axes), 1e-6))
+    )
     if state.moment == "order":
-        return scene | _lines("frame", state.p_centre, largest_entry_signs(axes) * reach, "axis {}", "123")
+        return scene | _lines(
+            "frame", state.p_centre, largest_entry_signs(axes) * reach, "axis {}", "123"
+        )
     scene |= _arrows("frame", state.p_centre, axes * reach, T_world_source)
     if outcome is None:  # else it lies on the other
         scene |= _arrows("target frame", p_target, axes_target * reach, scans.T_world_target, 0.6)
     if np.isfinite(state.box):
         name = f"box along the axes, {brief(state.box)} × the shape's own"
-        scene["box"] = Segments(_box(scans.p_source, axes), "highlight", 2, T_world_source, name=name)
+        scene["box"] = Segments(
+            _box(scans.p_source, axes), "highlight", 2, T_world_source, name=name
+        )
     if outcome is not None:
         scene |= _missed(scans, outcome, T_world_source)
     if state.turns is not None:
         home = np.repeat(~state.turns.home, 2).astype(np.uint8)
         names = ("axes 1 and 2 where a turn comes home", "where it does not")
         tips = p_target + TIPS * state.turns.tips.reshape(-1, 3)
-        scene["tips"] = Points(tips, Classes(home, ("truth", "wrong"), names), 0.016, scans.T_world_target)
+        scene["tips"] = Points(
+            tips, Classes(home, ("truth", "wrong"), names), 0.016, scans.T_world_target
+        )
     return scene
 
 
 def _pairs_stage(state: PairsState) -> dict[str, Primitive]:
     scans, now = state.scans, state.now
-    T_world_source = np.eye(4) if now.stage == "pairs" else scans.T_world_target @ now.T_target_source
+    T_world_source = (
+        np.eye(4) if now.stage == "pairs" else scans.T_world_target @ now.T_target_source
+    )
     mirrored = np.linalg.det(now.T_target_source[:3, :3]) < 0
-    scene = _scans(scans, T_world_source, "wrong" if mirrored else "source", " as a mirror image" if mirrored else "")
+    scene = _scans(
+        scans,
+        T_world_source,
+        "wrong" if mirrored else "source",
+        " as a mirror image" if mirrored else "",
+    )
     rows = every(len(scans.p_source), MOST_PAIRS)
     ends = between(*(apply(T, p[rows]) for T, p in _both(scans, T_world_source)))
     scene["pairs"] = Segments(ends, "correspondence", 1.5, name="some of the pairs")
     if now.U is not None and now.V is not None and now.D is not None:
         reach = BEYOND * SIGMAS * np.sqrt(np.maximum(now.D, 1e-4))
-        scene |= _lines("frame", scans.p_source.mean(axis=0), now.V * reach, "direction {}", "123", T_world_source)
+        scene |= _lines(
+            "frame",
+            scans.p_source.mean(axis=0),
+            now.V * reach,
+            "direction {}",
+            "123",
+            T_world_source,
+        )
         if now.stage in ("cross", "in"):  # later they lie on each other
             here = scans.p_target.mean(axis=0)
-            scene |= _lines("target frame", here, now.U * reach, "", "123", scans.T_world_target, opacity=0.4)
+            scene |= _lines(
+                "target frame", here, now.U * reach, "", "123", scans.T_world_target, opacity=0.4
+            )
     if now.stage in ("flip", "scale"):
         scene |= _missed(scans, state.outcome, T_world_source)
     return scene
@@ -94,7 +128,9 @@ def _both(scans: Scans, T_world_source: np.ndarray) -> tuple[tuple[np.ndarray, n
     return (T_world_source, scans.p_source), (scans.T_world_target, scans.p_target)
 
 
-def _scans(scans: Scans, T_world_source: np.ndarray, role: Role = "source", what: str = "") -> dict[str, Primitive]:
+def _scans(
+    scans: Scans, T_world_source: np.ndarray, role: Role = "source", what: str = ""
+) -> dict[str, Primitive]:
     radius = float(np.clip(0.3 / np.sqrt(len(scans.p_source)), 0.003, 0.012))
     scene: dict[str, Primitive] = {
         "target": Points(scans.p_target, "target", radius, scans.T_world_target, name="first scan"),
@@ -102,7 +138,9 @@ def _scans(scans: Scans, T_world_source: np.ndarray, role: Role = "source", what
     }
     if scans.stray is not None:
         size = 0.02 + 0.01 * float(np.linalg.norm(scans.stray))
-        scene["stray"] = Points(scans.stray[None], "wrong", size, T_world_source, name="stray point")
+        scene["stray"] = Points(
+            scans.stray[None], "wrong", size, T_world_source, name="stray point"
+        )
     return scene
 
 
@@ -116,7 +154,9 @@ def _missed(scans: Scans, outcome: Outcome, T_world_source: np.ndarray) -> dict[
     high = max(float(apply(T_here, q)[:, 2].max()) for T_here, q in _both(scans, T_world_source))
     top = np.array([scans.T_world_target[0, 3], 0.0, high + 0.3])
     scene: dict[str, Primitive] = {
-        "off": Label(f"{angle(outcome.rotation)} from the truth", top, "truth" if outcome.home else "wrong")
+        "off": Label(
+            f"{angle(outcome.rotation)} from the truth", top, "truth" if outcome.home else "wrong"
+        )
     }
     if not outcome.home:
         ends = between(apply(T_world_source, p), true)
@@ -136,12 +176,16 @@ def _lines(
     """Return three lines through a point, along the columns of a matrix and as long to either side."""
     ends = between(p - axes.T, p + axes.T)
     return {
-        f"{path}/{k + 1}": Segments(ends[[k]], COLORS[k], 4, T, opacity, name=name.format(letters[k]) if name else "")
+        f"{path}/{k + 1}": Segments(
+            ends[[k]], COLORS[k], 4, T, opacity, name=name.format(letters[k]) if name else ""
+        )
         for k in range(3)
     }
 
 
-def _arrows(path: str, p: np.ndarray, axes: np.ndarray, T: np.ndarray, opacity: float = 1.0) -> dict[str, Primitive]:
+def _arrows(
+    path: str, p: np.ndarray, axes: np.ndarray, T: np.ndarray, opacity: float = 1.0
+) -> dict[str, Primitive]:
     """Return three arrows from a point, along the columns of a matrix."""
     scene: dict[str, Primitive] = {}
     for k in range(3):

@@ -50,7 +50,9 @@ def pairs_stage(params: Params, similarity_scale: Scale) -> Iterator[PairsState]
             before=before,
             outcome=Outcome(
                 T_target_source=T,
-                rotation=float("nan") if true is None or np.linalg.det(T[:3, :3]) < 0 else degrees_between(T, true),
+                rotation=float("nan")
+                if true is None or np.linalg.det(T[:3, :3]) < 0
+                else degrees_between(T, true),
                 axes=None,
                 gap=gap(T, scans),
             ),

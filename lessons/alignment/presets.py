@@ -186,7 +186,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "There are three entries, but a rotation brings the earlier ones back, smaller. Each has to be made zero"
                 " more than once.",
             ),
-            (15, 200, "It is much faster: once the entries are small, three rotations square what is left."),
+            (
+                15,
+                200,
+                "It is much faster: once the entries are small, three rotations square what is left.",
+            ),
         ),
     ),
     Question(
@@ -201,7 +205,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         step=POSE,
         tolerance=0.5,
         wrong=(
-            (1, 1, "As lines they are given, but each line has two ends, and nothing says which one is the tip."),
+            (
+                1,
+                1,
+                "As lines they are given, but each line has two ends, and nothing says which one is the tip.",
+            ),
             (2, 2, "Front and back is one choice of two. A second axis has two ends as well."),
             (8, 8, "Three lines with two ends each make eight, but half of these are left-handed."),
         ),
@@ -220,9 +228,21 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="%",
         tolerance=8.0,
         wrong=(
-            (0, 10, "Some come home by chance: four frames are possible, and one of them is right."),
-            (45, 55, "There are two signs to get right, those of axes 1 and 2. Half of a half is a quarter."),
-            (90, 100, "The rule gives the same signs for the same numbers, but a turn changes the numbers."),
+            (
+                0,
+                10,
+                "Some come home by chance: four frames are possible, and one of them is right.",
+            ),
+            (
+                45,
+                55,
+                "There are two signs to get right, those of axes 1 and 2. Half of a half is a quarter.",
+            ),
+            (
+                90,
+                100,
+                "The rule gives the same signs for the same numbers, but a turn changes the numbers.",
+            ),
         ),
     ),
     Question(
@@ -239,13 +259,21 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="m",
         tolerance=0.1,
         wrong=(
-            (0.0, 0.34, "The least direction is the cheapest, and now two dearer ones are turned round as well."),
+            (
+                0.0,
+                0.34,
+                "The least direction is the cheapest, and now two dearer ones are turned round as well.",
+            ),
             (
                 0.45,
                 0.55,
                 "That counts three directions of the same cost, √3 · 0.29 m. The others cost more than the least.",
             ),
-            (0.85, 0.9, "Three times 0.29 m: but squares are added, not lengths, and the three do not cost the same."),
+            (
+                0.85,
+                0.9,
+                "Three times 0.29 m: but squares are added, not lengths, and the three do not cost the same.",
+            ),
         ),
     ),
     Question(

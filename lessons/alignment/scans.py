@@ -18,7 +18,10 @@ from workbench.geometry.motions import exp_so3, motion
 from workbench.knobs import called
 
 SLANT = np.array([0.36, 0.48, 0.8])
-LOW, GAP = 0.4, 0.2  # metres: the least side of the box, and what lies between the scans in the picture
+LOW, GAP = (
+    0.4,
+    0.2,
+)  # metres: the least side of the box, and what lies between the scans in the picture
 Sample = Callable[[int, np.random.Generator], np.ndarray]
 
 
@@ -30,9 +33,13 @@ def scans_of(params: Params) -> Scans:
     """
     files = [path for path in (params.source, params.target, params.truth) if path is not None]
     if params.source is None and files:
-        raise InputError(f"an own first scan and a known pose come with an own cloud: give {called('source')} too")
+        raise InputError(
+            f"an own first scan and a known pose come with an own cloud: give {called('source')} too"
+        )
     if params.truth is not None and params.target is None:
-        raise InputError(f"a known pose is one in the frame of an own first scan: give {called('target')} too")
+        raise InputError(
+            f"a known pose is one in the frame of an own first scan: give {called('target')} too"
+        )
     how = replace(params, signs="third-moment", flip="least")
     return _scans(how, *(stamp(path) for path in files))
 
@@ -55,11 +62,16 @@ def _scans(params: Params, *_stamps: tuple[int, int]) -> Scans:
     p_source = second_scan(params, rng, None if params.stage == "axes" and params.fresh else shape)
     mirrored = params.stage == "pairs" and params.mirrored
     return _beside(
-        p_target, p_source, None if mirrored else motion(scale * _true_rotation(params), np.zeros(3)), params
+        p_target,
+        p_source,
+        None if mirrored else motion(scale * _true_rotation(params), np.zeros(3)),
+        params,
     )
 
 
-def second_scan(params: Params, rng: np.random.Generator, shape: np.ndarray | None = None) -> np.ndarray:
+def second_scan(
+    params: Params, rng: np.random.Generator, shape: np.ndarray | None = None
+) -> np.ndarray:
     """Return the second scan in its own frame, of the shape's points given or of fresh ones."""
     sample = _sampler(params)
     shape = sample(params.points, rng) if shape is None else shape
@@ -68,14 +80,20 @@ def second_scan(params: Params, rng: np.random.Generator, shape: np.ndarray | No
     elif params.mirrored:
         shape = shape * [1.0, 1.0, -1.0]
     p_source = shape @ _true_rotation(params)
-    return p_source if params.noisy == "target" else p_source + params.noise * rng.standard_normal(shape.shape)
+    return (
+        p_source
+        if params.noisy == "target"
+        else p_source + params.noise * rng.standard_normal(shape.shape)
+    )
 
 
 def _true_rotation(params: Params) -> np.ndarray:
     return exp_so3(np.radians(params.turn) * SLANT)
 
 
-def _defective(p: np.ndarray, sample: Sample, params: Params, rng: np.random.Generator) -> np.ndarray:
+def _defective(
+    p: np.ndarray, sample: Sample, params: Params, rng: np.random.Generator
+) -> np.ndarray:
     """Return a scan that is denser above the middle of its height, and saw a part only."""
     if params.density > 1:
         middle = p[:, 2].min() / 2 + p[:, 2].max() / 2
@@ -95,7 +113,11 @@ def _sampler(params: Params) -> Sample:
         return lambda count, rng: some_points(p, count, rng)
     if params.shape in ("rabbit", "vase"):
         return rabbit if params.shape == "rabbit" else vase
-    size = {"box": (1.0, params.side, LOW), "plate": (1.0, params.side, 0.0), "cube": (1.0, 1.0, 1.0)}[params.shape]
+    size = {
+        "box": (1.0, params.side, LOW),
+        "plate": (1.0, params.side, 0.0),
+        "cube": (1.0, 1.0, 1.0),
+    }[params.shape]
     return lambda count, rng: box_surface(count, size, rng)
 
 
@@ -115,9 +137,13 @@ def _own_pair(params: Params) -> Scans:
     p_target, p_source = how.shown(p_target), replace(theirs, scale=how.scale).shown(p_source)
     rng = np.random.default_rng(params.seed)
     if params.stage == "pairs":
-        holed = next((file.name for file in (params.target, params.source) if lost_rows(file)), None)
+        holed = next(
+            (file.name for file in (params.target, params.source) if lost_rows(file)), None
+        )
         if holed is not None:
-            raise InputError(f"pairs go row by row, and {holed} has rows that are NaN: leave them out of both files")
+            raise InputError(
+                f"pairs go row by row, and {holed} has rows that are NaN: leave them out of both files"
+            )
         if len(p_target) != len(p_source):
             raise InputError(
                 f"pairs go row by row: {params.target.name} has {len(p_target):,} points and {params.source.name}"
@@ -135,9 +161,13 @@ def _own_pair(params: Params) -> Scans:
     return replace(_beside(p_target, p_source, T_shown, params), own=True)
 
 
-def _beside(p_target: np.ndarray, p_source: np.ndarray, T: np.ndarray | None, params: Params) -> Scans:
+def _beside(
+    p_target: np.ndarray, p_source: np.ndarray, T: np.ndarray | None, params: Params
+) -> Scans:
     """Return the scans, the first to the left of the second, whose stray point lies where it was dragged."""
-    far = FAR if params.source is not None else 0.0  # a few far points of an own cloud push nothing out of the picture
+    far = (
+        FAR if params.source is not None else 0.0
+    )  # a few far points of an own cloud push nothing out of the picture
     left = min(-0.5, box(p_source, far)[0][0]) - GAP - box(p_target, far)[1][0]
     stray = np.array(params.stray) if any(params.stray) else None
     if stray is not None:

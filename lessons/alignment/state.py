@@ -26,23 +26,40 @@ HOME_DEGREES, HOME_SCALE = 10.0, 0.02
 class Params:
     """A shape scanned twice, what is wrong with the second scan, and how they are aligned."""
 
-    shape: Annotated[Shape, Knob("What is scanned: lopsided, or with a symmetry of its own")] = "rabbit"
+    shape: Annotated[Shape, Knob("What is scanned: lopsided, or with a symmetry of its own")] = (
+        "rabbit"
+    )
     stage: Annotated[Stage, Knob("Align by the axes of each cloud, or by pairs of points")] = "axes"
     signs: Annotated[Signs, Knob("How each axis gets its sign", needs=AXES)] = "third-moment"
     turn: Annotated[
-        float, Knob("How far the second scan is turned away, about a slanting axis", 0, 180, unit="deg", step=1)
+        float,
+        Knob(
+            "How far the second scan is turned away, about a slanting axis",
+            0,
+            180,
+            unit="deg",
+            step=1,
+        ),
     ] = 130.0
-    fresh: Annotated[bool, Knob("The second scan has points of its own, not the same ones", needs=AXES)] = False
+    fresh: Annotated[
+        bool, Knob("The second scan has points of its own, not the same ones", needs=AXES)
+    ] = False
     points: Annotated[int, Knob("Points of each scan", 100, 20_000, step=100)] = 1500
-    noise: Annotated[float, Knob("Noise of each coordinate (standard deviation)", 0, 0.2, unit="m", step=0.005)] = 0.0
+    noise: Annotated[
+        float, Knob("Noise of each coordinate (standard deviation)", 0, 0.2, unit="m", step=0.005)
+    ] = 0.0
     noisy: Annotated[Noisy, Knob("Which scan has the noise")] = "both"
     side: Annotated[
         float,
         Knob("Middle side of the box or plate; its long one is 1 m", 0.4, 1, unit="m", step=0.01,
              needs={"shape": ("box", "plate")}),
     ] = 0.6  # fmt: skip
-    density: Annotated[int, Knob("How many times as dense the second scan is above its middle", 1, 5, needs=AXES)] = 1
-    seen: Annotated[float, Knob("Share of the shape that the second scan saw", 0.3, 1, step=0.05, needs=AXES)] = 1.0
+    density: Annotated[
+        int, Knob("How many times as dense the second scan is above its middle", 1, 5, needs=AXES)
+    ] = 1
+    seen: Annotated[
+        float, Knob("Share of the shape that the second scan saw", 0.3, 1, step=0.05, needs=AXES)
+    ] = 1.0
     stray: Annotated[
         tuple[float, float, float],
         Knob(
@@ -54,25 +71,36 @@ class Params:
         ),
     ] = (0.0, 0.0, 0.0)
     scale: Annotated[
-        float, Knob("How many times as large the first scan is", 0.5, 2, unit="×", step=0.05, needs=PAIRS)
+        float,
+        Knob("How many times as large the first scan is", 0.5, 2, unit="×", step=0.05, needs=PAIRS),
     ] = 1.0
     mirrored: Annotated[bool, Knob("The second scan is a mirror image", needs=PAIRS)] = False
     flip: Annotated[
         procrustes.Flip,
-        Knob("Which singular direction is turned round where the SVD gives a mirror image", needs=PAIRS),
+        Knob(
+            "Which singular direction is turned round where the SVD gives a mirror image",
+            needs=PAIRS,
+        ),
     ] = "least"
-    source: Annotated[Path | None, Knob("Own cloud in place of the shape: ply, pcd, obj, xyz, csv, npz")] = None
-    target: Annotated[
-        Path | None, Knob("Own first scan, onto which the own cloud is brought; row by row for pairs")
+    source: Annotated[
+        Path | None, Knob("Own cloud in place of the shape: ply, pcd, obj, xyz, csv, npz")
     ] = None
-    truth: Annotated[Path | None, Knob("Known pose of the own cloud in the first scan's frame")] = None
+    target: Annotated[
+        Path | None,
+        Knob("Own first scan, onto which the own cloud is brought; row by row for pairs"),
+    ] = None
+    truth: Annotated[Path | None, Knob("Known pose of the own cloud in the first scan's frame")] = (
+        None
+    )
     up: Annotated[Up, Knob("Which axis of own clouds points up", of_files=True)] = "z"
     seed: Annotated[int, Knob("Which points are sampled", 0, 99)] = 0
 
     @property
     def idle(self) -> tuple[str, ...]:
         """The inputs that were changed and have no effect, since own clouds are open."""
-        names = () if self.source is None else OF_BOTH if self.target is not None else ("shape", "side")
+        names = (
+            () if self.source is None else OF_BOTH if self.target is not None else ("shape", "side")
+        )
         return tuple(name for name in names if getattr(self, name) != getattr(Params, name))
 
 
@@ -205,7 +233,9 @@ class PairsState:
     def home(self) -> bool:
         """Whether rotation and scale are the true ones, but for sampling."""
         return (
-            self.outcome.home and self.now.scale is not None and abs(self.now.scale / self.true_scale - 1) < HOME_SCALE
+            self.outcome.home
+            and self.now.scale is not None
+            and abs(self.now.scale / self.true_scale - 1) < HOME_SCALE
         )
 
     @property

@@ -24,7 +24,9 @@ STOPS = {
 def caption(state: State) -> Caption:
     """Return what happened in this step and why."""
     if state.ending is not None:
-        return {"views": _views, "without": _without, "known": _known}[state.ending.kind](state, state.ending)
+        return {"views": _views, "without": _without, "known": _known}[state.ending.kind](
+            state, state.ending
+        )
     return {
         "homography": _homography,
         "constraints": _constraints,
@@ -39,7 +41,11 @@ def title(subject: Subject, view: int) -> str:
     if subject.pictures is None:
         return f"View {view}"
     name = subject.pictures.names[view]
-    return f"View {view}, no picture" if name is None else f"View {view}, {one_line(PurePosixPath(name).name)}"
+    return (
+        f"View {view}, no picture"
+        if name is None
+        else f"View {view}, {one_line(PurePosixPath(name).name)}"
+    )
 
 
 def is_right(state: State) -> bool:
@@ -63,14 +69,18 @@ def _homography(state: State) -> Caption:
         return Caption(f"{text}: noise, and what a lens bends.{_left_out(state.subject.without)}")
     sigma = state.params.noise
     if state.rms > 1.4 * np.sqrt(2) * sigma:
-        return Caption(f"{text}, more than noise of {pixels(sigma)} in each coordinate explains: the lens bends lines.")
+        return Caption(
+            f"{text}, more than noise of {pixels(sigma)} in each coordinate explains: the lens bends lines."
+        )
     return Caption(f"{text}, about what noise of {pixels(sigma)} in each coordinate leaves.")
 
 
 def _left_out(names: tuple[str, ...]) -> str:
     if not names:
         return ""
-    some = ", ".join(one_line(PurePosixPath(name).name)[:30] for name in names[:3]) + (" …" if len(names) > 3 else "")
+    some = ", ".join(one_line(PurePosixPath(name).name)[:30] for name in names[:3]) + (
+        " …" if len(names) > 3 else ""
+    )
     return f" No whole board was found in {counted(len(names), 'picture')}: {some}."
 
 
@@ -80,7 +90,9 @@ def _constraints(state: State) -> Caption:
     if len(now.rows) < 4:
         return Caption(f"{text} They leave B open; more views are needed.")
     if now.K is None:
-        return Caption(f"{text} The B that fits best is not positive definite: no camera sees such views.")
+        return Caption(
+            f"{text} The B that fits best is not positive definite: no camera sees such views."
+        )
     cx, cy = now.K[:2, 2]
     return Caption(
         f"{text} K so far: {f_of(state)}; principal point ({fixed(cx, 0)}, {fixed(cy, 0)}). No lens is in it yet."
@@ -90,7 +102,11 @@ def _constraints(state: State) -> Caption:
 def _poses(state: State) -> Caption:
     now = state.now
     Ts = now.Ts_camera_board
-    start = "No likely camera has these rows: f is guessed as the picture's width. " if now.guessed else ""
+    start = (
+        "No likely camera has these rows: f is guessed as the picture's width. "
+        if now.guessed
+        else ""
+    )
     behind = int((Ts[:, 2, 3] <= 0).sum())
     R = Ts[:, :3, :3]
     off = np.abs(R @ np.swapaxes(R, 1, 2) - np.eye(3)).max(axis=(1, 2)) > ORTHONORMAL
@@ -98,10 +114,16 @@ def _poses(state: State) -> Caption:
     if behind or off.any() or mirrored:
         what = [
             (behind, "stands behind the camera", "stand behind the camera"),
-            (int(off.sum()), "has an R that is not orthonormal", "have an R that is not orthonormal"),
+            (
+                int(off.sum()),
+                "has an R that is not orthonormal",
+                "have an R that is not orthonormal",
+            ),
             (mirrored, "is a mirror image", "are mirror images"),
         ]
-        said = "; ".join(counted(count, f"board {one}", f"boards {more}") for count, one, more in what if count)
+        said = "; ".join(
+            counted(count, f"board {one}", f"boards {more}") for count, one, more in what if count
+        )
         return Caption(f"{start}{said}: these are no poses.", "wrong")
     return Caption(
         f"{start}With this K every view gets a pose: {counted(len(Ts), 'board')} before the camera. {f_of(state)}."
@@ -114,7 +136,9 @@ def _lens(state: State) -> Caption:
     text = f"K and poses stay, and a linear system gives the lens: k1 = {fixed(k1, 3)}"
     tail = f" The rms goes from {pixels(state.before)} to {pixels(state.rms)}."
     if state.subject.K is None:
-        return Caption(f"{text}.{tail} K and poses were made without a lens and may have taken it up.")
+        return Caption(
+            f"{text}.{tail} K and poses were made without a lens and may have taken it up."
+        )
     true = state.subject.lens.k1
     text += f", in truth {fixed(true, 2)}."
     if abs(k1 - true) > 0.3 * abs(true):
@@ -151,7 +175,11 @@ def _without(state: State, ending: Ending) -> Caption:
     found, now = sure(state.now.adjustment), sure(ending.without)
     sd = found.deviations[0]
     moved = float(now.K[0, 0] - found.K[0, 0])
-    by = f"{brief(abs(moved) / sd, 2)} times its ±" if np.isfinite(sd) and sd > 0 else "with no ± to compare"
+    by = (
+        f"{brief(abs(moved) / sd, 2)} times its ±"
+        if np.isfinite(sd) and sd > 0
+        else "with no ± to compare"
+    )
     return Caption(
         f"Without view {state.subject.views[ending.worst]}: f = {fixed(found.K[0, 0], 1)} px becomes"
         f" {fixed(now.K[0, 0], 1)} px, a move of {pixels(abs(moved))}, {by}.{_cut_off(found, now)}"

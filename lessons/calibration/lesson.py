@@ -74,12 +74,18 @@ def run(
 def passed_over(now: calibration_steps.State) -> bool:
     """Tell whether an iteration is not shown: of a long refinement every tenth is, and the last."""
     refined = now.adjustment
-    return bool(refined and refined.iteration > EACH and refined.iteration % EVERY and not refined.stop)
+    return bool(
+        refined and refined.iteration > EACH and refined.iteration % EVERY and not refined.stop
+    )
 
 
 def endings(state: State, corner: float | None) -> Iterator[State]:
     """Yield how well each view fits, what changes without the worst one, and how well all is known."""
-    subject, found, worst = state.subject, sure(state.now.adjustment), int(np.argmax(state.per_view))
+    subject, found, worst = (
+        state.subject,
+        sure(state.now.adjustment),
+        int(np.argmax(state.per_view)),
+    )
     views = Ending(kind="views", worst=worst)
     yield replace(state, shown=worst, ending=views)
     if len(subject.views) > 2:

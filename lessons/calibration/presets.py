@@ -100,7 +100,9 @@ def views_needed(states: Sequence[State]) -> float:
 
 def distance_ratio(states: Sequence[State]) -> float:
     """Return the length of t as found over the true one, of all views together."""
-    found, true = (Ts[:, :3, 3] for Ts in (states[-1].now.Ts_camera_board, states[-1].subject.Ts_camera_board))
+    found, true = (
+        Ts[:, :3, 3] for Ts in (states[-1].now.Ts_camera_board, states[-1].subject.Ts_camera_board)
+    )
     return float(np.linalg.norm(found, axis=1).sum() / np.linalg.norm(true, axis=1).sum())
 
 
@@ -122,7 +124,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "flat-rms",
         "Boards are tilted by 2° instead of 30°, all else is the same. What becomes of the rms at the end of the"
         " calibration?",
-        answer=lambda states: float(np.digitize(states[-1].rms / (np.sqrt(2) * states[-1].params.noise), [1.5, 4.0])),
+        answer=lambda states: float(
+            np.digitize(states[-1].rms / (np.sqrt(2) * states[-1].params.noise), [1.5, 4.0])
+        ),
         why=lambda states: (
             f"{pixels(states[-1].rms)}, while f is off by {pixels(abs(f_error(states)))} ({f_sure(states)})."
             " Corners fit because f and the distances make up for each other. The rms measures noise, not knowledge."
@@ -158,7 +162,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 0.15,
                 "You divided by √2. The squares of a corner's two coordinates are added: its error is larger.",
             ),
-            (0.19, 0.21, "That is the rms of coordinates. The rms that is reported is of points, and a point has two."),
+            (
+                0.19,
+                0.21,
+                "That is the rms of coordinates. The rms that is reported is of points, and a point has two.",
+            ),
             (
                 0.39,
                 0.41,
@@ -184,7 +192,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "One view gives two equations, and four numbers are unknown: f in x and in y, and the principal point.",
             ),
             (3, 3, "Three are needed where the skew is to be found too. Here it is known."),
-            (4, 5, "Each view gives two equations and not one: r₁ and r₂ are at right angles, and equally long."),
+            (
+                4,
+                5,
+                "Each view gives two equations and not one: r₁ and r₂ are at right angles, and equally long.",
+            ),
         ),
     ),
     Question(
@@ -204,7 +216,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             ),
             "the distances to the boards",
             Choice(
-                "nothing", why="Something takes the scale up: a smaller board that looks the same has to be nearer."
+                "nothing",
+                why="Something takes the scale up: a smaller board that looks the same has to be nearer.",
             ),
             Choice(
                 "both of them",
@@ -215,7 +228,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "bent-error",
         "A board is bowed by 1 mm over its 20 cm. The covariance promises a ± for f. How large is the true error of f?",
-        answer=lambda states: float(np.digitize(abs(f_error(states)) / f_deviation(states), [1.0, 2.5])),
+        answer=lambda states: float(
+            np.digitize(abs(f_error(states)) / f_deviation(states), [1.0, 2.5])
+        ),
         why=lambda states: (
             f"f is off by {pixels(abs(f_error(states)))}, {fixed(abs(f_error(states)) / f_deviation(states), 1)} times"
             f" its ± of {brief(f_deviation(states), 2)} px. The covariance knows of noise only; a wrong board is wrong in"
@@ -223,7 +238,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=BENT,
         choices=(
-            Choice("within its ±", why="So it would be if noise were all that is wrong. The ± is made of noise alone."),
+            Choice(
+                "within its ±",
+                why="So it would be if noise were all that is wrong. The ± is made of noise alone.",
+            ),
             Choice(
                 "up to 2.5 times its ±",
                 why="Noise might do that once in some runs. The bow is no noise: it is the same in every view, and adds up.",

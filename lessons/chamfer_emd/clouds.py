@@ -39,7 +39,9 @@ def clouds_of(params: Params) -> Clouds:
         InputError: If an own file cannot be used, or a source is given without its target.
     """
     if params.source is not None and params.target is None:
-        raise InputError(f"an own source needs an own target to flow to: give {called('target')} too")
+        raise InputError(
+            f"an own source needs an own target to flow to: give {called('target')} too"
+        )
     rng = np.random.default_rng(params.seed)
     if params.target is None:
         framed, p_target = Frame(), spread(params.shape, params.points)
@@ -50,12 +52,16 @@ def clouds_of(params: Params) -> Clouds:
     if params.source is None:
         p_source, name = changed(p_target, params.start, params.amount, params, rng), _name(params)
     else:
-        p_source = framed.shown(some_points(read_cloud(params.source), params.source_points or params.points, rng))
+        p_source = framed.shown(
+            some_points(read_cloud(params.source), params.source_points or params.points, rng)
+        )
         name = params.source.name
     return Clouds(p_source=p_source, p_target=p_target, name=name, scale=framed.scale)
 
 
-def changed(p_target: np.ndarray, start: Start, amount: float, params: Params, rng: np.random.Generator) -> np.ndarray:
+def changed(
+    p_target: np.ndarray, start: Start, amount: float, params: Params, rng: np.random.Generator
+) -> np.ndarray:
     """Return a source: a blob, or the target, with as many points as are asked for, after one change."""
     built_in, count = params.target is None, params.source_points or len(p_target)
     share = min(amount, 1.0)
@@ -68,7 +74,11 @@ def changed(p_target: np.ndarray, start: Start, amount: float, params: Params, r
     if count == len(p_target):
         p = p_target
     else:
-        p = spread(params.shape, count) if built_in else p_target[np.resize(rng.permutation(len(p_target)), count)]
+        p = (
+            spread(params.shape, count)
+            if built_in
+            else p_target[np.resize(rng.permutation(len(p_target)), count)]
+        )
     if start == "larger":
         return grown(p, amount)
     if start == "bunched":
@@ -86,7 +96,10 @@ def yardsticks(clouds: Clouds, params: Params) -> tuple[tuple[str, np.ndarray], 
     """Return the target after each of the known changes, with as many points, for numbers to compare with."""
     rng = np.random.default_rng(params.seed)
     alike = Params(shape=params.shape, points=params.points, target=params.target)
-    return tuple((name, changed(clouds.p_target, start, amount, alike, rng)) for name, start, amount in YARDSTICKS)
+    return tuple(
+        (name, changed(clouds.p_target, start, amount, alike, rng))
+        for name, start, amount in YARDSTICKS
+    )
 
 
 def _name(params: Params) -> str:

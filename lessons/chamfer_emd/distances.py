@@ -35,17 +35,34 @@ class Measures:
     one_sided: Distance
 
 
-def measured(now: Flow, before: Side | None, p_target: np.ndarray, params: Params, measures: Measures) -> Side:
+def measured(
+    now: Flow, before: Side | None, p_target: np.ndarray, params: Params, measures: Measures
+) -> Side:
     """Measure a flow where it is, or return what was measured where it has been waiting."""
     if before is not None and before.flow is now:
         return before
-    near, matching = nearest_both_ways(now.p_moving, p_target), best_matching(now.p_moving, p_target)
+    near, matching = (
+        nearest_both_ways(now.p_moving, p_target),
+        best_matching(now.p_moving, p_target),
+    )
     now_numbers = numbers(now.p_moving, p_target, near, matching, params, measures)
-    return Side(flow=now, numbers=now_numbers, near=near, matching=matching, p_target=p_target, blur=params.blur)
+    return Side(
+        flow=now,
+        numbers=now_numbers,
+        near=near,
+        matching=matching,
+        p_target=p_target,
+        blur=params.blur,
+    )
 
 
 def numbers(
-    p: np.ndarray, p_target: np.ndarray, near: Nearest, matching: Matching, params: Params, measures: Measures
+    p: np.ndarray,
+    p_target: np.ndarray,
+    near: Nearest,
+    matching: Matching,
+    params: Params,
+    measures: Measures,
 ) -> Numbers:
     """Measure one cloud against the target by every distance of the lesson."""
     return Numbers(
@@ -65,7 +82,14 @@ def numbers_of_yardsticks(clouds: Clouds, params: Params, measures: Measures) ->
     """Measure the target after each of the known changes."""
     p_target = clouds.p_target
     return {
-        name: numbers(p, p_target, nearest_both_ways(p, p_target), best_matching(p, p_target), params, measures)
+        name: numbers(
+            p,
+            p_target,
+            nearest_both_ways(p, p_target),
+            best_matching(p, p_target),
+            params,
+            measures,
+        )
         for name, p in yardsticks(clouds, params)
     }
 
@@ -76,13 +100,17 @@ def left(lowers: Lowers, measures: Measures) -> tuple[Distance, Gradient]:
     if lowers == "source to target":
         return one_sided, slope_of(one_sided, ours, one_sided_gradient)
     if lowers == "target to source":
-        return swapped(one_sided), slope_of(swapped(one_sided), swapped(ours), one_sided_back_gradient)
+        return swapped(one_sided), slope_of(
+            swapped(one_sided), swapped(ours), one_sided_back_gradient
+        )
     return measures.chamfer, slope_of(measures.chamfer, shape_distances.chamfer, chamfer_gradient)
 
 
 def right(measures: Measures) -> tuple[Distance, Gradient]:
     """Return the distance that the right flow lowers, and its gradient with respect to the moving cloud."""
-    return measures.earth_movers, slope_of(measures.earth_movers, transport.earth_movers, earth_movers_gradient)
+    return measures.earth_movers, slope_of(
+        measures.earth_movers, transport.earth_movers, earth_movers_gradient
+    )
 
 
 def slope_of(distance: Distance, ours: Distance, gradient: Gradient) -> Gradient:
@@ -94,7 +122,10 @@ def slope_of(distance: Distance, ours: Distance, gradient: Gradient) -> Gradient
         return gradient
 
     def slope(p: np.ndarray, p_target: np.ndarray) -> np.ndarray:
-        same = all(np.isclose(distance(q, p_target), ours(q, p_target), _TOLERANCE, _TOLERANCE) for q in around(p))
+        same = all(
+            np.isclose(distance(q, p_target), ours(q, p_target), _TOLERANCE, _TOLERANCE)
+            for q in around(p)
+        )
         return gradient(p, p_target) if same else numeric_gradient(distance, p, p_target)
 
     return slope

@@ -9,7 +9,9 @@ from workbench.scene import Classes, Label, Points, Primitive, Segments
 WIDTH, TARGET_ROW, SOURCE_ROW = 2.1, -1.3, -2.0
 
 
-def unrolled(state: State, side: Side, T_world_side: np.ndarray, *, nearest: bool) -> dict[str, Primitive]:
+def unrolled(
+    state: State, side: Side, T_world_side: np.ndarray, *, nearest: bool
+) -> dict[str, Primitive]:
     """Return both rows in the order of their angle, and the pairs between them, one to one or each with its nearest."""
     p_target = state.clouds.p_target
     target = _row(p_target, p_target, TARGET_ROW)
@@ -48,5 +50,7 @@ def _row(p: np.ndarray, p_target: np.ndarray, height: float) -> np.ndarray:
     """Return points side by side in the order of their angle around the target's middle, from its left side on."""
     x, _, z = (p - p_target.mean(axis=0)).T
     place = np.empty(len(p))
-    place[np.lexsort((np.arange(len(p)), np.round(np.arctan2(z, x), 6)))] = (np.arange(len(p)) + 0.5) / len(p) - 0.5
+    place[np.lexsort((np.arange(len(p)), np.round(np.arctan2(z, x), 6)))] = (
+        np.arange(len(p)) + 0.5
+    ) / len(p) - 0.5
     return np.column_stack([WIDTH * place, np.zeros(len(p)), np.full(len(p), height)])

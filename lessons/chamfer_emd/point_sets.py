@@ -35,7 +35,9 @@ def shape_at(shape: Shape, t: Float[np.ndarray, "n"], count: int) -> Cloud:
         r, x = 0.42 * np.sqrt(2 * t - right), np.where(right, 0.55, -0.55)
         return np.column_stack([x + r * np.cos(turn), zero, r * np.sin(turn)])
     if shape == "spiral":
-        r = 0.15 + 0.85 * _where_reached(t, lambda s: np.hypot(0.85, 4.5 * np.pi * (0.15 + 0.85 * s)))
+        r = 0.15 + 0.85 * _where_reached(
+            t, lambda s: np.hypot(0.85, 4.5 * np.pi * (0.15 + 0.85 * s))
+        )
         angle = 4.5 * np.pi * (r - 0.15) / 0.85
         return np.column_stack([r * np.cos(angle), zero, r * np.sin(angle)])
     if shape == "sphere":
@@ -43,7 +45,13 @@ def shape_at(shape: Shape, t: Float[np.ndarray, "n"], count: int) -> Cloud:
         r = np.sqrt(1 - z * z)
         return np.column_stack([r * np.cos(turn), r * np.sin(turn), z])
     around = 2 * np.pi * t
-    tube = 2 * np.pi * _where_reached(np.mod(turn / (2 * np.pi), 1.0), lambda s: 0.7 + 0.3 * np.cos(2 * np.pi * s))
+    tube = (
+        2
+        * np.pi
+        * _where_reached(
+            np.mod(turn / (2 * np.pi), 1.0), lambda s: 0.7 + 0.3 * np.cos(2 * np.pi * s)
+        )
+    )
     r = 0.7 + 0.3 * np.cos(tube)
     return np.column_stack([r * np.cos(around), r * np.sin(around), 0.3 * np.sin(tube)])
 
@@ -60,7 +68,9 @@ def bunched(shape: Shape, count: int, share: float, width: float = 0.04) -> Clou
     """
     crowd = min(round(share * count), count - 1)
     even = (np.arange(count - crowd) + 0.5) / (count - crowd)
-    return shape_at(shape, np.concatenate([even, width * np.arange(crowd) / max(crowd - 1, 1)]), count)
+    return shape_at(
+        shape, np.concatenate([even, width * np.arange(crowd) / max(crowd - 1, 1)]), count
+    )
 
 
 def crowded(p: Cloud, share: float, part: float = 0.04) -> Cloud:

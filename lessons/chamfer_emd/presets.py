@@ -125,7 +125,12 @@ def _outlier_answer(states: Sequence[State]) -> float:
     """Return which number grew most against what it says of the target 5 % larger."""
     now, larger = states[0].left.numbers, states[0].yardsticks["5 % larger"]
     return float(
-        np.argmax([getattr(now, name) / getattr(larger, name) for name in ("chamfer", "earth_movers", "hausdorff")])
+        np.argmax(
+            [
+                getattr(now, name) / getattr(larger, name)
+                for name in ("chamfer", "earth_movers", "hausdorff")
+            ]
+        )
     )
 
 
@@ -196,8 +201,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         tolerance=2.0,
         step=0,
         wrong=(
-            (0.0, 5.0, "That is the other side, from source to target: it asks whether all that is there is right."),
-            (40.0, 60.0, "The two sides need not be equal: what is missing is seen from one of them only."),
+            (
+                0.0,
+                5.0,
+                "That is the other side, from source to target: it asks whether all that is there is right.",
+            ),
+            (
+                40.0,
+                60.0,
+                "The two sides need not be equal: what is missing is seen from one of them only.",
+            ),
         ),
     ),
     Question(
@@ -208,7 +221,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=OUTLIER,
         choices=(
             Choice(
-                "Chamfer (mean of squares)", why="A square of 1 m is large, but it is divided by 80. A maximum is not."
+                "Chamfer (mean of squares)",
+                why="A square of 1 m is large, but it is divided by 80. A maximum is not.",
             ),
             Choice(
                 "Earth mover's",

@@ -67,7 +67,9 @@ def quantity(value: float, is_angle: bool) -> str:
 
 def said(c: np.ndarray, system: Coordinates) -> str:
     """Write three coordinates with their names."""
-    parts = (f"{n} = {quantity(v, a)}" for n, v, a in zip(system.names, c, system.angles, strict=True))
+    parts = (
+        f"{n} = {quantity(v, a)}" for n, v, a in zip(system.names, c, system.angles, strict=True)
+    )
     return ", ".join(parts)
 
 
@@ -77,7 +79,10 @@ def _placed(now: Placed, system: Coordinates, params: Params) -> str:
             f"{params.system.capitalize()} coordinates {', '.join(system.names)}: each says how far to go from the origin to"
             " the point, on a way of its own."
         )
-    name, value = system.names[now.moves], quantity(float(now.c[now.moves]), system.angles[now.moves])
+    name, value = (
+        system.names[now.moves],
+        quantity(float(now.c[now.moves]), system.angles[now.moves]),
+    )
     return f"{name} = {value}, {WAYS[name]}: the point is at {coordinates(now.p, 2)} m."
 
 
@@ -87,13 +92,21 @@ def _cell(now: Cell, system: Coordinates, params: Params) -> str:
     if params.system == "cartesian":
         return f"{text}, here as anywhere."
     density = "r² sin θ" if params.system == "spherical" else "ρ"
-    return f"{text}. One of the same sides holds less near the axis: its volume goes with {density}."
+    return (
+        f"{text}. One of the same sides holds less near the axis: its volume goes with {density}."
+    )
 
 
 def _readings(now: Readings, params: Params) -> str:
-    numbers = ", ".join([brief(float(now.numbers[0]))] + [angle(float(np.degrees(a))) for a in now.numbers[1:]])
+    numbers = ", ".join(
+        [brief(float(now.numbers[0]))] + [angle(float(np.degrees(a))) for a in now.numbers[1:]]
+    )
     here = now.p[params.convention]
-    others = [length(float(np.linalg.norm(p - here))) for name, p in now.p.items() if name != params.convention]
+    others = [
+        length(float(np.linalg.norm(p - here)))
+        for name, p in now.p.items()
+        if name != params.convention
+    ]
     return (
         f"({numbers}) is this point by {MEANT[params.convention]}. By the two other conventions the same three numbers"
         f" are points {others[0]} and {others[1]} away."
@@ -117,7 +130,8 @@ def _walked(now: Walked, system: Coordinates, state: State) -> Caption:
     miss = float(now.misses.max())
     if not miss < HOME:
         return Caption(
-            f"Put back from their coordinates, places of the walk are up to {length(miss)} off. It is wrong.", "wrong"
+            f"Put back from their coordinates, places of the walk are up to {length(miss)} off. It is wrong.",
+            "wrong",
         )
     text = "The walk is over, and its coordinates put every place back where it was: right."
     if "φ" not in system.names:
@@ -158,11 +172,16 @@ def _scattered(now: Scattered, state: State) -> Caption:
     text = f"{percent(share, 1)} of the points lie within 30° of a pole, in {percent(CAPS_AREA, 1)} of the area"
     if abs(share - CAPS_AREA) < 4 * sigma:
         return Caption(f"{text}: even, but for chance, and right.", "good")
-    return Caption(f"{text}: drawn evenly in θ, they are not even on the sphere. It is wrong.", "wrong")
+    return Caption(
+        f"{text}: drawn evenly in θ, they are not even on the sphere. It is wrong.", "wrong"
+    )
 
 
 def _ranged(now: Ranged, state: State) -> Caption:
-    sigma, off = angle(state.params.bearing_noise), length(float(np.linalg.norm(now.mean - now.true)))
+    sigma, off = (
+        angle(state.params.bearing_noise),
+        length(float(np.linalg.norm(now.mean - now.true))),
+    )
     text = f"{counted(len(now.p), 'measurement')}, bearings with σ = {sigma}: their mean is {off} from the point"
     if not state.last:
         return Caption(f"{text}.")
@@ -195,9 +214,7 @@ def _travelled(now: Travelled, places: Places) -> Caption:
             " It is wrong.",
             "wrong",
         )
-    text = (
-        f"{kilometres(now.circle_length)} along the great circle, {kilometres(now.straight_length)} straight on the map"
-    )
+    text = f"{kilometres(now.circle_length)} along the great circle, {kilometres(now.straight_length)} straight on the map"
     if now.share < 1:
         return Caption(f"So far {text}.")
     share = now.straight_length / now.circle_length - 1
@@ -214,7 +231,9 @@ def _raised(now: Raised, state: State) -> str:
     k = int(now.apart.argmax()) if state.last else -1
     plumb, centre = float(np.degrees(now.latitude[k])), float(np.degrees(now.geocentric[k]))
     text = f"the plumb line rises by {angle(plumb)}, the line to the centre by {fixed(centre, 3)}°:"
-    text += f" {fixed(plumb - centre, 3)}° less, {kilometres(float(now.apart[k]))} along the ground."
+    text += (
+        f" {fixed(plumb - centre, 3)}° less, {kilometres(float(now.apart[k]))} along the ground."
+    )
     if state.last:
         return f"At the pole both are 90°. Between, they differ most where {text}"
     return f"{state.params.planet}: {text}"
@@ -230,7 +249,8 @@ def _followed(now: Followed, state: State) -> Caption:
     if not now.off < HOME:
         off = angle(float(np.degrees(now.off)))
         return Caption(
-            f"Pan {angle(float(np.degrees(now.pan)))}: the camera looks {off} past the target. It is wrong.", "wrong"
+            f"Pan {angle(float(np.degrees(now.pan)))}: the camera looks {off} past the target. It is wrong.",
+            "wrong",
         )
     if state.last:
         return Caption(
@@ -254,7 +274,9 @@ def lies_on_both(now: Met) -> bool:
 
 def _met(now: Met, state: State) -> Caption:
     if not lies_on_both(now):
-        return Caption(f"{coordinates(now.x_h, 3)} is no point of both lines. It is wrong.", "wrong")
+        return Caption(
+            f"{coordinates(now.x_h, 3)} is no point of both lines. It is wrong.", "wrong"
+        )
     x, y, w = now.x_h / np.abs(now.x_h).max()
     degrees, tilt = angle_of(now), float(now.H[2, 0])
     if tilt:
@@ -263,10 +285,16 @@ def _met(now: Met, state: State) -> Caption:
             f"A homography with h₃₁ = {brief(tilt)} takes infinity to the horizon x = {brief(1 / tilt)} m, and the meeting"
             f" to {where}. The cross-ratio stays {brief(now.cross_ratio)}, lengths as 3 : 1 become {brief(now.ratio)} : 1."
         )
-        return Caption(f"{text} Both lines still go through it: right.", "good") if state.last else Caption(text)
+        return (
+            Caption(f"{text} Both lines still go through it: right.", "good")
+            if state.last
+            else Caption(text)
+        )
     vector = f"({', '.join(brief(float(v)) for v in (x, y, w))})"
     if w == 0:
-        return Caption(f"Parallel lines: l × l′ is the vector {vector}. Its w is 0: a point at infinity, and no error.")
+        return Caption(
+            f"Parallel lines: l × l′ is the vector {vector}. Its w is 0: a point at infinity, and no error."
+        )
     return Caption(
         f"Lines at {degrees}: l × l′ is the vector {vector}, the point {far(abs(float(np.hypot(x, y) / w)))} away."
     )
@@ -275,7 +303,11 @@ def _met(now: Met, state: State) -> Caption:
 def angle_of(now: Met) -> str:
     """Write the angle between the lines, however small."""
     degrees = float(np.degrees(now.angle))
-    return f"{brief(degrees)}°" if degrees >= 0.001 else f"{counted(round(1e6 * degrees), 'millionth')} of a degree"
+    return (
+        f"{brief(degrees)}°"
+        if degrees >= 0.001
+        else f"{counted(round(1e6 * degrees), 'millionth')} of a degree"
+    )
 
 
 def far(metres: float) -> str:

@@ -28,7 +28,20 @@ from workbench.lesson import Lesson, Sweep
 
 HEIGHT, SPEED = 10.0, 10.0  # of the passer-by: metres, metres per second
 RANGE, RANGE_SIGMA = 10.0, 0.02  # metres
-TURNS = (40.0, 30.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1, 0.01, 1e-6, 0.0)  # degrees between two lines
+TURNS = (
+    40.0,
+    30.0,
+    20.0,
+    10.0,
+    5.0,
+    2.0,
+    1.0,
+    0.5,
+    0.1,
+    0.01,
+    1e-6,
+    0.0,
+)  # degrees between two lines
 STOPS = np.array([0.0, 1.0, 3.0, 7.0])
 
 
@@ -48,7 +61,9 @@ def run(
     if params.stage == "sphere":
         found = scatter(growing(params.samples, 6), params.even, rng)
     elif params.stage == "radar":
-        found = measure(RANGE, np.radians(params.bearing_noise), RANGE_SIGMA, growing(params.samples, 6), rng)
+        found = measure(
+            RANGE, np.radians(params.bearing_noise), RANGE_SIGMA, growing(params.samples, 6), rng
+        )
     elif params.stage == "globe":
         subject = places_of(params)
         found = travel(subject.degrees, 16, great_circle_distance)
@@ -63,7 +78,9 @@ def run(
         found = turn_parallel(np.radians(angles), TILTS, 1.0, STOPS, meet)
     else:
         subject = thing_of(params)
-        found = step_back(subject.p, subject.half_depth, np.geomspace(1.5, max(params.distance, 1.51), 17))
+        found = step_back(
+            subject.p, subject.half_depth, np.geomspace(1.5, max(params.distance, 1.51), 17)
+        )
     for now in found:
         yield State(params=params, now=now, subject=subject)
 

@@ -64,12 +64,18 @@ def follow(
         spherical_from_cartesian: Tells polar angle and azimuth of the target.
     """
     p = p_start + times[:, None] * v
-    before, now, after = (spherical_from_cartesian(p + dt * v) for dt in (-INSTANT / 2, 0.0, INSTANT / 2))
+    before, now, after = (
+        spherical_from_cartesian(p + dt * v) for dt in (-INSTANT / 2, 0.0, INSTANT / 2)
+    )
     turned = (after - before + np.pi) % (2.0 * np.pi) - np.pi  # the short way round
     looks = cartesian_from_spherical(np.column_stack([np.ones(len(p)), now[:, 1:]]))
     across = np.linalg.norm(np.cross(p, v), axis=1)
     off = np.arctan2(np.linalg.norm(np.cross(looks, p), axis=1), (looks * p).sum(axis=1))
-    pan_rate, tilt_rate, sight_rate = turned[:, 2] / INSTANT, -turned[:, 1] / INSTANT, across / (p * p).sum(axis=1)
+    pan_rate, tilt_rate, sight_rate = (
+        turned[:, 2] / INSTANT,
+        -turned[:, 1] / INSTANT,
+        across / (p * p).sum(axis=1),
+    )
     for k in range(len(times)):
         yield Followed(
             time=float(times[k]),

@@ -35,7 +35,9 @@ class Scaled:
 
 
 @traced
-def scale_last(p: Float[np.ndarray, "3"], ws: Iterable[float], other_h: Float[np.ndarray, "4"]) -> Iterator[Scaled]:
+def scale_last(
+    p: Float[np.ndarray, "3"], ws: Iterable[float], other_h: Float[np.ndarray, "4"]
+) -> Iterator[Scaled]:
     """Yield (x, y, z, w) for many w, and then the mean of (x, y, z, 1) and another vector, entry by entry.
 
     Args:
@@ -76,7 +78,11 @@ class Met:
 
 @traced
 def turn_parallel(
-    angles: Iterable[float], tilts: Iterable[float], gap: float, stops: Float[np.ndarray, "4"], meet: Meet
+    angles: Iterable[float],
+    tilts: Iterable[float],
+    gap: float,
+    stops: Float[np.ndarray, "4"],
+    meet: Meet,
 ) -> Iterator[Met]:
     """Yield two lines that become parallel, and then their pictures by homographies that bring the horizon near.
 
@@ -129,7 +135,9 @@ class Seen:
 
 
 @traced
-def step_back(p: Float[np.ndarray, "n 3"], half_depth: float, times: Iterable[float]) -> Iterator[Seen]:
+def step_back(
+    p: Float[np.ndarray, "n 3"], half_depth: float, times: Iterable[float]
+) -> Iterator[Seen]:
     """Yield the pictures of an object about the origin on the plane y = 0, by an eye on -Y ever farther away.
 
     The focal length is the distance of the eye, so that what lies in the plane is seen in its size.

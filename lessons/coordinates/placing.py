@@ -93,7 +93,13 @@ def cell_at(c: Float[np.ndarray, "3"], sides: Float[np.ndarray, "3"], system: Co
     """
     volume, product = volume_of_cells(system, c, c + sides)
     low, high = np.array(system.solid)
-    return Cell(low=c, high=c + sides, volume=volume, product=product, solid=volume_of_cells(system, low, high))
+    return Cell(
+        low=c,
+        high=c + sides,
+        volume=volume,
+        product=product,
+        solid=volume_of_cells(system, low, high),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +114,11 @@ def read_by_all(c: Float[np.ndarray, "3"], convention: Convention) -> Readings:
     """Return what (r, polar, azimuth), written in a convention, mean by all of them."""
     numbers = written_as(c, convention)
     return Readings(
-        numbers, {name: cartesian_from_spherical(read_as(numbers, name)[None])[0] for name in get_args(Convention)}
+        numbers,
+        {
+            name: cartesian_from_spherical(read_as(numbers, name)[None])[0]
+            for name in get_args(Convention)
+        },
     )
 
 
@@ -184,7 +194,11 @@ class Ranged:
 
 @traced
 def measure(
-    distance: float, sigma: float, sigma_range: float, counts: Iterable[int], rng: np.random.Generator
+    distance: float,
+    sigma: float,
+    sigma_range: float,
+    counts: Iterable[int],
+    rng: np.random.Generator,
 ) -> Iterator[Ranged]:
     """Yield what ever more measurements of a point ahead say of where it is.
 

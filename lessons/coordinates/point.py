@@ -33,10 +33,14 @@ def point_stage(params: Params, spherical_from_cartesian: Spherical) -> Iterator
     c = np.asarray(system.of_points(p[None]), float)[0]
     for placed in place(c, system, STEPS):
         yield State(params=params, now=placed, subject=system)
-    yield State(params=params, now=cell_at(c, np.where(system.angles, TURN, SIDE), system), subject=system)
+    yield State(
+        params=params, now=cell_at(c, np.where(system.angles, TURN, SIDE), system), subject=system
+    )
     if params.system == "spherical":
         yield State(params=params, now=read_by_all(c, params.convention), subject=system)
     beside = CLIMB * np.tan(np.radians(params.miss))
     x = np.linspace(-REACH, REACH, WALKED)
-    for walked in walk(np.column_stack([x, np.full(WALKED, beside), np.full(WALKED, CLIMB)]), system):
+    for walked in walk(
+        np.column_stack([x, np.full(WALKED, beside), np.full(WALKED, CLIMB)]), system
+    ):
         yield State(params=params, now=walked, subject=system)

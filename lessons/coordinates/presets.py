@@ -163,7 +163,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 14.5,
                 "That is their share of the area. Drawn evenly in θ, a band near the pole gets as many as a wide one.",
             ),
-            (45.0, 55.0, "All meridians meet at the poles, but the points are spread along each of them."),
+            (
+                45.0,
+                55.0,
+                "All meridians meet at the poles, but the points are spread along each of them.",
+            ),
             (16.0, 17.5, "That is one pole of two."),
         ),
     ),
@@ -197,7 +201,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-pan",
         "A target flies past 10 m above a camera at 10 m/s, 1° beside the zenith. The line of sight never turns faster than"
         " 57°/s. And the pan axis?",
-        answer=lambda states: float(np.digitize(np.degrees(last(states).pan_peak), [100, 1000, 10_000])),
+        answer=lambda states: float(
+            np.digitize(np.degrees(last(states).pan_peak), [100, 1000, 10_000])
+        ),
         why=lambda states: (
             f"{per_second(last(states).pan_peak)} at its fastest: v / d with d = 17 cm, the distance from the axis, in place"
             " of 10 m from the camera."
@@ -209,7 +215,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "57°/s at most, too",
                 why="The line of sight turns no faster. The pan axis has to turn nearly half round meanwhile.",
             ),
-            Choice("some hundred °/s", why="That is so 10° beside the zenith. Ten times as near is ten times as fast."),
+            Choice(
+                "some hundred °/s",
+                why="That is so 10° beside the zenith. Ten times as near is ten times as fast.",
+            ),
             "some thousand °/s",
             Choice(
                 "without bound",
@@ -229,7 +238,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         step=CELL,
         tolerance=0.8,
         wrong=(
-            (4.0, 4.4, "That is the true volume. It needs the factor r² sin θ, which was left out."),
+            (
+                4.0,
+                4.4,
+                "That is the true volume. It needs the factor r² sin θ, which was left out.",
+            ),
             (9.0, 10.5, "φ goes round by 2π, not π: only θ ends at π."),
             (6.0, 6.6, "That is the range of φ alone. θ has a range of π."),
         ),

@@ -31,14 +31,23 @@ class Params:
     """What is to be named by coordinates, and by which."""
 
     stage: Annotated[Stage, Knob("What coordinates are tried on")] = "point"
-    system: Annotated[Named, Knob("By which numbers the point is named", needs={"stage": ("point",)})] = "spherical"
+    system: Annotated[
+        Named, Knob("By which numbers the point is named", needs={"stage": ("point",)})
+    ] = "spherical"
     convention: Annotated[
         Convention,
         Knob("Whose names the angles have", needs={"stage": ("point",), "system": ("spherical",)}),
     ] = "ISO"
     point: Annotated[
         tuple[float, float, float],
-        Knob("The point; drag its handle", -1.5, 1.5, unit="m", by=Gizmo(0.25), needs={"stage": ("point",)}),
+        Knob(
+            "The point; drag its handle",
+            -1.5,
+            1.5,
+            unit="m",
+            by=Gizmo(0.25),
+            needs={"stage": ("point",)},
+        ),
     ] = (0.66, 0.38, 0.64)
     miss: Annotated[
         float,
@@ -47,28 +56,58 @@ class Params:
     ] = 1.0  # fmt: skip
     even: Annotated[Even, Knob("What is drawn evenly", needs={"stage": ("sphere",)})] = "angle"
     samples: Annotated[
-        int, Knob("How many points or measurements are drawn", 100, 20_000, needs={"stage": ("sphere", "radar")})
+        int,
+        Knob(
+            "How many points or measurements are drawn",
+            100,
+            20_000,
+            needs={"stage": ("sphere", "radar")},
+        ),
     ] = 4000
     bearing_noise: Annotated[
         float,
-        Knob("Standard deviation of a bearing", 0, 30, unit="deg", label="bearing σ", needs={"stage": ("radar",)}),
+        Knob(
+            "Standard deviation of a bearing",
+            0,
+            30,
+            unit="deg",
+            label="bearing σ",
+            needs={"stage": ("radar",)},
+        ),
     ] = 20.0
-    route: Annotated[Route, Knob("From where to where", needs={"stage": ("globe",)})] = "London – Los Angeles"
+    route: Annotated[Route, Knob("From where to where", needs={"stage": ("globe",)})] = (
+        "London – Los Angeles"
+    )
     planet: Annotated[Planet, Knob("Whose flattening", needs={"stage": ("latitude",)})] = "Earth"
     angle_between: Annotated[
         float,
-        Knob("At what angle the two lines meet in the end", 0, 10, unit="deg", needs={"stage": ("projective",)}),
+        Knob(
+            "At what angle the two lines meet in the end",
+            0,
+            10,
+            unit="deg",
+            needs={"stage": ("projective",)},
+        ),
     ] = 0.0
     distance: Annotated[
         float,
-        Knob("How far the eye goes away, in half-depths of the object", 1.5, 100, needs={"stage": ("project",)}),
+        Knob(
+            "How far the eye goes away, in half-depths of the object",
+            1.5,
+            100,
+            needs={"stage": ("project",)},
+        ),
     ] = 100.0
     places: Annotated[
-        Path | None, Knob("Own places instead: csv of latitude, longitude, name", needs={"stage": ("globe",)})
+        Path | None,
+        Knob("Own places instead: csv of latitude, longitude, name", needs={"stage": ("globe",)}),
     ] = None
     cloud: Annotated[
         Path | None,
-        Knob("Own object instead of the house: ply, pcd, obj, xyz, csv, npz", needs={"stage": ("project",)}),
+        Knob(
+            "Own object instead of the house: ply, pcd, obj, xyz, csv, npz",
+            needs={"stage": ("project",)},
+        ),
     ] = None
     up: Annotated[Up, Knob("Which axis of an own object points up", of_files=True)] = "z"
     seed: Annotated[int, Knob("What chance draws", 0, 99, needs={"stage": ("sphere", "radar")})] = 0
@@ -84,7 +123,20 @@ class Thing:
     name: str
 
 
-Now = Placed | Cell | Readings | Walked | Scaled | Scattered | Ranged | Travelled | Raised | Followed | Met | Seen
+Now = (
+    Placed
+    | Cell
+    | Readings
+    | Walked
+    | Scaled
+    | Scattered
+    | Ranged
+    | Travelled
+    | Raised
+    | Followed
+    | Met
+    | Seen
+)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -49,7 +49,9 @@ def thing_of(params: Params) -> Thing:
 def _house() -> Thing:
     solid = house()
     middle = np.array([0.0, 0.0, solid.p[:, 2].max() / 2])
-    return Thing(solid.p - middle, solid.lines - middle, float(np.abs(solid.lines[..., 1]).max()), "house")
+    return Thing(
+        solid.p - middle, solid.lines - middle, float(np.abs(solid.lines[..., 1]).max()), "house"
+    )
 
 
 @functools.lru_cache(maxsize=2)
@@ -60,5 +62,7 @@ def _own(path: Path, up: Up, _stamp: tuple[int, int]) -> Thing:
     p = p[inside][evenly(int(inside.sum()), MOST_POINTS)]
     half_depth = float(np.abs(p[:, 1]).max()) if len(p) else 0.0
     if half_depth < 1e-3 * WIDTH:
-        raise InputError(f"{path.name}: the points have no depth along y: there is nothing nearer and farther")
+        raise InputError(
+            f"{path.name}: the points have no depth along y: there is nothing nearer and farther"
+        )
     return Thing(p, np.empty((0, 2, 3)), half_depth, path.name)

@@ -44,7 +44,9 @@ class Travelled:
 
 
 @traced
-def travel(places: Float[np.ndarray, "m 2"], steps: int, great_circle_distance: Distance) -> Iterator[Travelled]:
+def travel(
+    places: Float[np.ndarray, "m 2"], steps: int, great_circle_distance: Distance
+) -> Iterator[Travelled]:
     """Yield two ways from the first place to the last, and then the two means of all places.
 
     Args:

@@ -39,7 +39,9 @@ def _ring(state: State) -> Caption:
     total = np.degrees(angles.sum())
     text = f"{len(angles)} triangles meet at vertex {state.now.vertex:,}; their angles add up to {total:.2f}°."
     if state.on_border:
-        return Caption(text + " It lies on the border: on a straight, flat border they would add up to 180°.")
+        return Caption(
+            text + " It lies on the border: on a straight, flat border they would add up to 180°."
+        )
     return Caption(text + " In a plane they would add up to 360°.")
 
 
@@ -57,12 +59,19 @@ def _defect(state: State) -> Caption:
         return Caption(
             "Laid flat, the ring closes: angle defect 0. Flat triangles can bend around an edge without one."
         )
-    text = f"Laid flat, the ring leaves a gap of {here:.2f}°" if here > 0 else f"Laid flat, it overlaps by {-here:.2f}°"
+    text = (
+        f"Laid flat, the ring leaves a gap of {here:.2f}°"
+        if here > 0
+        else f"Laid flat, it overlaps by {-here:.2f}°"
+    )
     text += ": the angle defect, curvature times area and not curvature yet."
     if not state.on_border:
         return Caption(text + " A finer mesh has smaller defects.")
     if state.params.mistake == "2 pi on the border":
-        return Caption(f"Taken from 360°, a border vertex misses {here:.2f}°: half a turn that is not there.", "wrong")
+        return Caption(
+            f"Taken from 360°, a border vertex misses {here:.2f}°: half a turn that is not there.",
+            "wrong",
+        )
     return Caption(
         f"On the border angles are taken from 180°: {here:.2f}° is how the border itself turns here, not how the surface"
         " bends."
@@ -73,12 +82,19 @@ def _gaussian(state: State) -> Caption:
     now = state.now
     v, true = now.vertex, state.true("gaussian")
     if state.on_border:
-        return Caption(NOWHERE.format("K") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²"))
+        return Caption(
+            NOWHERE.format("K") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²")
+        )
     if state.params.mistake == "defect taken for K":
         text = f"Without the division by the area, K at vertex {v:,} would be {brief(now.K[v])}"
-        return Caption(text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}", "wrong")
+        return Caption(
+            text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}",
+            "wrong",
+        )
     text = f"K = defect / area = {brief(now.defects[v])} rad / {brief(now.areas[v])} m² = {brief(now.K[v])} m⁻²"
-    return Caption(text + _truth(true, "m⁻²") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²"))
+    return Caption(
+        text + _truth(true, "m⁻²") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²")
+    )
 
 
 def _normal(state: State) -> Caption:
@@ -88,7 +104,9 @@ def _normal(state: State) -> Caption:
     v = now.normals_2H[now.vertex]
     side = "outward" if v @ now.normals[now.vertex] > 0 else "inward"
     if np.linalg.norm(v) < 1e-6:
-        return Caption(f"At vertex {now.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H n = 0.")
+        return Caption(
+            f"At vertex {now.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H n = 0."
+        )
     return Caption(
         f"Each neighbour pushes the vertex away from itself, weighted by the cotangents opposite their edge; over twice the"
         f" area the pushes at vertex {now.vertex:,} add up to 2 H n, {brief(float(np.linalg.norm(v)))} m⁻¹ long and"
@@ -103,9 +121,13 @@ def _mean(state: State) -> Caption:
     H, true = float(now.H[now.vertex]), state.true("mean")
     if state.params.mistake == "H without the half":
         text = f"Taken whole, the normal's length gives H = {brief(H)} m⁻¹"
-        return Caption(text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), "wrong")
+        return Caption(
+            text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), "wrong"
+        )
     text = f"H is half the normal's length, positive where it points outward: {brief(H)} m⁻¹"
-    return Caption(text + _truth(true, "m⁻¹") + _error(state, "H") + _colors(state, now.H, H_SCALE, "m⁻¹"))
+    return Caption(
+        text + _truth(true, "m⁻¹") + _error(state, "H") + _colors(state, now.H, H_SCALE, "m⁻¹")
+    )
 
 
 def _principal(state: State) -> Caption:
@@ -116,7 +138,13 @@ def _principal(state: State) -> Caption:
     text = f"H ± √(H² − K) gives k₁ = {brief(k1)} and k₂ = {brief(k2)} m⁻¹"
     if np.isfinite(state.true("k1")):
         text += f" (truth {brief(state.true('k1'))}, {brief(state.true('k2'))})"
-    kind = "to both sides, as on a saddle" if k1 * k2 < -1e-6 else "to one side" if k1 * k2 > 1e-6 else "one way only"
+    kind = (
+        "to both sides, as on a saddle"
+        if k1 * k2 < -1e-6
+        else "to one side"
+        if k1 * k2 > 1e-6
+        else "one way only"
+    )
     kind = kind if max(abs(k1), abs(k2)) > 1e-6 else "not at all"
     return Caption(f"{text}. The two circles have these curvatures: they bend {kind}.")
 
@@ -126,7 +154,9 @@ def _quadric(state: State) -> Caption:
     K, H = (float(values[v]) for values in quadrics.curvatures())
     n = int(quadrics.neighbours[v])
     if not np.isfinite(K):
-        return Caption(f"Another way, a quadric through two rings, needs six vertices in reach; here are {n}.")
+        return Caption(
+            f"Another way, a quadric through two rings, needs six vertices in reach; here are {n}."
+        )
     text = f"Another way: a quadric fitted to {n} vertices bends by K = {brief(K)} m⁻², H = {brief(H)} m⁻¹."
     if state.errors:
         e = state.errors
@@ -157,7 +187,9 @@ def _finer(state: State) -> Caption:
     text = f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from angles (RMS) goes from"
     text += f" {percent(study.K[0])} to {percent(study.K[-1])}, by quadric fit from"
     text += f" {percent(study.K_fit[0])} to {percent(study.K_fit[-1])}."
-    missing = {"defect taken for K": "division by the area", "H without the half": "½ in H"}.get(state.params.mistake)
+    missing = {"defect taken for K": "division by the area", "H without the half": "½ in H"}.get(
+        state.params.mistake
+    )
     if missing:
         return Caption(f"{text} No mesh is fine enough to mend a missing {missing}.", "wrong")
     if study.K.max() < 1e-8:
@@ -167,7 +199,8 @@ def _finer(state: State) -> Caption:
         return Caption(f"{text} Finer is worse{why}", "wrong")
     if study.K[-1] > study.K[0] / 4:
         return Caption(
-            text + " On such meshes the quotient defect / area does not converge to K; the defects' sum stays exact.",
+            text
+            + " On such meshes the quotient defect / area does not converge to K; the defects' sum stays exact.",
             "wrong",
         )
     return Caption(text + " On such meshes angles converge.", "good")

@@ -16,7 +16,13 @@ from lessons.curvature.mesh import subject_of
 from lessons.curvature.presets import GAUSSIAN, PRESETS, QUESTIONS, UNFOLDING, VIEW
 from lessons.curvature.state import Params, State, Subject
 from lessons.curvature.study import error_of, study_of
-from workbench.algorithms.surfaces.curvature import Defects, Gaussian, MeanNormals, Measured, measure_curvature
+from workbench.algorithms.surfaces.curvature import (
+    Defects,
+    Gaussian,
+    MeanNormals,
+    Measured,
+    measure_curvature,
+)
 from workbench.geometry.meshes import curvature, on_boundary
 from workbench.geometry.meshes.laplacian import mixed_areas
 from workbench.lesson import Lesson, Sweep
@@ -31,7 +37,9 @@ def run(
 ) -> Iterator[State]:
     """Yield the stages of measuring one mesh, then, where the truth is known, the errors on ever finer meshes."""
     subject = subject_of(params)
-    defects, gaussian, normals = with_mistake(params, angle_defects, gaussian_curvature, mean_curvature_normals)
+    defects, gaussian, normals = with_mistake(
+        params, angle_defects, gaussian_curvature, mean_curvature_normals
+    )
     errors: dict[str, float] = {}
     state = None
     for now in measure_curvature(
@@ -72,7 +80,11 @@ def with_mistake(
 ) -> tuple[Defects, Gaussian, MeanNormals]:
     """Return the three functions, one of them spoilt by the chosen mistake."""
     if params.mistake == "2 pi on the border":
-        return lambda p, faces: defects(p, faces) + np.pi * on_boundary(faces, len(p)), gaussian, normals
+        return (
+            lambda p, faces: defects(p, faces) + np.pi * on_boundary(faces, len(p)),
+            gaussian,
+            normals,
+        )
     if params.mistake == "defect taken for K":
         return defects, lambda p, faces: gaussian(p, faces) * mixed_areas(p, faces), normals
     if params.mistake == "H without the half":

@@ -40,13 +40,21 @@ def shape_of(params: Params) -> Params:
 @functools.lru_cache(maxsize=16)
 def _built_in(shape: Params) -> Subject:
     surface = surface_of(shape)
-    return _subject(surface.p, surface.faces, turned=shape.inside_out, name=f"the {shape.surface}", truth=surface)
+    return _subject(
+        surface.p,
+        surface.faces,
+        turned=shape.inside_out,
+        name=f"the {shape.surface}",
+        truth=surface,
+    )
 
 
 def surface_of(shape: Params) -> Surface:
     """Return a built-in surface; noise is in metres whatever the size."""
     rng = np.random.default_rng(shape.seed)
-    surface = scaled(SURFACES[shape.surface](shape.vertices, jitter=shape.jitter, rng=rng), shape.size)
+    surface = scaled(
+        SURFACES[shape.surface](shape.vertices, jitter=shape.jitter, rng=rng), shape.size
+    )
     surface = with_noise(surface, shape.noise, rng) if shape.noise else surface
     return inside_out(surface) if shape.inside_out else surface
 

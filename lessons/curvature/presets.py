@@ -155,7 +155,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "which-rolled",
         "A sheet of paper is rolled into a tube of radius 0.5 m. What is its Gaussian curvature?",
         lambda states: float(
-            np.argmin(np.abs(np.array([0.0, 2.0, 4.0]) - typical(at_stage(states, "gaussian").now.K)))
+            np.argmin(
+                np.abs(np.array([0.0, 2.0, 4.0]) - typical(at_stage(states, "gaussian").now.K))
+            )
         ),
         _why_cylinder,
         CYLINDER,
@@ -177,7 +179,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "which-double",
         "The torus is made twice as large. What happens to its Gaussian curvature?",
-        lambda states: float(np.argmin(np.abs(np.array([1.0, 0.5, 0.25, 0.125]) - _size_ratio(states)))),
+        lambda states: float(
+            np.argmin(np.abs(np.array([1.0, 0.5, 0.25, 0.125]) - _size_ratio(states)))
+        ),
         lambda states: (
             f"It is {_size_ratio(states):.3f} times what it was: the angles stay, and each vertex has four times the"
             " area. H would be halved."
@@ -185,26 +189,41 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         DOUBLE,
         choices=(
             Choice(
-                "it stays", why="The angles stay, and with them the defects. But K is the defect for each square metre."
+                "it stays",
+                why="The angles stay, and with them the defects. But K is the defect for each square metre.",
             ),
-            Choice("it is halved", why="That is H, or one circle's 1 / r. K is the product of two such."),
+            Choice(
+                "it is halved",
+                why="That is H, or one circle's 1 / r. K is the product of two such.",
+            ),
             "a quarter is left",
-            Choice("an eighth is left", why="Volumes grow eightfold. What the defect is divided by is an area."),
+            Choice(
+                "an eighth is left",
+                why="Volumes grow eightfold. What the defect is divided by is an area.",
+            ),
         ),
         step=GAUSSIAN,
     ),
     Question(
         "which-sides",
         "All triangles are turned round, so that inside is outside. Which of K and H changes its sign?",
-        lambda states: float({(True, False): 0, (False, True): 1, (True, True): 2, (False, False): 3}[_signs(states)]),
+        lambda states: float(
+            {(True, False): 0, (False, True): 1, (True, True): 2, (False, False): 3}[_signs(states)]
+        ),
         lambda states: (
             "H turns with the normal. K is the product of k₁ and k₂, which both turn: minus times minus leaves it."
         ),
         INSIDE_OUT,
         choices=(
-            Choice("K", why="K is the product of two curvatures. Both change their sign, so their product does not."),
+            Choice(
+                "K",
+                why="K is the product of two curvatures. Both change their sign, so their product does not.",
+            ),
             "H",
-            Choice("both", why="Both circles bend to the other side now, but K is their product: minus times minus."),
+            Choice(
+                "both",
+                why="Both circles bend to the other side now, but K is their product: minus times minus.",
+            ),
             Choice(
                 "neither",
                 why="The shape is the same, but H counts as positive where the surface bends away from its"
@@ -217,7 +236,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "which-finer",
         "A torus with irregular triangles, vertices exactly on it. Edges become four times shorter: the error of K from"
         " angle defects …",
-        lambda states: float(np.argmin(np.abs(np.log(np.array([16.0, 4.0, 1.0]) / _finer_ratio(states))))),
+        lambda states: float(
+            np.argmin(np.abs(np.log(np.array([16.0, 4.0, 1.0]) / _finer_ratio(states))))
+        ),
         _why_finer,
         IRREGULAR,
         choices=(
@@ -253,7 +274,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             ),
             (1.9, 2.1, "2 is V − E + F. The sum is 2π times that."),
             (12.4, 12.7, "That is the sum in radians. Asked is how many π it is."),
-            (4.1, 10000.0, "Each bump adds gaps at its top and overlaps at its foot, and the two cancel."),
+            (
+                4.1,
+                10000.0,
+                "Each bump adds gaps at its top and overlaps at its foot, and the two cancel.",
+            ),
         ),
         step=TOTAL,
     ),

@@ -25,17 +25,30 @@ class Params:
     surface: Annotated[Shape, Knob("A surface whose curvature is known in closed form")] = "torus"
     vertices: Annotated[int, Knob("About how many vertices its mesh has", 50, 6000, step=10)] = 400
     jitter: Annotated[
-        float, Knob("How far vertices stray along the surface", 0, MOST_JITTER, unit="cells", step=0.01)
+        float,
+        Knob("How far vertices stray along the surface", 0, MOST_JITTER, unit="cells", step=0.01),
     ] = 0.0
-    noise: Annotated[float, Knob("How far they stray off the surface (sigma)", 0, 0.02, unit="m", step=0.001)] = 0.0
-    size: Annotated[float, Knob("Everything this many times as large", 0.5, 2, unit="×", step=0.05)] = 1.0
+    noise: Annotated[
+        float, Knob("How far they stray off the surface (sigma)", 0, 0.02, unit="m", step=0.001)
+    ] = 0.0
+    size: Annotated[
+        float, Knob("Everything this many times as large", 0.5, 2, unit="×", step=0.05)
+    ] = 1.0
     inside_out: Annotated[bool, Knob("Turn all faces round, so that inside is outside")] = False
     mistake: Annotated[Mistake, Knob("Calculate with a classic mistake")] = "none"
     vertex: Annotated[
-        int, Knob("The vertex that is looked at: click one; -1 faces you", -1, MOST_OWN - 1, by=Pick("surface"))
+        int,
+        Knob(
+            "The vertex that is looked at: click one; -1 faces you",
+            -1,
+            MOST_OWN - 1,
+            by=Pick("surface"),
+        ),
     ] = -1
     mesh: Annotated[Path | None, Knob("Own mesh instead: off, obj, ply, stl, glb")] = None
-    up: Annotated[Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)] = "auto"
+    up: Annotated[
+        Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)
+    ] = "auto"
     seed: Annotated[int, Knob("Which way the vertices stray", 0, 99)] = 0
 
 
@@ -113,7 +126,13 @@ class State:
     @property
     def stage(self) -> str:
         """The stage by name."""
-        return "finer" if self.study is not None else "unfolding" if self.unfolded < 1 else self.now.stage
+        return (
+            "finer"
+            if self.study is not None
+            else "unfolding"
+            if self.unfolded < 1
+            else self.now.stage
+        )
 
     @property
     def on_border(self) -> bool:

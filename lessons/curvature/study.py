@@ -18,10 +18,14 @@ Letter = Literal["gaussian", "mean"]
 COUNTS = (400, 1000, 2500, 6400)
 
 
-def study_of(params: Params, gaussian_curvature: Gaussian, mean_curvature_normals: MeanNormals) -> Study:
+def study_of(
+    params: Params, gaussian_curvature: Gaussian, mean_curvature_normals: MeanNormals
+) -> Study:
     """Measure a built-in surface on four meshes, the last with edges four times shorter than the first."""
     errors: dict[str, list[float]] = {name: [] for name in ("K", "H", "K_fit", "H_fit")}
-    meshes = _meshes(replace(shape_of(params), vertices=Params.vertices))  # the same whatever is looked at
+    meshes = _meshes(
+        replace(shape_of(params), vertices=Params.vertices)
+    )  # the same whatever is looked at
     for made in meshes:
         p, faces = made.surface.p, made.surface.faces
         H = mean_from_normals(mean_curvature_normals(p, faces), made.normals)

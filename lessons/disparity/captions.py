@@ -37,7 +37,9 @@ def caption(state: State) -> Caption:
 def _compared(state: State) -> str:
     d, n = state.done - 1, state.disparity.size
     if d == 0:
-        return "d = 0: both pictures lie on each other as they are. So far each pixel keeps this one."
+        return (
+            "d = 0: both pictures lie on each other as they are. So far each pixel keeps this one."
+        )
     fresh = int((state.disparity == d).sum())
     return (
         f"d = {d}: left (u, v) against right (u − {d}, v). {fresh:,} pixels ({percent(fresh / n, 1)}) fit better than at any"
@@ -48,9 +50,7 @@ def _compared(state: State) -> str:
 def _aggregated(state: State) -> str:
     window, cost = state.setup.params.window, state.setup.params.cost
     if window == 1:
-        return (
-            f"A window of one pixel sums nothing: the winner of each {cost} curve stays as it was{_wrong_now(state)}."
-        )
+        return f"A window of one pixel sums nothing: the winner of each {cost} curve stays as it was{_wrong_now(state)}."
     return (
         f"{cost} over {window} × {window} pixels: a whole window must fit, not one pixel by chance"
         f"{_change(state, ': ')}."
@@ -59,7 +59,10 @@ def _aggregated(state: State) -> str:
 
 def _path(state: State) -> str:
     change = _change(state, "")
-    change = change or f"energy {brief(sure(state.before).energy, 4)} → {brief(state.energy, 4)} per pixel"
+    change = (
+        change
+        or f"energy {brief(sure(state.before).energy, 4)} → {brief(state.energy, 4)} per pixel"
+    )
     return f"Path {state.done} of 8, {WAYS[sure(state.direction)]}: neighbours that disagree pay; {change}."
 
 
@@ -140,7 +143,10 @@ def _of_unknown_cameras(state: State) -> Caption:
 
 def _of_relative_error(state: State) -> Caption:
     """Say by which part of itself a depth moves, for which no camera has to be known."""
-    e, known = state.disparity_error, state.disparity[np.isfinite(state.disparity) & (state.disparity > 0)]
+    e, known = (
+        state.disparity_error,
+        state.disparity[np.isfinite(state.disparity) & (state.disparity > 0)],
+    )
     if not len(known):
         return Caption("No pixel has a disparity above 0, so there is no error to show.", "wrong")
     at = [float(d) + state.setup.pair.camera.doffs for d in np.percentile(known, [98, 50])]
@@ -166,7 +172,9 @@ def _of_error(state: State) -> Caption:
     moved = ", ".join(f"{length(z)} by {length(z * z / fB * e)}" for z in at)
     text = f"To first order {brief(e)} px of error moves a depth by Z² / (f B) · {brief(e)} px: {moved}."
     if state.setup.params.disparity_error and at == list(flat):
-        text += f" Measured: {', '.join(length(abs(float(np.median(off)))) for off in flat.values())}."
+        text += (
+            f" Measured: {', '.join(length(abs(float(np.median(off)))) for off in flat.values())}."
+        )
     off = depth_errors(state)
     if len(off):
         text += f" Half of all points are within {length(float(np.median(off)))} of the truth."
@@ -183,14 +191,22 @@ def _tone(state: State) -> Tone:
         return "info"
     params, relative = state.setup.params, float(np.median(np.abs(found / true - 1.0)))
     if relative > 0.1 or state.wrong > 0.2:
-        asked_for = params.mistake != "none" or params.disparity_error != 0 or params.smoothness == 0
+        asked_for = (
+            params.mistake != "none" or params.disparity_error != 0 or params.smoothness == 0
+        )
         return "info" if asked_for else "wrong"
     return "info" if relative > 0.03 or state.wrong > 0.05 else "good"
 
 
 def distance(depth: float) -> str:
     """Write how far away something is, in metres, to the millimetre."""
-    return "unknown" if math.isnan(depth) else "infinitely far" if math.isinf(depth) else f"{fixed(depth, 3)} m"
+    return (
+        "unknown"
+        if math.isnan(depth)
+        else "infinitely far"
+        if math.isinf(depth)
+        else f"{fixed(depth, 3)} m"
+    )
 
 
 def _wrong_now(state: State) -> str:

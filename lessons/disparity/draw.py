@@ -12,7 +12,12 @@ from lessons.disparity.state import Setup, State
 from workbench.algorithms.stereo.disparity import Stage
 from workbench.data.framing import round_below
 from workbench.geometry.cameras import back_project
-from workbench.geometry.cameras.stereo import depth_cloud, depth_from_disparity, depth_interval, points_on_ray
+from workbench.geometry.cameras.stereo import (
+    depth_cloud,
+    depth_from_disparity,
+    depth_interval,
+    points_on_ray,
+)
 from workbench.geometry.motions import R_UPRIGHT, apply, motion
 from workbench.geometry.polylines import between, segments
 from workbench.numerals import brief, length
@@ -64,7 +69,9 @@ def _cloud(state: State) -> dict[str, Primitive]:
     color, name = _cloud_color(state, seen)
     name = name if setup.metric else f"{name}; its size is made up"
     scene: dict[str, Primitive] = {
-        "cloud": Points(apply(T_WORLD_LEFT, setup.scale * p_camera).astype(np.float32), color, radius, name=name),
+        "cloud": Points(
+            apply(T_WORLD_LEFT, setup.scale * p_camera).astype(np.float32), color, radius, name=name
+        ),
     }
     if state.uncertainty is not None:
         scene["bars"] = _bars(state, seen)
@@ -95,7 +102,10 @@ def _bars(state: State, seen: np.ndarray) -> Segments:
     d = camera.f * camera.baseline / state.depth[v[some], u[some]]
     uv = np.column_stack([u[some], v[some]]).astype(float)
     near_far = depth_interval(d, camera.f, camera.baseline, error)
-    ends = [back_project(uv, np.minimum(depth, 2 * setup.far), np.eye(4), camera.K) for depth in near_far]
+    ends = [
+        back_project(uv, np.minimum(depth, 2 * setup.far), np.eye(4), camera.K)
+        for depth in near_far
+    ]
     return Segments(
         setup.scale * np.stack(ends, axis=1),
         "correspondence",
@@ -113,7 +123,12 @@ def _followed(state: State) -> dict[str, Primitive]:
     depths = _depth(state, np.arange(setup.max_disparity + 1.0))
     shown = np.isfinite(depths) & (depths <= setup.far) & np.isfinite(state.costs)
     scene: dict[str, Primitive] = {
-        "ray": Segments(between(np.zeros(3), _along(setup, np.array([setup.far]))), "highlight", 2.0, T_WORLD_LEFT)
+        "ray": Segments(
+            between(np.zeros(3), _along(setup, np.array([setup.far]))),
+            "highlight",
+            2.0,
+            T_WORLD_LEFT,
+        )
     }
     if shown.any():
         scene["candidates"] = Points(_along(setup, depths[shown]), "highlight", SIZE, T_WORLD_LEFT)
@@ -127,7 +142,9 @@ def _followed(state: State) -> dict[str, Primitive]:
         eye = np.array([setup.scale * camera.baseline, 0.0, 0.0])
         scene["partner ray"] = Segments(between(eye, p), "source", 1.5, T_WORLD_LEFT)
     if setup.true_depth[v, u] <= setup.far:
-        scene["truth"] = Points(_along(setup, setup.true_depth[v, u : u + 1]), "truth", 1.7 * SIZE, T_WORLD_LEFT)
+        scene["truth"] = Points(
+            _along(setup, setup.true_depth[v, u : u + 1]), "truth", 1.7 * SIZE, T_WORLD_LEFT
+        )
     return scene
 
 
@@ -145,7 +162,9 @@ def _swept(state: State) -> dict[str, Primitive]:
     corners = _corners(setup, depth)
     return {
         "swept": Segments(segments(corners, closed=True), "other", 2.5, T_WORLD_LEFT),
-        "label/swept": Label(f"d = {state.done - 1} px{_away(setup, depth)}", corners[1], "other", T_WORLD_LEFT),
+        "label/swept": Label(
+            f"d = {state.done - 1} px{_away(setup, depth)}", corners[1], "other", T_WORLD_LEFT
+        ),
     }
 
 
@@ -155,7 +174,13 @@ def _ruler(setup: Setup) -> dict[str, Primitive]:
     far = _corners(setup, setup.far / 1.25)
     edges = between(np.zeros(3), far)
     shown: dict[str, Primitive] = {
-        "seen": Segments(np.concatenate([edges, segments(far, closed=True)]), "correspondence", 1.0, T_WORLD_LEFT, 0.45)
+        "seen": Segments(
+            np.concatenate([edges, segments(far, closed=True)]),
+            "correspondence",
+            1.0,
+            T_WORLD_LEFT,
+            0.45,
+        )
     }
     if setup.metric:
         apart = round_below(setup.far / 3)

@@ -25,7 +25,15 @@ from workbench.algorithms.stereo.cost_volume import (
     sad_cost_volume,
     ssd_cost_volume,
 )
-from workbench.algorithms.stereo.disparity import Choose, DepthOf, Matching, Stage, match, reconstruct, usual_penalties
+from workbench.algorithms.stereo.disparity import (
+    Choose,
+    DepthOf,
+    Matching,
+    Stage,
+    match,
+    reconstruct,
+    usual_penalties,
+)
 from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.algorithms.stereo.semiglobal import energy
 from workbench.geometry.cameras.stereo import depth_from_disparity
@@ -51,8 +59,14 @@ def run(
     """Yield the steps from two pictures to a depth cloud; `cost_volume` is used where the knob says SAD."""
     setup = setup_of(params)
     compare = OTHER_COSTS.get(params.cost, cost_volume)
-    penalties = functools.partial(usual_penalties, smoothness=params.smoothness) if params.smoothness > 0 else None
-    steps = match(setup.left, setup.right, setup.max_disparity, params.window, penalties, compare, choose)
+    penalties = (
+        functools.partial(usual_penalties, smoothness=params.smoothness)
+        if params.smoothness > 0
+        else None
+    )
+    steps = match(
+        setup.left, setup.right, setup.max_disparity, params.window, penalties, compare, choose
+    )
     yield from states_of(setup, steps, depth)
 
 
@@ -61,16 +75,28 @@ def states_of(setup: Setup, steps: Iterator[Matching], depth_of: DepthOf) -> Ite
     state, before = None, None
     for now in steps:
         state = _of_matching(setup, now, depth_of, before)
-        before = Figures(wrong=state.wrong, error=state.error, unknown=state.unknown, energy=state.energy)
+        before = Figures(
+            wrong=state.wrong, error=state.error, unknown=state.unknown, energy=state.energy
+        )
         yield state
     assert state is not None
     params, camera = setup.params, setup.pair.camera
     disparity = state.disparity + params.disparity_error
     shown = abs(params.disparity_error) or USUAL_ERROR
     wrong, error, unknown = judged(setup, disparity)
-    last = replace(state, stage=None, disparity=disparity, before=before, wrong=wrong, error=error, unknown=unknown)
+    last = replace(
+        state,
+        stage=None,
+        disparity=disparity,
+        before=before,
+        wrong=wrong,
+        error=error,
+        unknown=unknown,
+    )
     for depths in reconstruct(disparity + camera.doffs, setup.f, camera.baseline, shown, depth_of):
-        yield replace(last, depth=depths.depth, uncertainty=depths.uncertainty, disparity_error=shown)
+        yield replace(
+            last, depth=depths.depth, uncertainty=depths.uncertainty, disparity_error=shown
+        )
 
 
 def _of_matching(setup: Setup, now: Matching, depth_of: DepthOf, before: Figures | None) -> State:

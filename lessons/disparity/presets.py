@@ -21,7 +21,13 @@ LARGE = Params(smoothness=0.0, noise=8.0, window=21, pixel=(120, 20))
 HALF = Params(scene="planes", baseline=0.05, pixel=(80, 50))
 PLANES = Params(scene="planes", pixel=(80, 50))
 DOUBLE = Params(scene="planes", baseline=0.2, pixel=(80, 50))
-BOARDS = Params(scene="boards at three depths", focal_length=640.0, baseline=0.125, max_disparity=84, pixel=(118, 30))
+BOARDS = Params(
+    scene="boards at three depths",
+    focal_length=640.0,
+    baseline=0.125,
+    max_disparity=84,
+    pixel=(118, 30),
+)
 ONE_PIXEL = replace(BOARDS, disparity_error=1.0)
 MOTORCYCLE = Params(scene="Motorcycle", cost="census", max_disparity=20, pixel=(104, 58))
 
@@ -185,12 +191,16 @@ def mean_depths(states: Sequence[State]) -> tuple[float, float]:
     """Return the mean of the boards' depths, and the depth of their mean disparity, metres."""
     found, camera = boards(states[DEPTH]), states[DEPTH].setup.pair.camera
     fB = camera.f * camera.baseline
-    return float(np.mean(list(found.values()))), fB / float(np.mean([fB / z for z in found.values()]))
+    return float(np.mean(list(found.values()))), fB / float(
+        np.mean([fB / z for z in found.values()])
+    )
 
 
 def _averages(states: Sequence[State]) -> float:
     of_depths, of_disparities = mean_depths(states)
-    return 2.0 if abs(of_depths - of_disparities) < 0.1 else 0.0 if of_depths > of_disparities else 1.0
+    return (
+        2.0 if abs(of_depths - of_disparities) < 0.1 else 0.0 if of_depths > of_disparities else 1.0
+    )
 
 
 def _averages_why(states: Sequence[State]) -> str:

@@ -14,33 +14,61 @@ from workbench.data.views.stereo import StereoPair
 from workbench.errors import InputError
 from workbench.knobs import Knob, Pick
 
-Scene = Literal["spheres", "planes", "posts", "plain wall", "repeated pattern", "boards at three depths", "Motorcycle"]
+Scene = Literal[
+    "spheres",
+    "planes",
+    "posts",
+    "plain wall",
+    "repeated pattern",
+    "boards at three depths",
+    "Motorcycle",
+]
 MADE = ("spheres", "planes", "posts", "plain wall", "repeated pattern", "boards at three depths")
 Cost = Literal["SAD", "SSD", "census", "NCC"]
-Mistake = Literal["none", "pictures exchanged", "rows off by 2 px", "right picture darker", "f not rescaled"]
+Mistake = Literal[
+    "none", "pictures exchanged", "rows off by 2 px", "right picture darker", "f not rescaled"
+]
 
 
 @dataclass(frozen=True)
 class Params:
     """A pair of pictures, how it is matched, and the pixel that is followed."""
 
-    scene: Annotated[Scene, Knob("What the two cameras look at; the motorcycle is real")] = "spheres"
+    scene: Annotated[Scene, Knob("What the two cameras look at; the motorcycle is real")] = (
+        "spheres"
+    )
     cost: Annotated[Cost, Knob("How two windows are compared")] = "SAD"
-    window: Annotated[int, Knob("Side of the window over which costs are summed", 1, 21, unit="px", step=2)] = 3
+    window: Annotated[
+        int, Knob("Side of the window over which costs are summed", 1, 21, unit="px", step=2)
+    ] = 3
     smoothness: Annotated[
         float,
-        Knob("What a jump between neighbours costs, in usual matching costs; 0 leaves the paths out", 0, 4, step=0.1),
+        Knob(
+            "What a jump between neighbours costs, in usual matching costs; 0 leaves the paths out",
+            0,
+            4,
+            step=0.1,
+        ),
     ] = 1.0
     max_disparity: Annotated[int, Knob("Largest shift that is tried", 3, 127, unit="px")] = 31
     baseline: Annotated[
-        float, Knob("Distance between the cameras", 0.02, 0.5, unit="m", step=0.005, needs={"scene": MADE})
+        float,
+        Knob(
+            "Distance between the cameras", 0.02, 0.5, unit="m", step=0.005, needs={"scene": MADE}
+        ),
     ] = 0.1
-    focal_length: Annotated[float, Knob("Focal length", 50, 8000, unit="px", step=10, needs={"scene": MADE})] = 150.0
+    focal_length: Annotated[
+        float, Knob("Focal length", 50, 8000, unit="px", step=10, needs={"scene": MADE})
+    ] = 150.0
     noise: Annotated[
-        float, Knob("Noise of both sensors, in grey levels of 255", 0, 40, step=0.5, needs={"scene": MADE})
+        float,
+        Knob(
+            "Noise of both sensors, in grey levels of 255", 0, 40, step=0.5, needs={"scene": MADE}
+        ),
     ] = 4.0
     disparity_error: Annotated[
-        float, Knob("Added to every disparity before it becomes a depth", -3, 3, unit="px", step=0.25)
+        float,
+        Knob("Added to every disparity before it becomes a depth", -3, 3, unit="px", step=0.25),
     ] = 0.0
     mistake: Annotated[Mistake, Knob("A classic mistake on the way; the scene stays true")] = "none"
     pixel: Annotated[
@@ -95,7 +123,9 @@ class Params:
 
     def __post_init__(self) -> None:
         if self.window % 2 == 0:
-            raise InputError(f"window = {self.window}: a window has a middle pixel, so its side is odd")
+            raise InputError(
+                f"window = {self.window}: a window has a middle pixel, so its side is odd"
+            )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -141,7 +171,9 @@ class Setup:
         By census, on one row in four.
         """
         left, right = self.left[::4], self.right[::4]
-        return _agreeing(left, right, self.max_disparity), _agreeing(right, left, self.max_disparity)
+        return _agreeing(left, right, self.max_disparity), _agreeing(
+            right, left, self.max_disparity
+        )
 
     @property
     def seem_exchanged(self) -> bool:
@@ -152,7 +184,9 @@ class Setup:
 
 def _agreeing(left: np.ndarray, right: np.ndarray, max_disparity: int) -> float:
     cost = census_cost_volume(left, right, max_disparity, 3)
-    winner, back = (winner_takes_all(volume).astype(int) for volume in (cost, seen_from_right(cost)))
+    winner, back = (
+        winner_takes_all(volume).astype(int) for volume in (cost, seen_from_right(cost))
+    )
     return float(agree(winner, back).mean())
 
 

@@ -11,7 +11,10 @@ from workbench.certain import sure
 from workbench.numerals import brief, counted, fixed, length, percent
 from workbench.scene import Caption
 
-GOOD, BAD = 0.02, 0.06  # mean sizes of the relative error: up to the one it is right, above the other wrong
+GOOD, BAD = (
+    0.02,
+    0.06,
+)  # mean sizes of the relative error: up to the one it is right, above the other wrong
 MANY = 0.3  # edges of negative weight per vertex, a tenth of all edges: from there on they are named as a cause
 BALLS = {
     "euclid": "a disc",
@@ -46,7 +49,9 @@ def caption(state: State) -> Caption:
 def way_of(params: Params) -> str:
     """Return what distances are computed by."""
     if params.stage == "grid":
-        return "fast marching" if params.neighbours == "march" else f"{params.neighbours} neighbours"
+        return (
+            "fast marching" if params.neighbours == "march" else f"{params.neighbours} neighbours"
+        )
     if params.stage == "roll":
         return f"{params.k} neighbours each"
     if params.method == "heat":
@@ -107,11 +112,14 @@ def _of_found(state: State, now: Found) -> Caption:
         )
     if not np.isfinite(now.error).any():
         return Caption(
-            f"By {by} {reached:,} of {where:,} nodes are reached, none of them far enough to be compared.", "wrong"
+            f"By {by} {reached:,} of {where:,} nodes are reached, none of them far enough to be compared.",
+            "wrong",
         )
     tone = tone_of(now)
     known = np.abs(now.error[np.isfinite(now.error)])
-    median = f" (median {percent(float(np.median(known)))})" if way_of(state.params) == "heat" else ""
+    median = (
+        f" (median {percent(float(np.median(known)))})" if way_of(state.params) == "heat" else ""
+    )
     text = f"By {by}: {percent(float(known.mean()))} off on average{median}, at worst {_too(now.worst)}"
     if not len(subject.truth):
         text += ", beside ways over many points of the edges"
@@ -119,7 +127,9 @@ def _of_found(state: State, now: Found) -> Caption:
         text += f"; {length(float(now.d[subject.goal]))} to the goal, in truth {length(float(now.truth[subject.goal]))}"
     text += "."
     if subject.shortcuts.any():
-        text += f" {counted(int(subject.shortcuts.sum()), 'edge leaves', 'edges leave')} the surface."
+        text += (
+            f" {counted(int(subject.shortcuts.sum()), 'edge leaves', 'edges leave')} the surface."
+        )
     if reached < where:
         text += f" {where - reached:,} nodes cannot be reached."
     if len(now.asymmetry):
@@ -128,7 +138,9 @@ def _of_found(state: State, now: Found) -> Caption:
         text += " inequality."
     else:
         text += _of_weights(now)
-        text += {"good": " Right to 2 %.", "wrong": " That is wrong, also on average.", "info": ""}[tone]
+        text += {"good": " Right to 2 %.", "wrong": " That is wrong, also on average.", "info": ""}[
+            tone
+        ]
         text += _of_eight(now)
     return Caption(text + _of_study(state, now), tone)
 
@@ -152,7 +164,11 @@ def _of_eight(now: Found) -> str:
 def _of_study(state: State, now: Found) -> str:
     charts = []
     if now.study:
-        on = "from a corner of empty squares, ever finer" if state.params.stage == "grid" else "on ever finer spheres"
+        on = (
+            "from a corner of empty squares, ever finer"
+            if state.params.stage == "grid"
+            else "on ever finer spheres"
+        )
         charts.append(f"the same {on}")
     if now.times is not None:
         charts.append("the mean error by how long heat flows")
@@ -165,7 +181,9 @@ def _too(error: float) -> str:
 
 def _of_ball(params: Params, now: Ball) -> str:
     if params.metric in ("p", "p-sum"):
-        shape = "a star with its arms along the axes" if params.p < 1 else "a rounded square or disc"
+        shape = (
+            "a star with its arms along the axes" if params.p < 1 else "a rounded square or disc"
+        )
         shape += f", p = {params.p:g}"
     else:
         shape = BALLS[params.metric]
@@ -211,7 +229,9 @@ def _of_scatter(params: Params, now: Scatter) -> Caption:
         case "centred":
             return Caption("The mean is taken to the origin: distances are from there.")
         case "turned":
-            return Caption("Turned to the ellipse's own axes, coordinates are no longer correlated.")
+            return Caption(
+                "Turned to the ellipse's own axes, coordinates are no longer correlated."
+            )
         case "scaled":
             return Caption(
                 "Each axis over its standard deviation: the ellipse is a circle, Mahalanobis' distance Euclid's."
@@ -229,19 +249,24 @@ def _of_scatter(params: Params, now: Scatter) -> Caption:
 def _of_flags(now: Scatter) -> Caption:
     text = f"Beyond {fixed(now.limit, 2)} lie {percent(float(now.flagged[~now.outlier].mean()))} of the scatter"
     if not now.outlier.any():
-        return Caption(f"{text}. By chance it should be 5 %. The largest distance is {fixed(float(now.d.max()), 2)}.")
+        return Caption(
+            f"{text}. By chance it should be 5 %. The largest distance is {fixed(float(now.d.max()), 2)}."
+        )
     caught, all_ = int((now.flagged & now.outlier).sum()), int(now.outlier.sum())
     mean = fixed(float(now.d[now.outlier].mean()), 2)
     text += f" and {caught:,} of {all_:,} of the second cluster, at {mean} on average."
     if caught >= 0.9 * all_:
         return Caption(f"{text} It is found.", "good")
     return Caption(
-        f"{text} It hides itself: the covariance is partly its own.", "wrong" if caught < all_ / 2 else "info"
+        f"{text} It hides itself: the covariance is partly its own.",
+        "wrong" if caught < all_ / 2 else "info",
     )
 
 
 def _of_landmarks(now: Landmarks) -> str:
-    near, told = (percent(float((chosen == now.true).mean())) for chosen in (now.euclid, now.mahalanobis))
+    near, told = (
+        percent(float((chosen == now.true).mean())) for chosen in (now.euclid, now.mahalanobis)
+    )
     return (
         f"{len(now.true):,} measurements, off far more in depth than across. The nearest landmark by Euclid's distance is"
         f" the right one for {near}, by Mahalanobis' for {told}."

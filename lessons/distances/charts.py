@@ -36,8 +36,12 @@ def beside(state: State) -> dict[str, Primitive]:
             return _scatter(now)
         case Landmarks():
             return {
-                "by euclid": RIGHT.scalar(100 * _right(now, now.euclid), "nearest by Euclid's distance", "source"),
-                "by mahalanobis": RIGHT.scalar(100 * _right(now, now.mahalanobis), "by Mahalanobis'", "truth"),
+                "by euclid": RIGHT.scalar(
+                    100 * _right(now, now.euclid), "nearest by Euclid's distance", "source"
+                ),
+                "by mahalanobis": RIGHT.scalar(
+                    100 * _right(now, now.mahalanobis), "by Mahalanobis'", "truth"
+                ),
             }
         case _:
             return {}
@@ -66,7 +70,11 @@ def _found(state: State, now: Found) -> dict[str, Primitive]:
             low, high = -1.0, 1.0
         scene["errors"] = SPREAD.histogram(known, np.linspace(low, high, 25), "nodes", "truth")
     of_grid = state.params.stage == "grid"
-    chart = Chart(FINER.format("grids" if of_grid else "spheres"), "log₁₀ spacing (m)", "log₁₀ worst error (%)")
+    chart = Chart(
+        FINER.format("grids" if of_grid else "spheres"),
+        "log₁₀ spacing (m)",
+        "log₁₀ worst error (%)",
+    )
     for (name, (x, y)), role in zip(now.study.items(), ROLES, strict=False):
         scene[f"finer/{name}"] = chart.curve(x, y, name, role)
     if now.times is not None:
@@ -95,7 +103,9 @@ def _goal(state: State, now: Found) -> dict[str, Primitive]:
 
 
 def _nearest(params: Params, now: Ball) -> dict[str, Primitive]:
-    scene: dict[str, Primitive] = {"radius": Chart("Radius of the ball").scalar(now.radius, "radius")}
+    scene: dict[str, Primitive] = {
+        "radius": Chart("Radius of the ball").scalar(now.radius, "radius")
+    }
     if now.nearest:
         rows = [(name, f"point {index}") for name, index in now.nearest.items()]
         if params.stretch > 1:
@@ -105,7 +115,9 @@ def _nearest(params: Params, now: Ball) -> dict[str, Primitive]:
 
 
 def _axioms(now: Trials) -> dict[str, Primitive]:
-    rows = tuple((name, "never" if share == 0 else percent(share)) for name, share in now.axioms.items())
+    rows = tuple(
+        (name, "never" if share == 0 else percent(share)) for name, share in now.axioms.items()
+    )
     ab, bc, ac = now.sides
     sides = (
         ("d(a, b)", brief(ab)),

@@ -28,7 +28,11 @@ def run(
     eikonal_update: Update = fast_marching.eikonal_update,
 ) -> Iterator[State]:
     """Yield the steps of one stage."""
-    functions = Functions(mahalanobis=mahalanobis, shortest_distances=shortest_distances, eikonal_update=eikonal_update)
+    functions = Functions(
+        mahalanobis=mahalanobis,
+        shortest_distances=shortest_distances,
+        eikonal_update=eikonal_update,
+    )
     for subject, now in STAGES[params.stage](params, functions):
         yield State(params=params, subject=subject, now=now)
 

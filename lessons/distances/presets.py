@@ -203,7 +203,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "finer",
         "By 8 neighbours the worst distance is 8.2 % too long. The grid is made 16 times as fine. The worst is now …",
-        answer=lambda states: float(np.digitize(refined(states)[-1] / refined(states)[0], [0.2, 0.7])),
+        answer=lambda states: float(
+            np.digitize(refined(states)[-1] / refined(states)[0], [0.2, 0.7])
+        ),
         why=lambda states: (
             f"{fixed(refined(states)[-1], 2)} %, as on the coarse one, {fixed(refined(states)[0], 2)} %. A way along eight"
             " directions zigzags towards 22.5° however small its steps: sec(22.5°) = 1.0824."
@@ -236,8 +238,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="%",
         tolerance=3.0,
         wrong=(
-            (94.0, 96.0, "That is the share on a line. In the plane both coordinates have to be small at once."),
-            (90.0, 92.0, "95 % of 95 % is a square of half side 2. The ellipse is inside it, without its corners."),
+            (
+                94.0,
+                96.0,
+                "That is the share on a line. In the plane both coordinates have to be small at once.",
+            ),
+            (
+                90.0,
+                92.0,
+                "95 % of 95 % is a square of half side 2. The ellipse is inside it, without its corners.",
+            ),
         ),
     ),
     Question(
@@ -280,7 +290,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="%",
         tolerance=4.0,
         wrong=(
-            (0.0, 5.0, "Squaring keeps the order of distances but not their sums: 1 and 1 make 2, and 2 squared is 4."),
+            (
+                0.0,
+                5.0,
+                "Squaring keeps the order of distances but not their sums: 1 and 1 make 2, and 2 squared is 4.",
+            ),
             (
                 30.0,
                 37.0,
@@ -325,7 +339,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="m",
         tolerance=0.4,
         wrong=(
-            (5.0, 7.0, "More neighbours make ways straighter, and up to 19 that is all. At 20 something else happens."),
+            (
+                5.0,
+                7.0,
+                "More neighbours make ways straighter, and up to 19 that is all. At 20 something else happens.",
+            ),
             (
                 1.8,
                 2.0,

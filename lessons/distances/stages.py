@@ -21,7 +21,10 @@ from workbench.tracing import traced
 
 BANDS = 10
 NEAR = 0.14  # of the largest true distance: nearer than this a relative error says little
-SIDES, VERTICES = (11, 21, 41, 81, 161), (42, 162, 642, 2562)  # of the studies: nodes along a side, on a sphere
+SIDES, VERTICES = (
+    (11, 21, 41, 81, 161),
+    (42, 162, 642, 2562),
+)  # of the studies: nodes along a side, on a sphere
 EXTRA = 3
 TIMES = np.arange(-2.0, 3.1, 0.5)
 PAIRS = 24  # sources between which heat distances are held against each other
@@ -69,14 +72,22 @@ def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now
         found = replace(_found(subject, d, np.empty(0, int)), negative=negative_weights(measured))
         yield subject, found
         asymmetry, broken = _as_a_metric(HeatMethod(measured, time))
-        found = replace(found, asymmetry=asymmetry, broken=broken, times=_over_time(subject, measured))
+        found = replace(
+            found, asymmetry=asymmetry, broken=broken, times=_over_time(subject, measured)
+        )
     else:
-        nodes, edges, lengths = geodesics.with_points_on_edges(subject.p, subject.faces, params.extra)
+        nodes, edges, lengths = geodesics.with_points_on_edges(
+            subject.p, subject.faces, params.extra
+        )
         d = distances_by(functions, edges, lengths, len(nodes), subject.source)
         for front in spread(edges, lengths, d, len(subject.p)):
             yield subject, front
         found = _found(subject, d[: len(subject.p)], np.empty(0, int))
-        goal = int(np.nanargmax(np.abs(found.error))) if np.isfinite(found.error).any() else subject.source
+        goal = (
+            int(np.nanargmax(np.abs(found.error)))
+            if np.isfinite(found.error).any()
+            else subject.source
+        )
         way = geodesics.shortest_path(edges, lengths, d, goal)
         found = replace(found, path=nodes[way])
         yield subject, found
@@ -95,7 +106,9 @@ def roll(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
     yield subject, _found(subject, d, _path(subject, subject.edges, subject.lengths, d))
 
 
-def distances_by(functions: Functions, edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
+def distances_by(
+    functions: Functions, edges: np.ndarray, lengths: np.ndarray, count: int, source: int
+) -> np.ndarray:
     """Return the distances by the function in the slot.
 
     Raises:
@@ -108,7 +121,9 @@ def distances_by(functions: Functions, edges: np.ndarray, lengths: np.ndarray, c
 
 
 @traced
-def spread(edges: np.ndarray, lengths: np.ndarray, d: np.ndarray, shown: int | None = None) -> Iterator[Front]:
+def spread(
+    edges: np.ndarray, lengths: np.ndarray, d: np.ndarray, shown: int | None = None
+) -> Iterator[Front]:
     """Yield how Dijkstra's front grows: nodes are accepted in the order of their distance, their neighbours are on trial."""
     farthest = float(np.max(d, where=np.isfinite(d), initial=0.0))
     for reach in np.linspace(0.0, farthest, BANDS + 1) if farthest > 0 else (0.0,):
@@ -124,7 +139,9 @@ def _marched(params: Params, subject: Subject, update: Update) -> Iterator[Front
     """Yield fast marching's fronts."""
     shape = (subject.side, subject.side)
     start = np.where(
-        np.linalg.norm(subject.p - subject.p[subject.source], axis=1) <= params.disc, subject.truth, np.inf
+        np.linalg.norm(subject.p - subject.p[subject.source], axis=1) <= params.disc,
+        subject.truth,
+        np.inf,
     )
     start[~subject.free] = np.inf
     start[subject.source] = 0.0
@@ -146,7 +163,11 @@ def _found(subject: Subject, d: np.ndarray, path: np.ndarray) -> Found:
 
 def relative(d: np.ndarray, truth: np.ndarray) -> np.ndarray:
     """Return the relative error of distances; NaN near the source, out of reach and where the truth is not known."""
-    known = np.isfinite(d) & np.isfinite(truth) & (truth > NEAR * np.max(truth, where=np.isfinite(truth), initial=0.0))
+    known = (
+        np.isfinite(d)
+        & np.isfinite(truth)
+        & (truth > NEAR * np.max(truth, where=np.isfinite(truth), initial=0.0))
+    )
     return np.divide(d, truth, out=np.full(len(d), np.nan), where=known) - 1
 
 
@@ -158,8 +179,12 @@ def _as_a_metric(method: HeatMethod) -> tuple[np.ndarray, float]:
     over = D[:, :, None] + D[None, :, :]  # a to b to c
     excess = D[:, None, :] - over
     n = len(chosen)
-    apart = np.array([len({a, b, c}) == 3 for a in range(n) for b in range(n) for c in range(n)]).reshape(n, n, n)
-    return np.abs(D - D.T)[i, j] / np.maximum(np.abs(D), np.abs(D.T))[i, j], float((excess > 1e-9)[apart].mean())
+    apart = np.array(
+        [len({a, b, c}) == 3 for a in range(n) for b in range(n) for c in range(n)]
+    ).reshape(n, n, n)
+    return np.abs(D - D.T)[i, j] / np.maximum(np.abs(D), np.abs(D.T))[i, j], float(
+        (excess > 1e-9)[apart].mean()
+    )
 
 
 def _over_time(subject: Subject, measured: Corners) -> tuple[np.ndarray, np.ndarray]:
@@ -217,8 +242,12 @@ def _worst(d: np.ndarray, truth: np.ndarray) -> float:
     return 100 * float(np.nanmax(np.abs(relative(d, truth))))
 
 
-def _log(spacing: np.ndarray, errors: dict[str, list[float]]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    return {name: (np.log10(spacing), np.log10(np.array(values))) for name, values in errors.items()}
+def _log(
+    spacing: np.ndarray, errors: dict[str, list[float]]
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    return {
+        name: (np.log10(spacing), np.log10(np.array(values))) for name, values in errors.items()
+    }
 
 
 STAGES: dict[str, Callable[[Params, Functions], Iterator[tuple[Subject | None, Now]]]] = {

@@ -24,39 +24,74 @@ ON_SURFACE = {"stage": ("surface",)}
 class Params:
     """What is near, by which distance, and on what."""
 
-    stage: Annotated[Stage, Knob("In the plane, in a scatter of points, round a wall, or on a surface")] = "grid"
+    stage: Annotated[
+        Stage, Knob("In the plane, in a scatter of points, round a wall, or on a surface")
+    ] = "grid"
     metric: Annotated[Metric, Knob("The distance between two points", needs=IN_PLANE)] = "euclid"
     p: Annotated[
         float,
-        Knob("Exponent of p and p-sum", 0.5, 8, step=0.1, needs=IN_PLANE | {"metric": ("p", "p-sum")}),
+        Knob(
+            "Exponent of p and p-sum", 0.5, 8, step=0.1, needs=IN_PLANE | {"metric": ("p", "p-sum")}
+        ),
     ] = 0.5
     correlation: Annotated[
         float,
-        Knob("Correlation of x and y", -0.95, 0.95, step=0.05, needs={"stage": ("balls", "axioms", "whiten")}),
+        Knob(
+            "Correlation of x and y",
+            -0.95,
+            0.95,
+            step=0.05,
+            needs={"stage": ("balls", "axioms", "whiten")},
+        ),
     ] = 0.9
     stretch: Annotated[
-        int, Knob("y is measured in units this much smaller than x", 1, 1000, unit="×", needs={"stage": ("balls",)})
+        int,
+        Knob(
+            "y is measured in units this much smaller than x",
+            1,
+            1000,
+            unit="×",
+            needs={"stage": ("balls",)},
+        ),
     ] = 1
     outliers: Annotated[
-        int, Knob("Points of a second cluster, off to one side", 0, 60, needs={"stage": ("whiten",)})
+        int,
+        Knob("Points of a second cluster, off to one side", 0, 60, needs={"stage": ("whiten",)}),
     ] = 0
     away: Annotated[
         float,
-        Knob("How far away that cluster is", 1, 100, unit="σ", step=0.1, needs={"stage": ("whiten",)}),
+        Knob(
+            "How far away that cluster is", 1, 100, unit="σ", step=0.1, needs={"stage": ("whiten",)}
+        ),
     ] = 2.8
     estimate: Annotated[
         Literal["sample", "robust"],
-        Knob("Covariance of all points, or of the half that lies closest together", needs={"stage": ("whiten",)}),
+        Knob(
+            "Covariance of all points, or of the half that lies closest together",
+            needs={"stage": ("whiten",)},
+        ),
     ] = "sample"
     points: Annotated[
         int,
-        Knob("How many points or vertices", 4, 3000, needs={"stage": ("balls", "whiten", "surface", "roll")}),
+        Knob(
+            "How many points or vertices",
+            4,
+            3000,
+            needs={"stage": ("balls", "whiten", "surface", "roll")},
+        ),
     ] = 642
-    grid: Annotated[int, Knob("Nodes along a side", 11, 161, step=10, needs={"stage": ("grid",)})] = 41
+    grid: Annotated[
+        int, Knob("Nodes along a side", 11, 161, step=10, needs={"stage": ("grid",)})
+    ] = 41
     neighbours: Annotated[
-        Neighbours, Knob("Ways along edges to so many neighbours, or fast marching", needs={"stage": ("grid",)})
+        Neighbours,
+        Knob(
+            "Ways along edges to so many neighbours, or fast marching", needs={"stage": ("grid",)}
+        ),
     ] = "8"
-    wall: Annotated[float, Knob("Height of the wall", 0, 0.9, unit="m", step=0.1, needs={"stage": ("grid",)})] = 0.8
+    wall: Annotated[
+        float, Knob("Height of the wall", 0, 0.9, unit="m", step=0.1, needs={"stage": ("grid",)})
+    ] = 0.8
     disc: Annotated[
         float,
         Knob(
@@ -70,10 +105,17 @@ class Params:
         Knob("How far vertices stray along the sphere", 0, MOST_JITTER, unit="cells", step=0.05,
              needs=ON_SURFACE | {"shape": ("sphere",)}),
     ] = 0.0  # fmt: skip
-    method: Annotated[Literal["edges", "heat"], Knob("Along edges, or by heat", needs=ON_SURFACE)] = "edges"
+    method: Annotated[
+        Literal["edges", "heat"], Knob("Along edges, or by heat", needs=ON_SURFACE)
+    ] = "edges"
     extra: Annotated[
         int,
-        Knob("Points added on every edge, joined across the faces", 0, 4, needs=ON_SURFACE | {"method": ("edges",)}),
+        Knob(
+            "Points added on every edge, joined across the faces",
+            0,
+            4,
+            needs=ON_SURFACE | {"method": ("edges",)},
+        ),
     ] = 0
     time: Annotated[
         float,
@@ -85,7 +127,9 @@ class Params:
         Knob("Edges are flipped within the surface until no weight is negative",
              needs=ON_SURFACE | {"method": ("heat",)}),
     ] = False  # fmt: skip
-    k: Annotated[int, Knob("Neighbours of every point of the roll", 4, 30, needs={"stage": ("roll",)})] = 15
+    k: Annotated[
+        int, Knob("Neighbours of every point of the roll", 4, 30, needs={"stage": ("roll",)})
+    ] = 15
     source: Annotated[
         int,
         Knob(
@@ -93,13 +137,19 @@ class Params:
             needs={"stage": ("balls", "grid", "surface", "roll")},
         ),
     ] = -1  # fmt: skip
-    mesh: Annotated[Path | None, Knob("Own mesh for the stage surface: off, obj, ply, stl, glb", needs=ON_SURFACE)] = (
-        None
-    )
-    cloud: Annotated[
-        Path | None, Knob("Own cloud for the stage roll: ply, pcd, obj, xyz, csv, npz", needs={"stage": ("roll",)})
+    mesh: Annotated[
+        Path | None,
+        Knob("Own mesh for the stage surface: off, obj, ply, stl, glb", needs=ON_SURFACE),
     ] = None
-    up: Annotated[Upward, Knob("Which axis of own files is up; auto guesses", of_files=True)] = "auto"
+    cloud: Annotated[
+        Path | None,
+        Knob(
+            "Own cloud for the stage roll: ply, pcd, obj, xyz, csv, npz", needs={"stage": ("roll",)}
+        ),
+    ] = None
+    up: Annotated[Upward, Knob("Which axis of own files is up; auto guesses", of_files=True)] = (
+        "auto"
+    )
     seed: Annotated[int, Knob("Where chance puts points", 0, 99)] = 0
 
 

@@ -39,7 +39,11 @@ def subject_of(params: Params) -> Subject:
     if params.stage == "grid":
         made = _square(params.grid, params.wall)
     elif params.stage == "surface":
-        made = _made_surface(params) if params.mesh is None else _own_mesh(params.mesh, stamp(params.mesh), params.up)
+        made = (
+            _made_surface(params)
+            if params.mesh is None
+            else _own_mesh(params.mesh, stamp(params.mesh), params.up)
+        )
     elif params.cloud is not None:
         made = _own_cloud(params.cloud, stamp(params.cloud), params.up, params.k)
     else:
@@ -69,7 +73,9 @@ def reference(subject: Subject) -> np.ndarray:
         return subject.truth
     count = POINTS_ON_EDGES if len(subject.p) <= LARGE else 2
     nodes, edges, lengths = _fine(subject.p.tobytes(), subject.faces.tobytes(), count)
-    return geodesics.shortest_distances(edges, lengths, len(nodes), subject.source)[: len(subject.p)]
+    return geodesics.shortest_distances(edges, lengths, len(nodes), subject.source)[
+        : len(subject.p)
+    ]
 
 
 @functools.lru_cache(maxsize=2)
@@ -87,8 +93,12 @@ def _square(side: int, wall: float) -> Subject:
     tip = np.array([x[side // 2], x[round(wall * (side - 1))]])
     free = ~((np.abs(flat[:, 0] - tip[0]) < h / 2) & (flat[:, 1] < tip[1] - h / 2))
     corner = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).ravel()
-    faces = np.concatenate([corner[:, None] + [0, side, side + 1], corner[:, None] + [0, side + 1, 1]])
-    source, goal = (int(np.argmin(np.linalg.norm(flat - at, axis=1) + 9.0 * ~free)) for at in (FROM, TO))
+    faces = np.concatenate(
+        [corner[:, None] + [0, side, side + 1], corner[:, None] + [0, side + 1, 1]]
+    )
+    source, goal = (
+        int(np.argmin(np.linalg.norm(flat - at, axis=1) + 9.0 * ~free)) for at in (FROM, TO)
+    )
     return Subject(
         name="the square", p=at_height(flat), faces=faces, edges=np.empty((0, 2), int),
         lengths=np.empty(0), source=source, goal=goal, free=free, h=h, tip=tip, side=side, radius=0.3 * h,
@@ -109,24 +119,37 @@ def ways_in_square(side: int, wall: float, neighbours: int) -> tuple[np.ndarray,
 
 def _made_surface(params: Params) -> Subject:
     return _surface(
-        only(params, "shape", "points", *(("jitter", "seed") if params.jitter and params.shape == "sphere" else ()))
+        only(
+            params,
+            "shape",
+            "points",
+            *(("jitter", "seed") if params.jitter and params.shape == "sphere" else ()),
+        )
     )
 
 
 @functools.lru_cache(maxsize=8)
 def _surface(params: Params) -> Subject:
     if params.shape == "rabbit":
-        return _mesh("the rabbit", *rabbit_mesh(float(np.clip(0.03 * np.sqrt(2844 / params.points), 0.03, 0.05))))
+        return _mesh(
+            "the rabbit",
+            *rabbit_mesh(float(np.clip(0.03 * np.sqrt(2844 / params.points), 0.03, 0.05))),
+        )
     if params.shape == "torus":
         ring = surfaces.torus(max(params.points, 50), 0.7, 0.3)
         return _mesh("the torus", ring.p, ring.faces)
-    ball = surfaces.sphere(params.points, jitter=params.jitter, rng=np.random.default_rng(params.seed))
+    ball = surfaces.sphere(
+        params.points, jitter=params.jitter, rng=np.random.default_rng(params.seed)
+    )
     if params.shape == "wrung sphere":
         turn = WRUNG * ball.p[:, 2]
         along, across = np.cos(turn), np.sin(turn)
         x = along * ball.p[:, 0] - across * ball.p[:, 1]
         y = across * ball.p[:, 0] + along * ball.p[:, 1]
-        return replace(_mesh("the wrung sphere", np.column_stack([x, y, ball.p[:, 2]]), ball.faces), is_sphere=True)
+        return replace(
+            _mesh("the wrung sphere", np.column_stack([x, y, ball.p[:, 2]]), ball.faces),
+            is_sphere=True,
+        )
     return replace(_mesh("the sphere", ball.p, ball.faces), is_sphere=True)
 
 
@@ -153,7 +176,9 @@ def _roll(count: int, k: int, seed: int) -> Subject:
     apart = geodesics.edge_lengths(sheet, made.edges)
     source = int(np.argmin(sheet[:, 0]))
     goal = int(np.argmax(np.linalg.norm(sheet - sheet[source], axis=1)))
-    return replace(made, sheet=sheet, source=source, goal=goal, shortcuts=apart > SHORTCUT * made.lengths)
+    return replace(
+        made, sheet=sheet, source=source, goal=goal, shortcuts=apart > SHORTCUT * made.lengths
+    )
 
 
 @functools.lru_cache(maxsize=4)
@@ -167,7 +192,9 @@ def _own_cloud(path: Path, _stamp: tuple[int, int], up: Upward, k: int) -> Subje
 
 def _neighbours(name: str, p: np.ndarray, k: int) -> Subject:
     if k >= len(p):
-        raise InputError(f"{len(p)} points cannot have {k} neighbours each: fewer neighbours, or more points")
+        raise InputError(
+            f"{len(p)} points cannot have {k} neighbours each: fewer neighbours, or more points"
+        )
     edges = graphs.edges_of(graphs.directed_graph(graphs.neighbours(p, k)[0]))
     lengths = geodesics.edge_lengths(p, edges)
     return Subject(

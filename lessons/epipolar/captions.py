@@ -73,13 +73,17 @@ def _followed(state: State, now: Followed) -> str:
     text = f"{pixel}: {where} a point is seen at {coordinates(uv, 1)} in the second picture."
     if not state.moved:
         return f"{text} It is this pixel at every depth: a camera that only turns sees the whole ray as one point."
-    return text if np.isfinite(z) else f"{text} Here its line ends: at the vanishing point of the ray."
+    return (
+        text if np.isfinite(z) else f"{text} Here its line ends: at the vanishing point of the ray."
+    )
 
 
 def _equations(state: State, now: Related) -> str:
     n, values = len(state.views.matches), now.singular_values
     text = f"{counted(n, 'match', 'matches')}, as many equations for the nine numbers of F"
-    text += ", in coordinates about 0 and of size 1." if state.params.normalise else ", in raw pixels."
+    text += (
+        ", in coordinates about 0 and of size 1." if state.params.normalise else ", in raw pixels."
+    )
     ratio = values[7] / values[0]
     said = percent(ratio) if ratio > 1e-4 else f"{brief(1e6 * ratio)} millionths"
     return f"{text} The eighth singular value is {said} of the first: the smaller, the more answers fit nearly as well."
@@ -141,12 +145,16 @@ def _rectified(state: State, now: Related) -> Caption:
     if state.right is None:
         return Caption(text)
     if not state.moved:
-        made_up = "The camera only turned: there is no direction, and the one of this motion is made up."
+        made_up = (
+            "The camera only turned: there is no direction, and the one of this motion is made up."
+        )
         return Caption.verdict(f"{text} {made_up}", right=False, settled=False)
     off = f"{angle(state.turn_error)} in rotation and {angle(state.direction_error)} in direction"
     if state.right:
         return Caption.verdict(f"{text} The motion is {off} from the true one: right.", right=True)
-    return Caption.verdict(f"{text} The motion is {off} from the true one.", right=False, settled=False)
+    return Caption.verdict(
+        f"{text} The motion is {off} from the true one.", right=False, settled=False
+    )
 
 
 def _rows(state: State, now: Related) -> str:

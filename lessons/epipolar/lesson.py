@@ -16,7 +16,14 @@ from lessons.epipolar.exercises.essential_to_poses import essential_to_poses
 from lessons.epipolar.exercises.triangulate import triangulate
 from lessons.epipolar.presets import PRESETS, QUESTIONS
 from lessons.epipolar.state import MOST_MATCHES, Params, State
-from workbench.algorithms.two_views import EightPoint, Poses, Triangulate, follow_ray, relate, solve_linear
+from workbench.algorithms.two_views import (
+    EightPoint,
+    Poses,
+    Triangulate,
+    follow_ray,
+    relate,
+    solve_linear,
+)
 from workbench.data.views.two_views import TwoViews, made_views, own_views, shown_length
 from workbench.errors import InputError
 from workbench.geometry.motions import motion
@@ -24,7 +31,9 @@ from workbench.geometry.two_views.homography import normalising_similarity
 from workbench.knobs import called
 from workbench.lesson import Lesson, Sweep
 
-DEPTHS = np.array([3.0, 4.0, 6.0, 8.0, 12.0, np.inf])  # metres along the ray of the followed pixel, as they are drawn
+DEPTHS = np.array(
+    [3.0, 4.0, 6.0, 8.0, 12.0, np.inf]
+)  # metres along the ray of the followed pixel, as they are drawn
 
 
 def run(
@@ -37,25 +46,35 @@ def run(
     """Yield the line of one pixel, where the true cameras are known, and the way from matches to a motion."""
     views = views_of(params)
     w, h = views.sizes[0]
-    believed = np.array([1 + params.f_error / 100, 1 + params.f_error / 100, 1.0])  # of the columns of K
+    believed = np.array(
+        [1 + params.f_error / 100, 1 + params.f_error / 100, 1.0]
+    )  # of the columns of K
     length, T = shown_length(views), views.T_second_first
     if T is not None and np.any(T[:3, 3]):
         T = motion(T[:3, :3], length * T[:3, 3] / np.linalg.norm(T[:3, 3]))
     known: dict[str, Any] = {
         "params": params,
         "views": views,
-        "uv_first": np.minimum(np.array(params.pixel, float) * views.strides[0], [w - 1.0, h - 1.0]),
+        "uv_first": np.minimum(
+            np.array(params.pixel, float) * views.strides[0], [w - 1.0, h - 1.0]
+        ),
         "K_first": views.K_first * believed,
         "K_second": views.K_second * believed,
         "length": length,
         "T_true": T,
     }
     if T is not None:
-        for now in follow_ray(known["uv_first"], views.model * DEPTHS, T, views.K_first, views.K_second):
+        for now in follow_ray(
+            known["uv_first"], views.model * DEPTHS, T, views.K_first, views.K_second
+        ):
             yield State(**known, now=now)
 
     uv_first, uv_second = views.matches[:, :2], views.matches[:, 2:]
-    scales = normalising_similarity(np.stack([uv_first, uv_second])) if params.normalise else np.stack([np.eye(3)] * 2)
+    scales = (
+        normalising_similarity(np.stack([uv_first, uv_second]))
+        if params.normalise
+        else np.stack([np.eye(3)] * 2)
+    )
     linear = solve_linear(uv_first, uv_second, *scales)
     if not (params.normalise and params.rank_two):
         F = linear.F_rank_two if params.rank_two else linear.F
@@ -90,7 +109,9 @@ def views_of(params: Params) -> TwoViews:
             most=MOST_MATCHES,
         )
     if any((params.first_image, params.second_image, params.intrinsics)):
-        raise InputError(f"own images and intrinsics belong to own matches: give {called('own_matches')} too")
+        raise InputError(
+            f"own images and intrinsics belong to own matches: give {called('own_matches')} too"
+        )
     return made_views(
         params.scene,
         count=params.matches,

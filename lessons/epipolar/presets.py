@@ -126,12 +126,19 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=HOME,
         step=12,
         choices=(
-            Choice("none", why="One of the four is the motion itself, and its cameras saw all the points."),
+            Choice(
+                "none",
+                why="One of the four is the motion itself, and its cameras saw all the points.",
+            ),
             "a single one",
             Choice(
-                "two", why="Turn t round and each ray meets its partner behind both cameras; the other turn fails too."
+                "two",
+                why="Turn t round and each ray meets its partner behind both cameras; the other turn fails too.",
             ),
-            Choice("all four", why="All four fit the matches. But a camera sees only what is in front of it."),
+            Choice(
+                "all four",
+                why="All four fit the matches. But a camera sees only what is in front of it.",
+            ),
         ),
     ),
     Question(
@@ -147,10 +154,22 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="cm",
         tolerance=3.0,
         wrong=(
-            (4.0, 7.0, "Half of 11 cm would be better than before. Nearer cameras tell less about depth."),
-            (9.0, 13.0, "The pixels are as good as before, but the rays now meet at half the angle."),
+            (
+                4.0,
+                7.0,
+                "Half of 11 cm would be better than before. Nearer cameras tell less about depth.",
+            ),
+            (
+                9.0,
+                13.0,
+                "The pixels are as good as before, but the rays now meet at half the angle.",
+            ),
             (14.5, 17.0, "That is √2 times 11 cm. The baseline itself divides, not its root."),
-            (38.0, 50.0, "Four times belongs to the depth, which counts squared. The baseline counts once."),
+            (
+                38.0,
+                50.0,
+                "Four times belongs to the depth, which counts squared. The baseline counts once.",
+            ),
         ),
     ),
     Question(
@@ -163,8 +182,14 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=PLANE,
         choices=(
-            Choice("below 2°", why="Near lines say that this F agrees with the matches. Of a plane many F do."),
-            Choice("2° to 20°", why="It is not a matter of some more noise: a whole family of F fits these matches."),
+            Choice(
+                "below 2°",
+                why="Near lines say that this F agrees with the matches. Of a plane many F do.",
+            ),
+            Choice(
+                "2° to 20°",
+                why="It is not a matter of some more noise: a whole family of F fits these matches.",
+            ),
             "beyond 20°",
         ),
     ),
@@ -181,7 +206,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         choices=(
             "as well as ever",
             Choice(
-                "visibly worse", why="The motion is free to change: a slightly different one makes up for the wrong f."
+                "visibly worse",
+                why="The motion is free to change: a slightly different one makes up for the wrong f.",
             ),
         ),
     ),

@@ -27,33 +27,67 @@ GOOD_TURN, GOOD_DIRECTION = 1.0, 5.0  # degrees within which a pose is called ri
 class Params:
     """Two cameras, the matches between their pictures, and what is made of them."""
 
-    scene: Annotated[What, Knob("What is seen: a street, its level ground alone, or a city from a hill")] = "street"
+    scene: Annotated[
+        What, Knob("What is seen: a street, its level ground alone, or a city from a hill")
+    ] = "street"
     baseline: Annotated[
-        float, Knob("How far the second camera stands from the first; 0: it only turned", 0, 2, unit="m", step=0.01)
+        float,
+        Knob(
+            "How far the second camera stands from the first; 0: it only turned",
+            0,
+            2,
+            unit="m",
+            step=0.01,
+        ),
     ] = 1.0
     heading: Annotated[
-        float, Knob("Where it stands: 0 right of the first, 90 ahead of it, 180 left of it", 0, 180, unit="deg", step=1)
+        float,
+        Knob(
+            "Where it stands: 0 right of the first, 90 ahead of it, 180 left of it",
+            0,
+            180,
+            unit="deg",
+            step=1,
+        ),
     ] = 20.0
     matches: Annotated[int, Knob("How many matches there are", 8, 500)] = 60
-    noise: Annotated[float, Knob("Noise of each number of a match (sigma)", 0, 3, unit="px", step=0.05)] = 0.5
-    normalise: Annotated[bool, Knob("Centre and scale the pixels before the equations are solved")] = True
+    noise: Annotated[
+        float, Knob("Noise of each number of a match (sigma)", 0, 3, unit="px", step=0.05)
+    ] = 0.5
+    normalise: Annotated[
+        bool, Knob("Centre and scale the pixels before the equations are solved")
+    ] = True
     rank_two: Annotated[bool, Knob("Drop the smallest singular value of F")] = True
-    route: Annotated[Route, Knob("What is refined until the lines are as near as they can be")] = "refined pose"
+    route: Annotated[Route, Knob("What is refined until the lines are as near as they can be")] = (
+        "refined pose"
+    )
     f_error: Annotated[
-        float, Knob("How wrong the focal length is that one believes in", -20, 20, unit="%", step=1, label="f wrong by")
+        float,
+        Knob(
+            "How wrong the focal length is that one believes in",
+            -20,
+            20,
+            unit="%",
+            step=1,
+            label="f wrong by",
+        ),
     ] = 0.0
-    keep_upright: Annotated[bool, Knob("Rectify along the mean x axis of the cameras, whoever is left")] = True
+    keep_upright: Annotated[
+        bool, Knob("Rectify along the mean x axis of the cameras, whoever is left")
+    ] = True
     pixel: Annotated[
         tuple[int, int],
         Knob("The pixel (u, v) that is followed: click the first picture", 0, LARGEST - 1, unit="px",
              by=Pick("first/picture")),
     ] = (318, 119)  # fmt: skip
-    own_matches: Annotated[Path | None, Knob("Own matches: npz (x1, x2; K; R, t if known) or lines of u v u' v'")] = (
-        None
-    )
+    own_matches: Annotated[
+        Path | None, Knob("Own matches: npz (x1, x2; K; R, t if known) or lines of u v u' v'")
+    ] = None
     first_image: Annotated[Path | None, Knob("The first image of own matches, to be shown")] = None
     second_image: Annotated[Path | None, Knob("Their second image")] = None
-    intrinsics: Annotated[Path | None, Knob("K of both cameras, a text file: fx fy cx cy, or three rows")] = None
+    intrinsics: Annotated[
+        Path | None, Knob("K of both cameras, a text file: fx fy cx cy, or three rows")
+    ] = None
     seed: Annotated[int, Knob("Which points are matched, and their noise", 0, 99)] = 0
 
 
@@ -99,7 +133,9 @@ class State:
         p, T = self.views.p_first, self.T_true
         if p is None or T is None:
             return float("nan")
-        seen, at_infinity = (project(p, motion(T[:3, :3], t), self.views.K_second) for t in (T[:3, 3], np.zeros(3)))
+        seen, at_infinity = (
+            project(p, motion(T[:3, :3], t), self.views.K_second) for t in (T[:3, 3], np.zeros(3))
+        )
         return float(np.median(np.linalg.norm(seen - at_infinity, axis=1)))
 
     @cached_property
@@ -125,7 +161,10 @@ class State:
 
     def depth_sigma(self, p_first: np.ndarray) -> np.ndarray:
         """Return how uncertain the noise of the pixels makes the depths of points, metres, through the true cameras."""
-        Ps = camera_matrix(self.views.K_first, np.eye(4)), camera_matrix(self.views.K_second, sure(self.T_true))
+        Ps = (
+            camera_matrix(self.views.K_first, np.eye(4)),
+            camera_matrix(self.views.K_second, sure(self.T_true)),
+        )
         return np.sqrt(triangulation_covariances(*Ps, p_first, self.params.noise)[:, 2, 2])
 
     def to_lines(self, matches: np.ndarray) -> float:
@@ -141,4 +180,6 @@ class State:
         if found is None:
             return None
         uv = self.views.matches
-        return transform_pixels(found.H_first, uv[:, :2]) - transform_pixels(found.H_second, uv[:, 2:])
+        return transform_pixels(found.H_first, uv[:, :2]) - transform_pixels(
+            found.H_second, uv[:, 2:]
+        )

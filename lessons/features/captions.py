@@ -62,7 +62,11 @@ def _scanned(state: State, now: Scanned) -> Caption:
                 " The nearest of all is its match."
             )
         case "nearest":
-            which = "source point takes the target point" if params.where == "every point" else "keypoint takes the one"
+            which = (
+                "source point takes the target point"
+                if params.where == "every point"
+                else "keypoint takes the one"
+            )
             return Caption(f"Every {which} with the nearest descriptor.{_share(state)}")
         case "kept":
             kept = f"{len(sure(now.pairs)):,} of {len(sure(now.asked)):,}"
@@ -72,9 +76,13 @@ def _scanned(state: State, now: Scanned) -> Caption:
                 f"Sample {now.iteration:,} of three matches gives the best motion so far: {_votes(now)}.{_off(now)}"
             )
         case "refit":
-            return Caption(f"The motion is fitted again to all that agree: {_votes(now)}.{_off(now)}")
+            return Caption(
+                f"The motion is fitted again to all that agree: {_votes(now)}.{_off(now)}"
+            )
         case "icp":
-            return Caption(f"Fit {now.iteration} of ICP starts from there and needs no descriptor.{_off(now)}")
+            return Caption(
+                f"Fit {now.iteration} of ICP starts from there and needs no descriptor.{_off(now)}"
+            )
         case "end":
             return _end(now)
 
@@ -119,10 +127,14 @@ def _end(now: Scanned) -> Caption:
         text = f"ICP ends after {counted(now.iteration, 'fit', 'fits')}: {angle(before)} → {angle(now.error.rotation)}."
         text += f" Points are {length(now.error.displacement)} (RMS) from the truth."
     if now.scans.T_truth is None:
-        found = scipy.spatial.KDTree(now.scans.p_target).query(apply(now.T_target_source, now.scans.p_source))[0]
+        found = scipy.spatial.KDTree(now.scans.p_target).query(
+            apply(now.T_target_source, now.scans.p_source)
+        )[0]
         near = percent(float(np.mean(found < INLIER)), 0)
         text += f" Now {near} of the source's points have a target point within {length(INLIER)}."
-        return Caption(f"{text} Only their known pose could say whether it is right; none is given.")
+        return Caption(
+            f"{text} Only their known pose could say whether it is right; none is given."
+        )
     return Caption.verdict(text + (" It has come home." if now.home else ""), right=now.home)
 
 
@@ -134,7 +146,9 @@ def _pictured(state: State, now: Pictured) -> Caption:
             turned = f", the right one turned by {angle(params.turn)}" if params.turn else ""
             return Caption(f"Two pictures of {w} × {h} pixels, taken from two places{turned}.")
         case "gradient":
-            return Caption("How steep the grey levels are: large along every edge, so a place on an edge can slide.")
+            return Caption(
+                "How steep the grey levels are: large along every edge, so a place on an edge can slide."
+            )
         case "response":
             return Caption(
                 "det(M) − 0.04 trace(M)² of the products of derivatives around each pixel: above zero only where"
@@ -182,7 +196,11 @@ def _kept_pictures(state: State, now: Pictured) -> Caption:
     if now.known is None or not now.known.any():
         return Caption(text)
     right = state.right_share > HALF
-    return Caption.verdict(text, right=True) if right else Caption(f"{text} Most of what is kept is wrong.", "wrong")
+    return (
+        Caption.verdict(text, right=True)
+        if right
+        else Caption(f"{text} Most of what is kept is wrong.", "wrong")
+    )
 
 
 def _outlined(state: State, now: Outlined) -> Caption:
@@ -198,7 +216,9 @@ def _outlined(state: State, now: Outlined) -> Caption:
                 f" Angles count {params.angles}."
             )
         case "histogram":
-            return Caption("The histogram of the picked point, and that of its true partner on the other outline.")
+            return Caption(
+                "The histogram of the picked point, and that of its true partner on the other outline."
+            )
         case "costs":
             return Caption(
                 "How different every two histograms are: rows are points of the first outline, columns of the second."
@@ -207,4 +227,8 @@ def _outlined(state: State, now: Outlined) -> Caption:
         case "matched":
             text = f"One to one, at the least total cost.{_share(state)}"
             right = state.right_share > HALF
-            return Caption.verdict(text, right=True) if right else Caption(f"{text} Most are wrong.", "wrong")
+            return (
+                Caption.verdict(text, right=True)
+                if right
+                else Caption(f"{text} Most are wrong.", "wrong")
+            )

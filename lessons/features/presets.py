@@ -142,7 +142,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "That is the share shrunk as the radius is. A descriptor loses more than that: near by, hardly any"
                 " bend is left to tell places apart.",
             ),
-            (20.0, 30.0, "It would stay the same if the bends near by told as much. But near by all surface is flat."),
+            (
+                20.0,
+                30.0,
+                "It would stay the same if the bends near by told as much. But near by all surface is flat.",
+            ),
             (
                 31.0,
                 100.0,
@@ -153,7 +157,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "inwards",
         "The filter keeps some 170 of 2,000 matches. How many does it keep when all normals of the source face inwards?",
-        answer=lambda states: 0.0 if kept_count(states) > 120 else 1.0 if kept_count(states) > 50 else 2.0,
+        answer=lambda states: (
+            0.0 if kept_count(states) > 120 else 1.0 if kept_count(states) > 50 else 2.0
+        ),
         why=lambda states: (
             f"{counted(int(kept_count(states)), 'match', 'matches')}. With both normals of a pair flipped, θ and φ"
             " change their signs, so the histograms of a place have little in common. Orient both scans by the same rule."
@@ -203,7 +209,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="%",
         tolerance=10.0,
         wrong=(
-            (85.0, 100.0, "So many are right upright, and at 10° still. A patch forgives small turns only."),
+            (
+                85.0,
+                100.0,
+                "So many are right upright, and at 10° still. A patch forgives small turns only.",
+            ),
             (70.0, 84.0, "So many are right at 15°. From there on it falls fast."),
             (25.0, 45.0, "So many are right at 20°. At 30° still fewer are."),
         ),

@@ -31,23 +31,39 @@ STEPS_ALONG = 2  # within which a match of outlines is right
 class Params:
     """What is described, how it is compared, and which matches are kept."""
 
-    part: Annotated[Part, Knob("What is found again: points of scans, corners of pictures, points of outlines")] = (
-        "scans"
-    )
-    shape: Annotated[Shape, Knob("The built-in shape: without symmetry, turning, or sliding", needs=SCANS)] = "rabbit"
+    part: Annotated[
+        Part, Knob("What is found again: points of scans, corners of pictures, points of outlines")
+    ] = "scans"
+    shape: Annotated[
+        Shape, Knob("The built-in shape: without symmetry, turning, or sliding", needs=SCANS)
+    ] = "rabbit"
     turn: Annotated[
         float,
         Knob(
-            "How far the built-in source, the right picture or the second outline is turned", 0, 180, unit="deg", step=1
+            "How far the built-in source, the right picture or the second outline is turned",
+            0,
+            180,
+            unit="deg",
+            step=1,
         ),
     ] = 140.0
-    overlap: Annotated[float, Knob("Share of the source that the target saw too", 0.4, 1, step=0.05, needs=SCANS)] = 0.8
-    noise: Annotated[float, Knob("Noise of each coordinate", 0, 0.01, unit="m", step=0.001, needs=SCANS)] = 0.002
-    points: Annotated[int, Knob("Points of each built-in scan", 400, 4000, step=100, needs=SCANS)] = 2000
-    radius: Annotated[float, Knob("Of a neighbourhood", 0.04, 0.4, unit="m", step=0.01, needs=SCANS)] = 0.15
+    overlap: Annotated[
+        float, Knob("Share of the source that the target saw too", 0.4, 1, step=0.05, needs=SCANS)
+    ] = 0.8
+    noise: Annotated[
+        float, Knob("Noise of each coordinate", 0, 0.01, unit="m", step=0.001, needs=SCANS)
+    ] = 0.002
+    points: Annotated[
+        int, Knob("Points of each built-in scan", 400, 4000, step=100, needs=SCANS)
+    ] = 2000
+    radius: Annotated[
+        float, Knob("Of a neighbourhood", 0.04, 0.4, unit="m", step=0.01, needs=SCANS)
+    ] = 0.15
     normals: Annotated[Facing, Knob("Which side normals face", needs=SCANS)] = "outwards"
     where: Annotated[Where, Knob("Which points are matched", needs=SCANS)] = "every point"
-    compare: Annotated[Compare, Knob("Histograms as they are, or the square root of every bar", needs=SCANS)] = "plain"
+    compare: Annotated[
+        Compare, Knob("Histograms as they are, or the square root of every bar", needs=SCANS)
+    ] = "plain"
     keep: Annotated[
         Filter,
         Knob("Keep every nearest, by ratio of the two nearest, nearest both ways, or both",
@@ -63,15 +79,26 @@ class Params:
                   needs=SCANS)
     ] = -1  # fmt: skip
     describe: Annotated[
-        Describe, Knob("What is found and compared: corners with the pixels around them, or SIFT", needs=PICTURES)
+        Describe,
+        Knob(
+            "What is found and compared: corners with the pixels around them, or SIFT",
+            needs=PICTURES,
+        ),
     ] = "patches"
     corners: Annotated[int, Knob("Corners of each picture", 50, 600, step=50, needs=PATCHES)] = 300
-    patch: Annotated[int, Knob("Side of a patch, odd", 7, 31, unit="px", step=2, needs=PATCHES)] = 15
-    angles: Annotated[Angles, Knob("Where the angles of an outline's bins begin", needs=OUTLINES)] = "along the outline"
-    target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz", needs=SCANS)] = None
+    patch: Annotated[int, Knob("Side of a patch, odd", 7, 31, unit="px", step=2, needs=PATCHES)] = (
+        15
+    )
+    angles: Annotated[
+        Angles, Knob("Where the angles of an outline's bins begin", needs=OUTLINES)
+    ] = "along the outline"
+    target: Annotated[
+        Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz", needs=SCANS)
+    ] = None
     source: Annotated[Path | None, Knob("Own source scan, found in the target", needs=SCANS)] = None
     truth: Annotated[
-        Path | None, Knob("Known pose of the source in the target's frame: 4×4 or list of poses", needs=SCANS)
+        Path | None,
+        Knob("Known pose of the source in the target's frame: 4×4 or list of poses", needs=SCANS),
     ] = None
     first_image: Annotated[Path | None, Knob("Own first picture", needs=PICTURES)] = None
     second_image: Annotated[Path | None, Knob("Own second picture", needs=PICTURES)] = None
@@ -84,7 +111,17 @@ class Params:
 
 
 ScanPhase = Literal[
-    "scans", "normals", "pairs", "histogram", "similar", "nearest", "kept", "sample", "refit", "icp", "end"
+    "scans",
+    "normals",
+    "pairs",
+    "histogram",
+    "similar",
+    "nearest",
+    "kept",
+    "sample",
+    "refit",
+    "icp",
+    "end",
 ]
 
 

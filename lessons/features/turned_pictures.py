@@ -35,7 +35,9 @@ def read_levels(file: Path) -> Image:
     k = -(-max(levels.shape) // MOST_SIDE)
     h, w = (side // k for side in levels.shape)
     if min(h, w) < LEAST_SIDE:
-        raise InputError(f"{file.name}: {w} x {h} pixels after shrinking; {LEAST_SIDE} at least are needed")
+        raise InputError(
+            f"{file.name}: {w} x {h} pixels after shrinking; {LEAST_SIDE} at least are needed"
+        )
     return levels[: h * k, : w * k].reshape(h, k, w, k).mean(axis=(1, 3))
 
 
@@ -48,7 +50,10 @@ def turned(image: Image, angle: float) -> Image:
     """
     if angle == 0:
         return image
-    R, middle = _turn(angle), (np.array(image.shape) - 1) / 2  # in (v, u), the turn's inverse is R itself
+    R, middle = (
+        _turn(angle),
+        (np.array(image.shape) - 1) / 2,
+    )  # in (v, u), the turn's inverse is R itself
     return scipy.ndimage.affine_transform(image, R, middle - R @ middle, order=1, cval=128.0)
 
 

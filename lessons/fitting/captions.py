@@ -63,7 +63,11 @@ def _walked(state: State, walked: Walked) -> Caption:
             f" squares is {square(now.trial_cost, scale)}{gain}."
         )
     if now.phase == "accepted":
-        rose = f", up from {square(now.before, scale)}: Gauss-Newton takes every step" if now.cost > now.before else ""
+        rose = (
+            f", up from {square(now.before, scale)}: Gauss-Newton takes every step"
+            if now.cost > now.before
+            else ""
+        )
         damped = f" The damping falls to {damping_in_words(now.damping)}." if now.damping else ""
         return Caption(
             f"Iteration {now.iteration}: the step is kept. R = {radius_of(state, now.unknown)}, sum of squares"
@@ -78,12 +82,22 @@ def _walked(state: State, walked: Walked) -> Caption:
 
 def _stopped(state: State, now: Descent) -> Caption:
     assert now.stop is not None
-    scale, least, straight = state.subject.scale, state.subject.least_cost, state.subject.straight_cost
+    scale, least, straight = (
+        state.subject.scale,
+        state.subject.least_cost,
+        state.subject.straight_cost,
+    )
     after = counted(now.iteration, "iteration")
     if now.stop in (Stop.SINGULAR, Stop.DIVERGED):
         found = radius_of(state, now.unknown)
-        return Caption(f"Stop after {after}, with R = {found}: {now.stop.message}. It is wrong.", "wrong")
-    rests = "rests at" if now.stop is Stop.CONVERGED else "is not at rest, and no more are allowed; it is"
+        return Caption(
+            f"Stop after {after}, with R = {found}: {now.stop.message}. It is wrong.", "wrong"
+        )
+    rests = (
+        "rests at"
+        if now.stop is Stop.CONVERGED
+        else "is not at rest, and no more are allowed; it is"
+    )
     text = f"After {after} the sum of squares {rests} {square(now.cost, scale)}, R = {radius_of(state, now.unknown)}"
     is_least = now.cost <= (1.0 + LEAST) * least + 1e-12
     if abs(now.unknown[-1]) > AWAY and now.cost < 1.5 * straight:
@@ -95,9 +109,15 @@ def _stopped(state: State, now: Descent) -> Caption:
         return Caption(f"{text}.")
     if not is_least:
         settled = now.stop is Stop.CONVERGED
-        return Caption.verdict(f"{text}; the least is {square(least, scale)}.", right=False, settled=settled)
+        return Caption.verdict(
+            f"{text}; the least is {square(least, scale)}.", right=False, settled=settled
+        )
     truth = state.subject.truth
-    off = "" if truth is None else f" R is {length(abs(abs(float(now.unknown[-1])) - float(truth[-1])))} off the truth."
+    off = (
+        ""
+        if truth is None
+        else f" R is {length(abs(abs(float(now.unknown[-1])) - float(truth[-1])))} off the truth."
+    )
     return Caption(f"{text}: the least there is, right.{off}", "good")
 
 
@@ -123,7 +143,11 @@ def _spread(state: State, now: Spread) -> Caption:
     agrees = 1 / AGREE <= times <= AGREE
     if agrees and is_possible:
         return Caption(f"{text}: about right.", "good")
-    factor = f"narrow by a factor of {brief(times, 2)}" if times > 1.0 else f"wide by a factor of {brief(1 / times, 2)}"
+    factor = (
+        f"narrow by a factor of {brief(times, 2)}"
+        if times > 1.0
+        else f"wide by a factor of {brief(1 / times, 2)}"
+    )
     off = ": about as wide" if agrees else f", too {factor}"
     nonsense = "" if is_possible else ", and no circle has a radius below 0"
     return Caption(f"{text}{off}{nonsense}. It is wrong.", "wrong")
@@ -146,15 +170,25 @@ def _rivals(state: State, now: Rivals) -> Caption:
     name, circle = list(now.circles.items())[-1]
     coin = state.subject.rim is not None
     if not now.arcs:
-        r = fixed(float(abs(circle[2])), 2) + " of the whole rim's" if coin else radius_of(state, circle)
-        known = "" if state.subject.truth is None or coin else f", the truth is {length(float(state.subject.truth[2]))}"
+        r = (
+            fixed(float(abs(circle[2])), 2) + " of the whole rim's"
+            if coin
+            else radius_of(state, circle)
+        )
+        known = (
+            ""
+            if state.subject.truth is None or coin
+            else f", the truth is {length(float(state.subject.truth[2]))}"
+        )
         what = FITS[name]
         return Caption(f"{what} R = {r}{known}.")
     medians = dict(zip(now.circles, now.medians[-1], strict=True))
     said = ", ".join(f"{name} {fixed(r, 3)}" for name, r in medians.items())
     where = f"{now.draws} {'windows round the coin' if coin else 'draws'}"
     of = "the whole rim's radius" if coin else "the true radius"
-    return Caption(f"Arcs of {angle(now.arcs[-1])}, {where}: the median R is, as a share of {of}, {said}.")
+    return Caption(
+        f"Arcs of {angle(now.arcs[-1])}, {where}: the median R is, as a share of {of}, {said}."
+    )
 
 
 FITS = {

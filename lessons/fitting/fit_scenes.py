@@ -37,7 +37,9 @@ def line_points(rng: np.random.Generator, slope: float, count: int) -> Float[np.
     return rng.uniform(-1.0, 1.0, count)[:, None] * np.array([np.cos(slope), np.sin(slope)])
 
 
-def errors(rng: np.random.Generator, shape: tuple[int, ...], sigma: float, kind: Errors = "independent") -> np.ndarray:
+def errors(
+    rng: np.random.Generator, shape: tuple[int, ...], sigma: float, kind: Errors = "independent"
+) -> np.ndarray:
     """Return normal errors of one standard deviation in every coordinate.
 
     Args:
@@ -54,7 +56,12 @@ def errors(rng: np.random.Generator, shape: tuple[int, ...], sigma: float, kind:
 
 
 def outlying_plane(
-    rng: np.random.Generator, count: int, sigma: float, outliers: float, reach: float, both_sides: bool
+    rng: np.random.Generator,
+    count: int,
+    sigma: float,
+    outliers: float,
+    reach: float,
+    both_sides: bool,
 ) -> tuple[Float[np.ndarray, "n 3"], np.ndarray]:
     """Return points of the plane z = 0, 2 m by 2 m, some of which lie off it, and which ones these are.
 

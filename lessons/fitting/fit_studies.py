@@ -13,7 +13,10 @@ from workbench.geometry.shapes.algebraic_fits import ALGEBRAIC, fit_algebraic
 from workbench.geometry.shapes.lines_planes import fit_hyperplane, line_angle, regression_line
 
 NINETY = 1.645  # standard deviations to each side that hold 90 % of normal errors
-HOME, AWAY = 1e-2, 50.0  # metres: so near the best fit a start came home, and with such a radius it will not
+HOME, AWAY = (
+    1e-2,
+    50.0,
+)  # metres: so near the best fit a start came home, and with such a radius it will not
 Fate = Literal["comes home", "away or lost", "under way"]
 FATES: tuple[Fate, ...] = get_args(Fate)
 
@@ -51,7 +54,10 @@ class Spread:
     @property
     def predicted(self) -> tuple[float, float]:
         """Between which radii the middle 90 % should lie by the covariance."""
-        return self.radius - NINETY * self.radius_deviation, self.radius + NINETY * self.radius_deviation
+        return (
+            self.radius - NINETY * self.radius_deviation,
+            self.radius + NINETY * self.radius_deviation,
+        )
 
     @property
     def repeated(self) -> tuple[float, float]:
@@ -112,7 +118,8 @@ class Basin:
     def fates(self) -> Int[np.ndarray, " k"]:
         """What became of each start, as its place in FATES; the sign of a radius does not matter."""
         unknowns, best = (
-            np.column_stack([u[..., :-1], np.abs(u[..., -1])]) for u in (self.now.unknowns, self.best[None])
+            np.column_stack([u[..., :-1], np.abs(u[..., -1])])
+            for u in (self.now.unknowns, self.best[None])
         )
         home = (np.abs(unknowns - best) < HOME).all(axis=1)
         return np.where(home, 0, np.where(self.now.done | (unknowns[:, -1] > AWAY), 1, 2))
@@ -141,7 +148,9 @@ def try_starts(
     Reference: as `descend`.
     """
     now = None
-    for now in descend_many(lambda c: CIRCLE.linearise(c, p), np.add, starts, damping, iterations=shown[-1]):
+    for now in descend_many(
+        lambda c: CIRCLE.linearise(c, p), np.add, starts, damping, iterations=shown[-1]
+    ):
         if now.iteration in shown:
             yield Basin(starts, best, now)
     if now is not None and now.iteration not in shown:
@@ -180,7 +189,9 @@ def compare_circles(
     now = Rivals(circles)
     yield now
     for arc, sets in drawn:
-        fits = [fit_algebraic(sets, kind) for kind in ALGEBRAIC] + [fit_round(CIRCLE, sets, fit_algebraic(sets))]
+        fits = [fit_algebraic(sets, kind) for kind in ALGEBRAIC] + [
+            fit_round(CIRCLE, sets, fit_algebraic(sets))
+        ]
         medians = tuple(float(np.median(np.abs(fit[:, 2]))) for fit in fits)
         now = replace(now, draws=len(sets), arcs=(*now.arcs, arc), medians=(*now.medians, medians))
         yield now
@@ -201,7 +212,9 @@ LINE_FITS = {
 }
 
 
-def compare_lines(p: Float[np.ndarray, "n 2"], p_anew: Float[np.ndarray, "k n 2"]) -> Iterator[Lines]:
+def compare_lines(
+    p: Float[np.ndarray, "n 2"], p_anew: Float[np.ndarray, "k n 2"]
+) -> Iterator[Lines]:
     """Yield lines by upright, level and perpendicular distances, and then their angles for points measured anew.
 
     Reference: Fuller, Measurement error models, 1987, section 1.1 (why regression is too flat).
@@ -211,5 +224,8 @@ def compare_lines(p: Float[np.ndarray, "n 2"], p_anew: Float[np.ndarray, "k n 2"
     for name, fit in LINE_FITS.items():
         now = replace(now, lines=now.lines | {name: fit(p)})
         yield now
-    angles = {name: np.array([np.degrees(line_angle(fit(q))) for q in p_anew]) for name, fit in LINE_FITS.items()}
+    angles = {
+        name: np.array([np.degrees(line_angle(fit(q))) for q in p_anew])
+        for name, fit in LINE_FITS.items()
+    }
     yield replace(now, angles=angles)

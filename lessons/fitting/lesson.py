@@ -36,7 +36,13 @@ def run(
     found: Iterator[Now]
     if params.stage == "descent":
         kind = sure(subject.kind)
-        found = walk(params, subject, rng, circle_linearised if kind.name == "circle" else kind.linearise, damped_step)
+        found = walk(
+            params,
+            subject,
+            rng,
+            circle_linearised if kind.name == "circle" else kind.linearise,
+            damped_step,
+        )
     elif params.stage == "basin":
         found = basin(params, subject)
     elif params.stage in ("algebraic", "coin"):

@@ -18,7 +18,9 @@ ESCAPE = Params(start=(2.5, 0.0, 0.0), start_radius=1.0)
 LEAP = Params(start=(-1.5, 0.8, 0.0), start_radius=1.0, method="Gauss-Newton")
 ALIKE = Params(errors="alike in neighbours")
 STEEP = Params(stage="line", noise=0.1)
-EDGE = Params(stage="robust", loss="squares", points=300, noise=0.01, outliers=0.3, reach=2.0, side="both")
+EDGE = Params(
+    stage="robust", loss="squares", points=300, noise=0.01, outliers=0.3, reach=2.0, side="both"
+)
 TUKEY = Params(stage="robust", points=300, noise=0.01, outliers=0.5, loss="Tukey")
 LARGE = Params(arc=360.0, noise=0.3, method="Gauss-Newton", rest="a trillionth")
 
@@ -177,7 +179,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 why="That takes falling for arriving. Each step lowers the sum, and yet a way down may lead elsewhere.",
             ),
             Choice(
-                "it rests on another circle", why="A circle to rest on would be a hollow, and there is no second one."
+                "it rests on another circle",
+                why="A circle to rest on would be a hollow, and there is no second one.",
             ),
             "it grows without end",
         ),
@@ -201,7 +204,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "That would be so if speed did not depend on the errors. It does: the residuals are what Gauss-Newton"
                 " leaves out.",
             ),
-            (30, 60, "15 times the error is not 15 times the work: each iteration keeps a share of what is left."),
+            (
+                30,
+                60,
+                "15 times the error is not 15 times the work: each iteration keeps a share of what is left.",
+            ),
         ),
     ),
     Question(
@@ -224,7 +231,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "Errors in y average out. Errors in x do not: they make x wider, and the same rise over more of x is"
                 " flatter.",
             ),
-            (60.5, 70.0, "That is the sense of the other regression, of x on y. Errors in x make y on x flatter."),
+            (
+                60.5,
+                70.0,
+                "That is the sense of the other regression, of x on y. Errors in x make y on x flatter.",
+            ),
         ),
     ),
     Question(
@@ -239,8 +250,16 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=ALIKE,
         tolerance=1.2,
         wrong=(
-            (0.9, 1.1, "Each error is as large as before, but they no longer average out within a group of ten."),
-            (9.0, 11.0, "Ten count as one, that is true of the number of points. The ± goes with its root."),
+            (
+                0.9,
+                1.1,
+                "Each error is as large as before, but they no longer average out within a group of ten.",
+            ),
+            (
+                9.0,
+                11.0,
+                "Ten count as one, that is true of the number of points. The ± goes with its root.",
+            ),
         ),
     ),
     Question(
@@ -255,7 +274,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=TUKEY,
         choices=(
             Choice(
-                "on the plane", why="It would from a start near the plane. From here the true points are the far ones."
+                "on the plane",
+                why="It would from a start near the plane. From here the true points are the far ones.",
             ),
             Choice(
                 "nearer to it than least squares",

@@ -33,18 +33,26 @@ class RoundShape:
     names: tuple[str, ...]
 
 
-CIRCLE = RoundShape(name="circle", linearise=linearise_sphere, retract=np.add, names=("x", "y", "R"))
-SPHERE = RoundShape(name="sphere", linearise=linearise_sphere, retract=np.add, names=("x", "y", "z", "R"))
+CIRCLE = RoundShape(
+    name="circle", linearise=linearise_sphere, retract=np.add, names=("x", "y", "R")
+)
+SPHERE = RoundShape(
+    name="sphere", linearise=linearise_sphere, retract=np.add, names=("x", "y", "z", "R")
+)
 CYLINDER = RoundShape(
     name="cylinder",
     linearise=linearise_cylinder,
     retract=retract_cylinder,
     names=("shift", "shift across", "tilt", "tilt across", "R"),
 )
-ROUND_SHAPES: dict[RoundName, RoundShape] = {shape.name: shape for shape in (CIRCLE, SPHERE, CYLINDER)}
+ROUND_SHAPES: dict[RoundName, RoundShape] = {
+    shape.name: shape for shape in (CIRCLE, SPHERE, CYLINDER)
+}
 
 
-def feet(shape: RoundShape, unknown: Float[np.ndarray, " m"], p: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "n d"]:
+def feet(
+    shape: RoundShape, unknown: Float[np.ndarray, " m"], p: Float[np.ndarray, "n d"]
+) -> Float[np.ndarray, "n d"]:
     """Return the places of a shape that are nearest to points.
 
     Args:
@@ -59,7 +67,9 @@ def feet(shape: RoundShape, unknown: Float[np.ndarray, " m"], p: Float[np.ndarra
     return p + residuals[:, None] * (jacobian[:, : len(ways)] @ ways)
 
 
-def outline(shape: RoundShape, unknown: Float[np.ndarray, " m"], reach: float) -> Float[np.ndarray, "s 2 3"]:
+def outline(
+    shape: RoundShape, unknown: Float[np.ndarray, " m"], reach: float
+) -> Float[np.ndarray, "s 2 3"]:
     """Return a shape as segments in space; a circle lies at height 0.
 
     Args:
@@ -77,11 +87,17 @@ def outline(shape: RoundShape, unknown: Float[np.ndarray, " m"], reach: float) -
         return sphere_rings(unknown[:3], abs(float(unknown[3])))
     n_axis = unknown[3:6]
     p_axis = unknown[:3] - (unknown[:3] @ n_axis) * n_axis
-    return cylinder_rings(p_axis, np.column_stack([*across(n_axis), n_axis]), abs(float(unknown[6])))
+    return cylinder_rings(
+        p_axis, np.column_stack([*across(n_axis), n_axis]), abs(float(unknown[6]))
+    )
 
 
 def fit_round(
-    shape: RoundShape, p: Float[np.ndarray, "k n d"], starts: Float[np.ndarray, "k m"], *, tolerance: float = 1e-9
+    shape: RoundShape,
+    p: Float[np.ndarray, "k n d"],
+    starts: Float[np.ndarray, "k m"],
+    *,
+    tolerance: float = 1e-9,
 ) -> Float[np.ndarray, "k m"]:
     """Return the unknowns with the least squared distances of sets of points, near as many starts.
 
@@ -94,6 +110,10 @@ def fit_round(
     Reference: as `linearise_sphere` and `linearise_cylinder`.
     """
     *_, end = descend_many(
-        lambda unknowns: shape.linearise(unknowns, p), shape.retract, starts, iterations=60, tolerance=tolerance
+        lambda unknowns: shape.linearise(unknowns, p),
+        shape.retract,
+        starts,
+        iterations=60,
+        tolerance=tolerance,
     )
     return end.unknowns

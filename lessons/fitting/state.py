@@ -25,7 +25,9 @@ DESCENT, WALKS = {"stage": ("descent",)}, {"stage": ("descent", "basin")}
 ROBUST = {"stage": ("robust",)}
 OF_POINTS = {"stage": ("descent", "basin", "algebraic", "robust")}
 BENT = {**ROBUST, "loss": ("Huber", "Cauchy", "Geman-McClure", "Tukey", "Huber then Tukey")}
-PLANE_PLACES = np.stack([*np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), np.zeros((9, 9))], axis=-1).reshape(-1, 3)
+PLANE_PLACES = np.stack(
+    [*np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), np.zeros((9, 9))], axis=-1
+).reshape(-1, 3)
 MADE = {"stage": ("descent", "basin", "algebraic", "line", "robust")}
 
 
@@ -35,36 +37,75 @@ class Params:
 
     stage: Annotated[Stage, Knob("What is shown")] = "descent"
     shape: Annotated[RoundName, Knob("What is fitted", needs=DESCENT)] = "circle"
-    arc: Annotated[float, Knob("How much of the way round has points", 20, 360, unit="deg", needs=ROUND)] = 90.0
+    arc: Annotated[
+        float, Knob("How much of the way round has points", 20, 360, unit="deg", needs=ROUND)
+    ] = 90.0
     points: Annotated[int, Knob("How many points", 10, 2000, needs=MADE)] = 60
     noise: Annotated[
-        float, Knob("Standard deviation of each coordinate's error", 0, 0.3, unit="m", step=0.005, needs=MADE)
+        float,
+        Knob(
+            "Standard deviation of each coordinate's error",
+            0,
+            0.3,
+            unit="m",
+            step=0.005,
+            needs=MADE,
+        ),
     ] = 0.02
     errors: Annotated[Errors, Knob("Whether neighbours err alike", needs=DESCENT)] = "independent"
     method: Annotated[Method, Knob("How it goes down", needs=WALKS)] = "Levenberg-Marquardt"
     rest: Annotated[
         Literal["a millionth", "a trillionth"],
         Knob(
-            "It stops when a step changes the sum of squares by less than this share", label="stops at", needs=DESCENT
+            "It stops when a step changes the sum of squares by less than this share",
+            label="stops at",
+            needs=DESCENT,
         ),
     ] = "a millionth"
     start: Annotated[
         tuple[float, float, float],
-        Knob("The centre to start from; drag its handle", -4, 4, unit="m", by=Gizmo(0.4), needs=DESCENT),
+        Knob(
+            "The centre to start from; drag its handle",
+            -4,
+            4,
+            unit="m",
+            by=Gizmo(0.4),
+            needs=DESCENT,
+        ),
     ] = (0.5, 0.4, 0.0)
-    start_radius: Annotated[float, Knob("The radius to start from", 0.05, 5, unit="m", needs=WALKS)] = 0.7
+    start_radius: Annotated[
+        float, Knob("The radius to start from", 0.05, 5, unit="m", needs=WALKS)
+    ] = 0.7
     start_tilt: Annotated[
         float,
-        Knob("How far the axis to start from leans", 0, 89, unit="deg", needs={**DESCENT, "shape": ("cylinder",)}),
+        Knob(
+            "How far the axis to start from leans",
+            0,
+            89,
+            unit="deg",
+            needs={**DESCENT, "shape": ("cylinder",)},
+        ),
     ] = 30.0
-    slope: Annotated[float, Knob("How steep the line is", 0, 85, unit="deg", needs={"stage": ("line",)})] = 60.0
+    slope: Annotated[
+        float, Knob("How steep the line is", 0, 85, unit="deg", needs={"stage": ("line",)})
+    ] = 60.0
     loss: Annotated[LossName, Knob("What a distance costs", needs=ROBUST)] = "Huber"
     corner: Annotated[
         float,
-        Knob("Where the loss bends, in σ; 0 is where it costs 5 % of good points", 0, 6, step=0.1, needs=BENT),
+        Knob(
+            "Where the loss bends, in σ; 0 is where it costs 5 % of good points",
+            0,
+            6,
+            step=0.1,
+            needs=BENT,
+        ),
     ] = 0.0
-    outliers: Annotated[float, Knob("Share of points that lie off the plane", 0, 0.6, step=0.05, needs=ROBUST)] = 0.3
-    reach: Annotated[float, Knob("How far off they lie at most", 0.1, 2, unit="m", step=0.1, needs=ROBUST)] = 0.5
+    outliers: Annotated[
+        float, Knob("Share of points that lie off the plane", 0, 0.6, step=0.05, needs=ROBUST)
+    ] = 0.3
+    reach: Annotated[
+        float, Knob("How far off they lie at most", 0.1, 2, unit="m", step=0.1, needs=ROBUST)
+    ] = 0.5
     side: Annotated[Literal["one", "both"], Knob("On which side of it", needs=ROBUST)] = "one"
     coin: Annotated[
         tuple[int, int],
@@ -72,11 +113,20 @@ class Params:
     ] = (337, 125)  # fmt: skip
     cloud: Annotated[
         Path | None,
-        Knob("Own points to fit: x y for a circle, x y z for a sphere, cylinder or plane", needs=OF_POINTS),
+        Knob(
+            "Own points to fit: x y for a circle, x y z for a sphere, cylinder or plane",
+            needs=OF_POINTS,
+        ),
     ] = None
-    cloud_unit: Annotated[Unit, Knob("In which unit the numbers of own points are", of_files=True)] = "m"
+    cloud_unit: Annotated[
+        Unit, Knob("In which unit the numbers of own points are", of_files=True)
+    ] = "m"
     image: Annotated[
-        Path | None, Knob("Own photograph instead of the coins: something bright on dark", needs={"stage": ("coin",)})
+        Path | None,
+        Knob(
+            "Own photograph instead of the coins: something bright on dark",
+            needs={"stage": ("coin",)},
+        ),
     ] = None
     seed: Annotated[int, Knob("Which errors chance makes", 0, 99, needs=MADE)] = 3
 
@@ -139,7 +189,10 @@ class State:
         """The RMS distances of the true plane from the fit and from that of least squares, metres; NaN if not known."""
         if not isinstance(self.now, Trusted) or self.subject.truth is None:
             return np.nan, np.nan
-        fit, first = (rms_distance(PLANE, plane, PLANE_PLACES) for plane in (self.now.now.estimate, self.now.first))
+        fit, first = (
+            rms_distance(PLANE, plane, PLANE_PLACES)
+            for plane in (self.now.now.estimate, self.now.first)
+        )
         return fit, first
 
     @property

@@ -4,7 +4,14 @@ from pathlib import Path
 
 import numpy as np
 
-from lessons.fitting.fit_scenes import arc_points, cap_points, errors, line_points, outlying_plane, pipe_points
+from lessons.fitting.fit_scenes import (
+    arc_points,
+    cap_points,
+    errors,
+    line_points,
+    outlying_plane,
+    pipe_points,
+)
 from lessons.fitting.round_shapes import CYLINDER, ROUND_SHAPES, RoundName, RoundShape, fit_round
 from lessons.fitting.state import Params, Subject
 from workbench.data.files import read_image
@@ -33,10 +40,18 @@ def subject_of(params: Params, rng: np.random.Generator) -> Subject:
     """
     if params.stage == "coin":
         rim = find_rim(coins() if params.image is None else read_image(params.image), params.coin)
-        return _round(rim.windows(params.arc)[0], ROUND_SHAPES["circle"], truth=TRUE["circle"], p_true=rim.p, rim=rim)
+        return _round(
+            rim.windows(params.arc)[0],
+            ROUND_SHAPES["circle"],
+            truth=TRUE["circle"],
+            p_true=rim.p,
+            rim=rim,
+        )
     if params.stage == "line":
         if params.cloud is not None:
-            raise InputError(f"own points are not used in the stage line: set {called('stage')} to descent or robust")
+            raise InputError(
+                f"own points are not used in the stage line: set {called('stage')} to descent or robust"
+            )
         turn = np.radians(params.slope)
         p_true = line_points(rng, turn, params.points)
         p = p_true + errors(rng, p_true.shape, params.noise)
@@ -45,12 +60,22 @@ def subject_of(params: Params, rng: np.random.Generator) -> Subject:
         return own(params, params.cloud)
     if params.stage == "robust":
         p, _ = outlying_plane(
-            rng, params.points, params.noise, params.outliers, params.reach, both_sides=params.side == "both"
+            rng,
+            params.points,
+            params.noise,
+            params.outliers,
+            params.reach,
+            both_sides=params.side == "both",
         )
         return Subject(p=p, truth=np.array([0.0, 0.0, 1.0, 0.0]))
     shape: RoundName = params.shape if params.stage == "descent" else "circle"
     p_true = PLACES[shape](np.radians(params.arc), params.points)
-    p = p_true + errors(rng, p_true.shape, params.noise, params.errors if params.stage == "descent" else "independent")
+    p = p_true + errors(
+        rng,
+        p_true.shape,
+        params.noise,
+        params.errors if params.stage == "descent" else "independent",
+    )
     return _round(p, ROUND_SHAPES[shape], truth=TRUE[shape], p_true=p_true)
 
 
@@ -67,4 +92,8 @@ def own(params: Params, path: Path) -> Subject:
     shape: RoundName = params.shape if params.stage == "descent" else "circle"
     p, unit = read_round(path, "plane" if params.stage == "robust" else shape, most=MOST_POINTS)
     scale = METRES[params.cloud_unit] * unit
-    return Subject(p=p, scale=scale) if params.stage == "robust" else _round(p, ROUND_SHAPES[shape], scale=scale)
+    return (
+        Subject(p=p, scale=scale)
+        if params.stage == "robust"
+        else _round(p, ROUND_SHAPES[shape], scale=scale)
+    )

@@ -2,7 +2,16 @@
 
 import numpy as np
 
-from lessons.graphs.measures import apart, from_clean, predicted, reached, right, tone, two_sides, volume_share
+from lessons.graphs.measures import (
+    apart,
+    from_clean,
+    predicted,
+    reached,
+    right,
+    tone,
+    two_sides,
+    volume_share,
+)
 from lessons.graphs.state import Grown, Matrix, Mode, State
 from workbench.algorithms.graphs.diffusion import Heat, Smoothed
 from workbench.algorithms.graphs.spectral_cut import Cut
@@ -43,13 +52,17 @@ def _grown(state: State, now: Grown) -> str:
     edges = counted(len(edges_of(now.adjacency)), "edge")
     pieces = counted(now.count, "component")
     if not now.k:
-        text = (
-            f"{state.subject.name[0].upper()}{state.subject.name[1:]}: {counted(len(state.subject.p), 'node')}, {edges}"
+        text = f"{state.subject.name[0].upper()}{state.subject.name[1:]}: {counted(len(state.subject.p), 'node')}, {edges}"
+        return f"{text}, {pieces}." + (
+            "" if now.count == 1 else " An edge joins two components, or closes a cycle."
         )
-        return f"{text}, {pieces}." + ("" if now.count == 1 else " An edge joins two components, or closes a cycle.")
     named = "its nearest neighbour" if now.k == 1 else f"its {now.k} nearest neighbours"
     text = f"Every point names {named}; {percent(now.one_way, 0)} of the namings are not returned."
-    kept = {"union": "if either end names the other", "mutual": "only if both ends do", "directed": "one way"}
+    kept = {
+        "union": "if either end names the other",
+        "mutual": "only if both ends do",
+        "directed": "one way",
+    }
     largest = int(np.count_nonzero(now.parts == 0))
     sizes = "" if now.count == 1 else f", the largest of {counted(largest, 'node')}"
     return f"{text} An edge is kept {kept[state.params.join]}: {edges}, {pieces}{sizes}."
@@ -61,7 +74,11 @@ def _matrix(state: State, now: Matrix) -> str:
     entries = counted(len(edges_of(state.adjacency)), "edge")
     if now.part == "adjacency":
         filled = state.adjacency.nnz / state.adjacency.shape[0] ** 2
-        kind = "the cotangent weight of its edge" if state.params.laplacian == "cotangent" else "the weight of its edge"
+        kind = (
+            "the cotangent weight of its edge"
+            if state.params.laplacian == "cotangent"
+            else "the weight of its edge"
+        )
         return f"A: the entry of two nodes is {kind}, else 0. {entries} fill {percent(filled, 1)} of the matrix."
     if now.part == "degrees":
         return f"D: on the diagonal the sum of each row of A, the degree. That of node {called} is {d}."
@@ -87,7 +104,8 @@ def _matrix(state: State, now: Matrix) -> str:
 def _mode(state: State, now: Mode) -> str:
     if now.spectra:
         told = " and ".join(
-            f"of {name} {_both([each[k] for each in now.spectra])}" for k, name in enumerate(("A", "L = D − A"))
+            f"of {name} {_both([each[k] for each in now.spectra])}"
+            for k, name in enumerate(("A", "L = D − A"))
         )
         return (
             f"Two graphs of {counted(len(now.spectra[0][0]), 'node')} each. Eigenvalues {told}. Drawn: eigenvector"
@@ -100,7 +118,9 @@ def _mode(state: State, now: Mode) -> str:
         state.subject.of_surface or state.params.laplacian == "plain"
     ):  # fmt: skip
         text += f", the truth is {brief(float(true[now.index]))}"
-    zeros = int(np.count_nonzero(np.abs(now.values) < 1e-9 * max(1.0, float(np.abs(now.values).max()))))
+    zeros = int(
+        np.count_nonzero(np.abs(now.values) < 1e-9 * max(1.0, float(np.abs(now.values).max())))
+    )
     if now.index < zeros:
         why = (
             "it is constant"
@@ -114,8 +134,14 @@ def _mode(state: State, now: Mode) -> str:
 
 def _both(spectra: list[np.ndarray]) -> str:
     """Return the eigenvalues of two graphs, once where they are the same."""
-    lists = [", ".join(brief(round(float(value), 9) + 0.0) for value in values) for values in spectra]
-    return f"{lists[0]} for both" if lists[0] == lists[1] else f"{lists[0]} for the first, {lists[1]} for the second"
+    lists = [
+        ", ".join(brief(round(float(value), 9) + 0.0) for value in values) for values in spectra
+    ]
+    return (
+        f"{lists[0]} for both"
+        if lists[0] == lists[1]
+        else f"{lists[0]} for the first, {lists[1]} for the second"
+    )
 
 
 def _sign_changes(state: State, now: Mode) -> int:
@@ -129,11 +155,17 @@ def _cut(state: State, now: Cut) -> str:
     if now.phase == "graph":
         return f"The graph: {counted(n, 'node')}, {counted(len(edges_of(now.adjacency)), 'edge')}. Where is it thin?"
     if now.phase == "fiedler":
-        zeros = int(np.count_nonzero(now.eigenvalues < 1e-9 * max(float(degrees(now.adjacency).max()), 1.0)))
+        zeros = int(
+            np.count_nonzero(now.eigenvalues < 1e-9 * max(float(degrees(now.adjacency).max()), 1.0))
+        )
         if zeros < 2:
             rest = f"λ₂ = {brief(float(now.eigenvalues[1]))}. It changes little along edges."
             return f"The second eigenvector of L, after the constant one: {rest}"
-        pieces = "0 twice: the graph has no path from one part to another" if zeros == 2 else "0 three times or more"
+        pieces = (
+            "0 twice: the graph has no path from one part to another"
+            if zeros == 2
+            else "0 three times or more"
+        )
         left = "one value on each part" if zeros == 2 else "a mixture that is not determined"
         return (
             f"The smallest eigenvalue of L is {pieces}. A solver returns any mixture of the parts' constants; with the"
@@ -143,7 +175,11 @@ def _cut(state: State, now: Cut) -> str:
     cost = f"{brief(now.cut)} {'edge is' if now.cut == 1 else 'edges are'} cut"
     if state.params.weighted and state.params.graph == "karate":
         cost = f"edges of weight {brief(now.cut)} are cut"
-    share = f"conductance {brief(now.conductance, 2)}" if np.isfinite(now.conductance) else "conductance 0/0"
+    share = (
+        f"conductance {brief(now.conductance, 2)}"
+        if np.isfinite(now.conductance)
+        else "conductance 0/0"
+    )
     text = f"{sizes}, {cost}, {share}."
     if now.phase == "sign":
         return f"Cut by sign: {text}{_sides(state)}"
@@ -156,7 +192,9 @@ def _by_sign(state: State, now: Cut) -> str:
     """Return how many the sign had right, where that were more."""
     if not len(state.subject.classes):
         return ""
-    before = int(np.count_nonzero(two_sides(now.fiedler > 0, state.subject.classes) == state.subject.classes))
+    before = int(
+        np.count_nonzero(two_sides(now.fiedler > 0, state.subject.classes) == state.subject.classes)
+    )
     edges = brief(cut_weight(now.adjacency, now.fiedler > 0))
     if before <= sure(right(state)):
         return ""
@@ -168,7 +206,11 @@ def _sides(state: State) -> str:
     if correct is None:
         return ""
     wrong = np.flatnonzero(predicted(state) != state.subject.classes)
-    named = f" (not {', '.join(state.subject.called(int(i)) for i in wrong)})" if 0 < len(wrong) <= 3 else ""
+    named = (
+        f" (not {', '.join(state.subject.called(int(i)) for i in wrong)})"
+        if 0 < len(wrong) <= 3
+        else ""
+    )
     return f" {correct:,} of {n:,} nodes are on their true side{named}."
 
 
@@ -183,12 +225,20 @@ def _heat(state: State, now: Heat) -> str:
             " eigenvector grows at every step and changes its sign."
         )
     n = len(now.u)
-    where = f"{touched:,} of {counted(n, 'node')} have some" if touched < n else "all nodes have some"
+    where = (
+        f"{touched:,} of {counted(n, 'node')} have some" if touched < n else "all nodes have some"
+    )
     return f"Step {now.step}: largest heat {_size(hottest)}, {where}; off the exact heat by {_size(now.error)} at most."
 
 
 def _size(value: float) -> str:
-    return "less than 0.00001" if value < 1e-5 else fixed_or_power(value, 0) if value >= 1000 else brief(value, 2)
+    return (
+        "less than 0.00001"
+        if value < 1e-5
+        else fixed_or_power(value, 0)
+        if value >= 1000
+        else brief(value, 2)
+    )
 
 
 def _smoothed(state: State, now: Smoothed) -> str:
@@ -224,9 +274,7 @@ def _layer(state: State, now: Layer) -> str:
         )
     if now.part == "gathered":
         said = ", ".join(brief(x, 2) for x in now.features[v])
-        return (
-            f"Gathered: node {called} has ({said}). W is the identity here and nothing is negative, so ReLU leaves it."
-        )
+        return f"Gathered: node {called} has ({said}). W is the identity here and nothing is negative, so ReLU leaves it."
     heard, correct = int(np.count_nonzero(reached(state))), right(state)
     text = f"Layer {now.layer}: the labels have reached {'all' if heard == n else f'{heard:,} of'} {n:,} nodes"
     text += "" if correct is None else f"; {correct:,} are right"
@@ -242,7 +290,11 @@ def _readout(state: State, now: Layer) -> str:
     if now.part != "layer":
         return f"{_part(now)} Both graphs' features are summed up in the table."
     same = gap <= 1e-9 * max(size, 1.0)
-    told = "are the same: these messages cannot tell the graphs apart" if same else f"differ by up to {brief(gap, 2)}"
+    told = (
+        "are the same: these messages cannot tell the graphs apart"
+        if same
+        else f"differ by up to {brief(gap, 2)}"
+    )
     return f"Layer {now.layer}, with weights by chance: the sums over the two graphs {told}."
 
 

@@ -72,12 +72,18 @@ def volume_share(state: State) -> float:
     if not len(state.subject.faces):
         return float("nan")
     clean = signed_volume(state.subject.p, state.subject.faces)
-    return signed_volume(state.now.p, state.subject.faces) / clean if abs(clean) > 1e-12 else float("nan")
+    return (
+        signed_volume(state.now.p, state.subject.faces) / clean
+        if abs(clean) > 1e-12
+        else float("nan")
+    )
 
 
 def from_clean(state: State, p: np.ndarray) -> float:
     """Return the RMS distance of vertices from where they were before the noise, in mean edges."""
-    return float(np.sqrt(((p - state.subject.p) ** 2).sum(axis=1).mean())) / edge_length(state.subject, state.adjacency)
+    return float(np.sqrt(((p - state.subject.p) ** 2).sum(axis=1).mean())) / edge_length(
+        state.subject, state.adjacency
+    )
 
 
 def tone(state: State) -> Tone:

@@ -189,7 +189,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="members",
         tolerance=1.5,
         wrong=(
-            (34, 34, "The vector knows friendships only. Two members chose another club than most of their friends."),
+            (
+                34,
+                34,
+                "The vector knows friendships only. Two members chose another club than most of their friends.",
+            ),
             (
                 15,
                 19,
@@ -238,7 +242,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "A mean of neighbours keeps the centre of a body, not its volume: where it bulges, the mean lies inside.",
             ),
             (85, 92, "So much is left after some ten rounds. The later ones take their share too."),
-            (0, 20, "Every round takes less than the one before: thin parts go first, and the round body lasts."),
+            (
+                0,
+                20,
+                "Every round takes less than the one before: thin parts go first, and the round body lasts.",
+            ),
         ),
     ),
     Question(

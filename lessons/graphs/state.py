@@ -35,39 +35,98 @@ class Params:
 
     graph: Annotated[GraphName, Knob("Built-in points, meshes and graphs")] = "dumbbell"
     stage: Annotated[Stage, Knob("What is done with the graph")] = "cut"
-    points: Annotated[int, Knob("How many points", 30, 3000, step=10, needs={"graph": (*CLOUDS, "ring", "sphere")})] = (
-        400
-    )
+    points: Annotated[
+        int,
+        Knob("How many points", 30, 3000, step=10, needs={"graph": (*CLOUDS, "ring", "sphere")}),
+    ] = 400
     k: Annotated[int, Knob("Neighbours that every point names", 1, 20, needs=OF_CLOUDS)] = 6
-    join: Annotated[Join, Knob("An edge if either end names the other, both do, or one-way", needs=OF_CLOUDS)] = "union"
+    join: Annotated[
+        Join, Knob("An edge if either end names the other, both do, or one-way", needs=OF_CLOUDS)
+    ] = "union"
     share: Annotated[
-        float, Knob("Share of the points in the left half", 0.5, 0.95, step=0.05, needs={"graph": ("dumbbell",)})
+        float,
+        Knob(
+            "Share of the points in the left half",
+            0.5,
+            0.95,
+            step=0.05,
+            needs={"graph": ("dumbbell",)},
+        ),
     ] = 0.5
-    bridge: Annotated[int, Knob("Points between the halves; 0 is a gap", 0, 40, needs={"graph": ("dumbbell",)})] = 14
-    columns: Annotated[int, Knob("Columns of the grid, which has 10 rows", 2, 20, needs={"graph": ("grid",)})] = 12
+    bridge: Annotated[
+        int, Knob("Points between the halves; 0 is a gap", 0, 40, needs={"graph": ("dumbbell",)})
+    ] = 14
+    columns: Annotated[
+        int, Knob("Columns of the grid, which has 10 rows", 2, 20, needs={"graph": ("grid",)})
+    ] = 12
     jitter: Annotated[
-        float, Knob("How far vertices stray along the sphere", 0, 0.25, unit="cells", needs={"graph": ("sphere",)})
+        float,
+        Knob(
+            "How far vertices stray along the sphere",
+            0,
+            0.25,
+            unit="cells",
+            needs={"graph": ("sphere",)},
+        ),
     ] = 0.0
-    weighted: Annotated[bool, Knob("Friends count by how often they met", needs={"graph": ("karate",)})] = False
-    laplacian: Annotated[Kind, Knob("Which Laplacian; cotangents need triangles", needs=OF_L)] = "plain"
-    modes: Annotated[int, Knob("How many eigenvectors are shown", 2, 30, needs={"stage": ("spectrum",)})] = 8
+    weighted: Annotated[
+        bool, Knob("Friends count by how often they met", needs={"graph": ("karate",)})
+    ] = False
+    laplacian: Annotated[Kind, Knob("Which Laplacian; cotangents need triangles", needs=OF_L)] = (
+        "plain"
+    )
+    modes: Annotated[
+        int, Knob("How many eigenvectors are shown", 2, 30, needs={"stage": ("spectrum",)})
+    ] = 8
     step_size: Annotated[
-        float, Knob("Length of a step of heat", 0.1, 2.5, unit="/ λmax", step=0.01, needs={"stage": ("heat",)})
+        float,
+        Knob(
+            "Length of a step of heat",
+            0.1,
+            2.5,
+            unit="/ λmax",
+            step=0.01,
+            needs={"stage": ("heat",)},
+        ),
     ] = 1.0
     steps: Annotated[int, Knob("How many steps", 1, 200, needs={"stage": ("heat", "smooth")})] = 50
-    filter: Annotated[Literal["laplace", "taubin"], Knob("How to smooth", needs={"stage": ("smooth",)})] = "laplace"
+    filter: Annotated[
+        Literal["laplace", "taubin"], Knob("How to smooth", needs={"stage": ("smooth",)})
+    ] = "laplace"
     noise: Annotated[
-        float, Knob("Noise before smoothing (sigma)", 0, 0.5, unit="edges", step=0.05, needs={"stage": ("smooth",)})
+        float,
+        Knob(
+            "Noise before smoothing (sigma)",
+            0,
+            0.5,
+            unit="edges",
+            step=0.05,
+            needs={"stage": ("smooth",)},
+        ),
     ] = 0.3
-    layers: Annotated[int, Knob("Layers of the network", 0, 64, needs={"stage": ("network", "training")})] = 2
+    layers: Annotated[
+        int, Knob("Layers of the network", 0, 64, needs={"stage": ("network", "training")})
+    ] = 2
     vertex: Annotated[
-        int, Knob("The node that is looked at: click one; -1 takes ours", -1, MOST_OWN - 1, by=Pick("nodes"))
+        int,
+        Knob(
+            "The node that is looked at: click one; -1 takes ours",
+            -1,
+            MOST_OWN - 1,
+            by=Pick("nodes"),
+        ),
     ] = -1
-    numbering: Annotated[int, Knob("In which order nodes are numbered; 0 as they were made", 0, 99)] = 0
-    edges: Annotated[Path | None, Knob("Own graph: csv or txt, two names and maybe a weight per line")] = None
+    numbering: Annotated[
+        int, Knob("In which order nodes are numbered; 0 as they were made", 0, 99)
+    ] = 0
+    edges: Annotated[
+        Path | None, Knob("Own graph: csv or txt, two names and maybe a weight per line")
+    ] = None
     mesh: Annotated[Path | None, Knob("Own mesh: off, obj, ply, stl, glb")] = None
     cloud: Annotated[Path | None, Knob("Own cloud: ply, pcd, obj, xyz, csv, npz")] = None
-    up: Annotated[Upward, Knob("Which axis of own points is up; auto guesses", of_files=True)] = "auto"
+    up: Annotated[Upward, Knob("Which axis of own points is up; auto guesses", of_files=True)] = (
+        "auto"
+    )
     seed: Annotated[int, Knob("Where chance puts points, noise and first weights", 0, 99)] = 0
 
 
@@ -189,7 +248,11 @@ class State:
     @property
     def vertex(self) -> int:
         """The node that is looked at."""
-        return self.subject.front if self.params.vertex < 0 else self.params.vertex % len(self.subject.p)
+        return (
+            self.subject.front
+            if self.params.vertex < 0
+            else self.params.vertex % len(self.subject.p)
+        )
 
     @property
     def last(self) -> bool:
@@ -197,7 +260,11 @@ class State:
         now, params = self.now, self.params
         match now:
             case Grown():
-                return now.k == params.k if now.k else now.adjacency.sum() >= 2 * self.subject.weights.sum() - 1e-9
+                return (
+                    now.k == params.k
+                    if now.k
+                    else now.adjacency.sum() >= 2 * self.subject.weights.sum() - 1e-9
+                )
             case Matrix():
                 return now.part == "ordered"
             case Mode():

@@ -20,7 +20,10 @@ from workbench.tracing import untraced
 
 ANGLES = tuple(range(0, 181, 15))
 POINTS, MAX_ITERATIONS, TOLERANCE = 300, 100, 1e-4
-SLIDING = ("corner", "vase")  # moved onto themselves they look the same, so no start brings them home
+SLIDING = (
+    "corner",
+    "vase",
+)  # moved onto themselves they look the same, so no start brings them home
 
 
 def tries_of(params: Params) -> Iterator[Try]:
@@ -66,7 +69,12 @@ def _try(params: Params, angle: float) -> Try:
     with untraced():
         *_, end = states
     T = end.T_target_source
-    return Try(start_angle=angle, T_target_truth=T @ inverse(scans.T_truth), error=scans.error(T), rmse=end.rmse)
+    return Try(
+        start_angle=angle,
+        T_target_truth=T @ inverse(scans.T_truth),
+        error=scans.error(T),
+        rmse=end.rmse,
+    )
 
 
 def thinned(scans: Scans) -> np.ndarray:

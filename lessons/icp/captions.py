@@ -78,9 +78,7 @@ def _at_start(state: State) -> str:
         text += f" Your own scans are open: {', '.join(idle)} {'has' if len(idle) == 1 else 'have'} no effect on them."
     gap, width = float(state.icp.distances.min()), WIDTH / state.scans.frame.scale
     if gap > width:
-        text += (
-            f" The scans start {length(gap)} apart, and the target is {length(width)} wide: bring the source near it."
-        )
+        text += f" The scans start {length(gap)} apart, and the target is {length(width)} wide: bring the source near it."
     return text
 
 

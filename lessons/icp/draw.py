@@ -10,11 +10,25 @@ from workbench.geometry.motions import apply, inverse
 from workbench.geometry.motions.alignment import MotionError
 from workbench.geometry.polylines import between
 from workbench.numerals import angle, length
-from workbench.scene import Chart, Classes, Color, Curve, Label, Points, Primitive, Role, Scene, Segments
+from workbench.scene import (
+    Chart,
+    Classes,
+    Color,
+    Curve,
+    Label,
+    Points,
+    Primitive,
+    Role,
+    Scene,
+    Segments,
+)
 
 MOST_LINES = 750, 200  # of small clouds and of large ones, whose recordings the lines would fill
 LARGE = 5000
-TIP, DIAL = 0.62, 0.7  # metres of the picture from its middle: of the arrows, and of the dial of starts
+TIP, DIAL = (
+    0.62,
+    0.7,
+)  # metres of the picture from its middle: of the arrows, and of the dial of starts
 ARROW = np.array([[[0.0, 0.0, 0.0], [TIP, 0.0, 0.0]], [[TIP, 0.0, 0.0], [0.54, 0.035, 0.0]],
                   [[TIP, 0.0, 0.0], [0.54, -0.035, 0.0]]])  # fmt: skip
 RMSE, OVERLAP = Chart("RMSE", unit="m"), Chart("Overlap", unit="%")
@@ -28,7 +42,9 @@ def draw(state: State) -> Scene:
     """Return the picture of one step."""
     scans = state.scans
     scene: dict[str, Primitive] = {
-        "target": Points(scans.p_target_shown, "target", _radius(len(scans.p_target)), name="target"),
+        "target": Points(
+            scans.p_target_shown, "target", _radius(len(scans.p_target)), name="target"
+        ),
         "caption": caption(state),
         "grid": Segments(scans.grid, "neutral", 1, opacity=0.2, name=f"grid {length(scans.cell)}"),
     }
@@ -59,14 +75,18 @@ def _from_another_start(state: State) -> dict[str, Primitive]:
     T_world_try = scans.frame.shown_motion(T_target_source)
     p = scans.p_source_shown[every(len(scans.p_source), POINTS)]
     return {
-        "try": Points(p, "highlight", 0.008, T_world_try, name=f"end from another start, {len(p)} points"),
+        "try": Points(
+            p, "highlight", 0.008, T_world_try, name=f"end from another start, {len(p)} points"
+        ),
         **_arrow("try", scans, T_target_source, "highlight", last.error),
         **_dial(state),
         **_basin(state),
     }
 
 
-def _arrow(path: str, scans: Scans, T_target_source: np.ndarray, color: Role, error: MotionError | None):
+def _arrow(
+    path: str, scans: Scans, T_target_source: np.ndarray, color: Role, error: MotionError | None
+):
     """Return an arrow fixed to the source, which points along the picture's x axis at the truth; its turn stands at it."""
     pose = _arrow_pose(scans, T_target_source)
     scene: dict[str, Primitive] = {f"{path} arrow": Segments(ARROW, color, 4, pose)}
@@ -83,12 +103,17 @@ def _dial(state: State) -> dict[str, Primitive]:
     height = float(state.scans.grid[0, 0, 2])
 
     def at(turn: np.ndarray, radius: float) -> np.ndarray:
-        return np.stack([radius * np.cos(turn), radius * np.sin(turn), np.full_like(turn, height)], axis=-1)
+        return np.stack(
+            [radius * np.cos(turn), radius * np.sin(turn), np.full_like(turn, height)], axis=-1
+        )
 
     arcs = np.stack([at(starts + HALF * np.array([-1, -1 / 3, 1 / 3]), DIAL),
                      at(starts + HALF * np.array([-1 / 3, 1 / 3, 1]), DIAL)], axis=2)  # fmt: skip
     color = Classes.marking(
-        np.repeat(~home, 3), "neutral", "does not come home", others=("truth", "comes home from here")
+        np.repeat(~home, 3),
+        "neutral",
+        "does not come home",
+        others=("truth", "comes home from here"),
     )
     now = state.tries[-1].start_angle
     return {
@@ -105,11 +130,15 @@ def _curves(state: State) -> dict[str, Primitive]:
         curves["residual"] = RMSE.scalar(now.residual, "to tangent planes", "other")
     if state.known:  # the truth stands beside what is minimised
         curves["rotation error"] = TURN.scalar(state.error.rotation, "rotation error", "truth")
-        curves["translation error"] = SHIFT.scalar(state.error.translation, "translation error", "truth")
+        curves["translation error"] = SHIFT.scalar(
+            state.error.translation, "translation error", "truth"
+        )
     curves["kept"] = OVERLAP.scalar(100 * now.overlap, "kept")
     if state.known:
         guessed = now.iteration == 1 and now.phase == "match"  # a question asks for it
-        curves["right"] = OVERLAP.scalar(np.nan if guessed else 100 * state.right, "right among them", "truth")
+        curves["right"] = OVERLAP.scalar(
+            np.nan if guessed else 100 * state.right, "right among them", "truth"
+        )
     return curves
 
 
@@ -120,7 +149,9 @@ def _basin(state: State) -> dict[str, Primitive]:
     def curve(chart: Chart, values: list[float], name: str, color: Role) -> Curve:
         return chart.curve(angles, np.array(values), name, color, marks=marks)
 
-    turns, distances = ([getattr(t.error, name) for t in state.tries] for name in ("rotation", "displacement"))
+    turns, distances = (
+        [getattr(t.error, name) for t in state.tries] for name in ("rotation", "displacement")
+    )
     return {
         "basin": curve(BASIN_TURNS, turns, "final error", "truth"),
         "basin rmse": curve(BASIN_METRES, [t.rmse for t in state.tries], "final RMSE", "source"),
@@ -132,8 +163,12 @@ def _matches(state: State, T_world_source: np.ndarray) -> Segments:
     scans, now = state.scans, state.icp
     n = len(now.indices)
     rows = every(n, MOST_LINES[n > LARGE])
-    ends = between(apply(T_world_source, scans.p_source_shown[rows]), scans.p_target_shown[now.indices[rows]])
-    color = Classes.marking(~now.kept[rows], "wrong", "refused by the gate", others=("correspondence", "match"))
+    ends = between(
+        apply(T_world_source, scans.p_source_shown[rows]), scans.p_target_shown[now.indices[rows]]
+    )
+    color = Classes.marking(
+        ~now.kept[rows], "wrong", "refused by the gate", others=("correspondence", "match")
+    )
     return Segments(ends, color, 2, name="matches")
 
 

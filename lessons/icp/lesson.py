@@ -21,7 +21,11 @@ MAX_ITERATIONS, TOLERANCE = 150, 1e-5
 
 
 def run(
-    params: Params, *, align: Align | None = None, match: Match | None = None, step: PlaneStep | None = None
+    params: Params,
+    *,
+    align: Align | None = None,
+    match: Match | None = None,
+    step: PlaneStep | None = None,
 ) -> Iterator[State]:
     """Yield the steps of ICP on the scans, then, where the truth is known, one try from each of a row of starts.
 

@@ -15,12 +15,26 @@ HOME = Params()
 FAR = Params(start_angle=120.0)
 VASE = Params(shape="vase", start_angle=90.0, gate="all")
 PLANE = Params(fit="point-to-plane")
-OVERLAP = Params(start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="max-distance")
+OVERLAP = Params(
+    start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="max-distance"
+)
 OVERLAP_TIGHT = Params(
-    start_angle=20.0, overlap=0.8, noise=0.0, points=5000, fit="point-to-plane", gate="max-distance", max_distance=0.02
+    start_angle=20.0,
+    overlap=0.8,
+    noise=0.0,
+    points=5000,
+    fit="point-to-plane",
+    gate="max-distance",
+    max_distance=0.02,
 )
 RINGS = Params(
-    shape="lidar", start_angle=0.7, start_shift=0.5, fit="point-to-plane", noise=0.02, thinning="chance", planes="all"
+    shape="lidar",
+    start_angle=0.7,
+    start_shift=0.5,
+    fit="point-to-plane",
+    noise=0.02,
+    thinning="chance",
+    planes="all",
 )
 VIEW = View(eye=(1.6, -0.85, 1.0), target=(0.05, 0.02, 0.0), grid=None, axes=False)
 WALL = View(eye=(1.9, -1.9, 1.3), target=(0.0, -0.1, 0.0), grid=None, axes=False)

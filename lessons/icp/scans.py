@@ -20,7 +20,13 @@ from workbench.knobs import called, only
 
 RINGS, COLUMNS = 32, 900
 WIDTH = 1.2  # metres of the picture that large or small scans are shown wide
-LARGE = ("thinning", "voxel", "own_points", "seed", "planes")  # what becomes of scans of any size depends on these
+LARGE = (
+    "thinning",
+    "voxel",
+    "own_points",
+    "seed",
+    "planes",
+)  # what becomes of scans of any size depends on these
 
 
 def scans_of(params: Params) -> Scans:
@@ -30,7 +36,9 @@ def scans_of(params: Params) -> Scans:
         InputError: If an own file cannot be used, or only one of the two scans is given.
     """
     own = (params.target, params.source, params.truth) != (None, None, None)
-    scans = _own(params) if own else _lidar(params) if params.shape == "lidar" else _built_in(params)
+    scans = (
+        _own(params) if own else _lidar(params) if params.shape == "lidar" else _built_in(params)
+    )
     v_world, w_world = np.array(params.guess[:3]), np.array(params.guess[3:])
     T_start = scans.about_centre(w_world)  # the handle turns about the middle of the picture
     T_start[:3, 3] += scans.frame.R_world_file.T @ v_world / scans.frame.scale
@@ -82,15 +90,23 @@ def _driven(params: Params) -> Scans:
     T_truth = _true_motion(params)
     rng = np.random.default_rng(params.seed)
     p_target, p_source = lidar_pair(T_truth, rng, rings=RINGS, columns=COLUMNS, noise=params.noise)
-    return replace(_framed(*_thinned(p_target, p_source, params), "z", params.planes), T_truth=T_truth)
+    return replace(
+        _framed(*_thinned(p_target, p_source, params), "z", params.planes), T_truth=T_truth
+    )
 
 
 def _own(params: Params) -> Scans:
     if params.target is None or params.source is None:
-        raise InputError(f"own scans come in pairs: give both {called('target')} and {called('source')}")
+        raise InputError(
+            f"own scans come in pairs: give both {called('target')} and {called('source')}"
+        )
     for scan in (params.target, params.source):
         read_cloud(scan)  # so that a bad file is refused before anything else
-    T_truth = None if params.truth is None else read_pose(params.truth, params.target, params.source).copy()
+    T_truth = (
+        None
+        if params.truth is None
+        else read_pose(params.truth, params.target, params.source).copy()
+    )
     if T_truth is not None:
         T_truth[:3, 3] *= METRES[params.unit]
     files = params.target, params.source
@@ -107,7 +123,9 @@ def _read(target: Path, source: Path, params: Params, *_stamps: tuple[int, int])
     return _framed(*_thinned(p_target, p_source, params), params.up, params.planes)
 
 
-def _thinned(p_target: np.ndarray, p_source: np.ndarray, params: Params) -> tuple[np.ndarray, np.ndarray]:
+def _thinned(
+    p_target: np.ndarray, p_source: np.ndarray, params: Params
+) -> tuple[np.ndarray, np.ndarray]:
     """Thin both scans by the same voxels, and draw at most so many points of the source by chance."""
     if params.thinning == "voxel":
         size = params.voxel / 100.0 * extent(p_target, FAR)

@@ -27,16 +27,37 @@ class Params:
     """Two scans, a start, and how ICP matches and fits."""
 
     shape: Annotated[
-        Shape, Knob("The built-in shape: without symmetry, turning, sliding, or a street in a lidar's rings")
+        Shape,
+        Knob(
+            "The built-in shape: without symmetry, turning, sliding, or a street in a lidar's rings"
+        ),
     ] = "rabbit"
     start_angle: Annotated[
-        float, Knob("How far the built-in source starts turned away, about the vertical", 0, 180, unit="deg", step=1)
+        float,
+        Knob(
+            "How far the built-in source starts turned away, about the vertical",
+            0,
+            180,
+            unit="deg",
+            step=1,
+        ),
     ] = 35.0
-    start_shift: Annotated[float, Knob("How far it starts shifted along x", 0, 1, unit="m", step=0.01)] = 0.0
-    fit: Annotated[Fit, Knob("What each fit minimises, over which kind of motion")] = "point-to-point"
+    start_shift: Annotated[
+        float, Knob("How far it starts shifted along x", 0, 1, unit="m", step=0.01)
+    ] = 0.0
+    fit: Annotated[Fit, Knob("What each fit minimises, over which kind of motion")] = (
+        "point-to-point"
+    )
     gate: Annotated[GateName, Knob("Which matches a fit may use")] = "trimmed"
     keep: Annotated[
-        float, Knob("Share of the closest matches that trimming keeps", 0.3, 1, step=0.05, needs={"gate": ("trimmed",)})
+        float,
+        Knob(
+            "Share of the closest matches that trimming keeps",
+            0.3,
+            1,
+            step=0.05,
+            needs={"gate": ("trimmed",)},
+        ),
     ] = 0.9
     max_distance: Annotated[
         float,
@@ -57,22 +78,40 @@ class Params:
         ),
     ] = "spread"
     overlap: Annotated[
-        float, Knob("Share of the built-in source that the target saw too; not the lidar's", 0.4, 1, step=0.05)
+        float,
+        Knob(
+            "Share of the built-in source that the target saw too; not the lidar's",
+            0.4,
+            1,
+            step=0.05,
+        ),
     ] = 1.0
     noise: Annotated[float, Knob("Noise of each coordinate", 0, 0.03, unit="m", step=0.001)] = 0.002
-    outliers: Annotated[float, Knob("Share of source points that belong to nothing", 0, 0.5, step=0.05)] = 0.0
-    points: Annotated[int, Knob("Points of each built-in scan but the lidar's", 200, 20_000, step=100)] = 1500
+    outliers: Annotated[
+        float, Knob("Share of source points that belong to nothing", 0, 0.5, step=0.05)
+    ] = 0.0
+    points: Annotated[
+        int, Knob("Points of each built-in scan but the lidar's", 200, 20_000, step=100)
+    ] = 1500
     guess: Annotated[
         tuple[float, float, float, float, float, float],
-        Knob("Initial guess beside the start: place (m) and rotation vector (rad)", -3.2, 3.2, by=Gizmo(0.25)),
+        Knob(
+            "Initial guess beside the start: place (m) and rotation vector (rad)",
+            -3.2,
+            3.2,
+            by=Gizmo(0.25),
+        ),
     ] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz")] = None
     source: Annotated[Path | None, Knob("Own source scan, moved onto the target")] = None
-    truth: Annotated[Path | None, Knob("Known pose of the source in the target's frame: 4×4 or list of poses")] = None
+    truth: Annotated[
+        Path | None, Knob("Known pose of the source in the target's frame: 4×4 or list of poses")
+    ] = None
     up: Annotated[Up, Knob("Which axis of own scans points up", of_files=True)] = "z"
     unit: Annotated[Unit, Knob("Unit of the numbers in own files", of_files=True)] = "m"
     thinning: Annotated[
-        Thinning, Knob("Lidar and own scans: both by the means of voxels, or only the source, by chance")
+        Thinning,
+        Knob("Lidar and own scans: both by the means of voxels, or only the source, by chance"),
     ] = "voxel"
     voxel: Annotated[
         float,
@@ -86,7 +125,13 @@ class Params:
         ),
     ] = 0.2
     own_points: Annotated[
-        int, Knob("At most so many points of a lidar or own source are used, drawn by chance", 100, 50_000, step=100)
+        int,
+        Knob(
+            "At most so many points of a lidar or own source are used, drawn by chance",
+            100,
+            50_000,
+            step=100,
+        ),
     ] = 10_000
     seed: Annotated[int, Knob("Which points are sampled", 0, 99)] = 0
 
@@ -152,7 +197,9 @@ class Scans:
         if self.T_truth is None or not kept.any():
             return float("nan")
         off = self.p_target[indices[kept]] - apply(self.T_truth, self.p_source[kept])
-        return float(np.mean(np.einsum("ij,ij->i", off, off) <= (HOME_SPACINGS * self.spacing) ** 2))
+        return float(
+            np.mean(np.einsum("ij,ij->i", off, off) <= (HOME_SPACINGS * self.spacing) ** 2)
+        )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

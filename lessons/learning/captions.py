@@ -57,7 +57,12 @@ def _told(state: State) -> tuple[str, float, float, float]:
             if about.euler != 2 and now.updates == 0:
                 kind = f"{about.name} is not like a sphere (V − E + F = {about.euler}, not 2)"
                 text = f"{done}, a sphere: it has one piece, no hole and no border, and keeps that. {kind}. What will it do?"
-            return text, now.folded, SMOOTH if now.farthest <= WHOLE else -1.0, CRUMPLED  # never good without its ears
+            return (
+                text,
+                now.folded,
+                SMOOTH if now.farthest <= WHOLE else -1.0,
+                CRUMPLED,
+            )  # never good without its ears
         case Classified(), Clouds():
             plain, changed = shares_right(now, about)
             if now.updates == 0:
@@ -94,7 +99,9 @@ def _of_turns(params: Params, about: Turns, now: Regressed) -> str:
 
 def shares_right(now: Classified, about: Clouds) -> tuple[float, float]:
     """Return which shares of the test clouds are named rightly: as in training, and changed."""
-    plain, changed = (float((now.scores[name].argmax(axis=1) == about.of).mean()) for name in ("plain", "changed"))
+    plain, changed = (
+        float((now.scores[name].argmax(axis=1) == about.of).mean()) for name in ("plain", "changed")
+    )
     return plain, changed
 
 

@@ -18,7 +18,9 @@ REACH = (0.9, 3.1)  # from a camera, m: all discs lie between
 _FINE = 300
 
 
-def medium(p: Float[np.ndarray, "*n 2"]) -> tuple[Float[np.ndarray, "*n"], Float[np.ndarray, "*n 3"]]:
+def medium(
+    p: Float[np.ndarray, "*n 2"],
+) -> tuple[Float[np.ndarray, "*n"], Float[np.ndarray, "*n 3"]]:
     """Return density (1/m) and colour at points of the plane: every disc has darker and lighter slices."""
     density, color = np.zeros(p.shape[:-1]), np.zeros((*p.shape[:-1], 3))
     for (x, y, radius), own in zip(DISCS, COLORS, strict=True):

@@ -29,7 +29,9 @@ def run(
 ) -> Iterator[State]:
     """Yield the steps of learning one task."""
     functions = Functions(
-        rotation_from_six=rotation_from_six, chamfer_gradient=chamfer_gradient, ray_weights=ray_weights
+        rotation_from_six=rotation_from_six,
+        chamfer_gradient=chamfer_gradient,
+        ray_weights=ray_weights,
     )
     yield from steps(params, functions)
 

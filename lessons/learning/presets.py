@@ -197,14 +197,20 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 120.0,
                 "Nothing happens there: the neighbours of a quarter turn are asked for nearly the same number.",
             ),
-            (270.0, 360.0, "Signed, no turn is larger than 180°: 270° to the left is 90° to the right."),
+            (
+                270.0,
+                360.0,
+                "Signed, no turn is larger than 180°: 270° to the left is 90° to the right.",
+            ),
         ),
     ),
     Question(
         "predict-radius",
         "48 points learn from circles with radii from 0.5 m to 1.5 m, by the earth mover's loss of squares. What do they"
         " become?",
-        answer=lambda states: 0.0 if _radius(states)[1] < 0.02 else 1.0 if _radius(states)[1] < 0.2 else 2.0,
+        answer=lambda states: (
+            0.0 if _radius(states)[1] < 0.02 else 1.0 if _radius(states)[1] < 0.2 else 2.0
+        ),
         why=lambda states: (
             f"After {_updates(states)} a circle of radius {fixed(_radius(states)[0], 2)} m, spread"
             f" {fixed(_radius(states)[1], 3)} m. The mean of the partners makes a sum of"
@@ -243,7 +249,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 100.0,
                 "One of 32 points would hardly count in a mean. A maximum takes the largest, whoever has it.",
             ),
-            (60.0, 79.0, "So much is left where the points are averaged. A maximum does not share the votes out."),
+            (
+                60.0,
+                79.0,
+                "So much is left where the points are averaged. A maximum does not share the votes out.",
+            ),
             (
                 0.0,
                 4.0,
@@ -255,7 +265,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-views",
         "A field learns from 2 photographs, another from 24, by 225 updates each. The first matches the 2 it was"
         " shown with 37 dB. How does the second match its 24?",
-        answer=lambda states: 0.0 if _signals(states).trained < 32 else 1.0 if _signals(states).trained < 40 else 2.0,
+        answer=lambda states: (
+            0.0 if _signals(states).trained < 32 else 1.0 if _signals(states).trained < 40 else 2.0
+        ),
         why=lambda states: (
             f"With {fixed(_signals(states).trained, 1)} dB: more to explain, so each is explained less well. But views it"
             f" was never shown have {fixed(_signals(states).unseen, 1)} dB, and that is what counts."
@@ -268,7 +280,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 why="It has the same grid for twelve times as much to explain: each photograph gets less.",
             ),
             Choice(
-                "better", why="More photographs help with what was not shown. What was shown becomes harder to match."
+                "better",
+                why="More photographs help with what was not shown. What was shown becomes harder to match.",
             ),
         ),
     ),

@@ -46,7 +46,11 @@ def off(error: float) -> str:
     """Write a relative error with its sign."""
     if abs(error) < EXACT:
         return "exact"
-    return f"{'+' if error > 0 else ''}{percent(error)}" if abs(error) >= 1e-4 else "off by less than 0.01 %"
+    return (
+        f"{'+' if error > 0 else ''}{percent(error)}"
+        if abs(error) >= 1e-4
+        else "off by less than 0.01 %"
+    )
 
 
 def _interval(value: float, error: float) -> str:
@@ -74,7 +78,11 @@ def _faces(state: State, now: Sums) -> Caption:
     if now.count == 1:
         k = now.order[0]
         part = float(now.parts[k])
-        side = "minus, for the origin is in front of it" if part < 0 else "plus, for the origin is behind it"
+        side = (
+            "minus, for the origin is in front of it"
+            if part < 0
+            else "plus, for the origin is behind it"
+        )
         return Caption(
             "The triangle nearest to the origin: half the length of (b − a) × (c − a) is its area,"
             f" {area(subject, float(now.areas[k]))}; a · (b × c) / 6 is its tetrahedron, {volume(subject, part)}: {side}."
@@ -103,7 +111,9 @@ def _all_faces(state: State, now: Sums) -> Caption:
     text = f"All {len(subject.faces):,} triangles: area {area(subject, now.area)} ({off(state.area_error)})"
     if not np.isfinite(subject.volume):
         return Caption(f"{text}. It encloses nothing, so no volume is its own.")
-    text += f", volume {volume(subject, now.volume)} ({off(state.volume_error)}). {_origin(subject)}"
+    text += (
+        f", volume {volume(subject, now.volume)} ({off(state.volume_error)}). {_origin(subject)}"
+    )
     return Caption(text, "good" if right(state) else "wrong")
 
 
@@ -125,7 +135,11 @@ def _origin(subject: Subject) -> str:
 def _cells(state: State, now: Cells) -> Caption:
     subject, n = state.subject, now.across[-1]
     full = int(np.count_nonzero(now.bits))
-    whole = "the true area" if state.params.voxels is None else "the area by marching through all voxels"
+    whole = (
+        "the true area"
+        if state.params.voxels is None
+        else "the area by marching through all voxels"
+    )
     text = f"{n} cells across, {full:,} full: volume {volume(subject, now.volumes[-1])} ({off(state.volume_error)})."
     text += f" The walls between full and empty: {area(subject, now.areas[-1])}"
     text += f", {fixed(now.areas[-1] / subject.area, 2)} times {whole}"
@@ -146,7 +160,11 @@ def _throws(state: State, now: Throws) -> Caption:
     held = abs(value - subject.volume) <= SURE * error
     text += f" The interval (95 %) {'holds' if held else 'misses'} the truth."
     if state.params.draw != "random":
-        anew = " All are thrown anew, one in each small cube." if state.params.draw == "stratified" else ""
+        anew = (
+            " All are thrown anew, one in each small cube."
+            if state.params.draw == "stratified"
+            else ""
+        )
         wide = ": too wide here" if n >= ENOUGH else ""
         return Caption(f"{text} It is that of random throws{wide}.{anew}")
     return Caption(text + _peeked(state, len(now.estimates.counts)))
@@ -193,7 +211,9 @@ def _balls(now: Balls) -> Caption:
     text = f"{d} dimensions: {now.throws:,} throws, {counted(hits, 'hit')}; the ball fills {_share(share)} of its cube"
     if hits == 0:
         return Caption(f"{text}. The estimate is 0, and its interval too.")
-    return Caption(f"{text}. The volume is known to ±{percent(SURE * np.sqrt((1 - hits / now.throws) / hits))} (95 %).")
+    return Caption(
+        f"{text}. The volume is known to ±{percent(SURE * np.sqrt((1 - hits / now.throws) / hits))} (95 %)."
+    )
 
 
 def _share(share: float) -> str:
@@ -208,7 +228,9 @@ def _finer(state: State) -> Caption:
             f"{study.faces[-1]:.0f} sectors, all vertices on the cylinder: with as many rings {fixed(straight, 2)} times its"
             f" area, with sectors² rings {fixed(square, 2)} times, with sectors³ rings {fixed(cube, 1)} times."
         )
-    (first_area, area), (first_volume, volume) = (values[[-2, -1]] for values in study.errors.values())
+    (first_area, area), (first_volume, volume) = (
+        values[[-2, -1]] for values in study.errors.values()
+    )
     return Caption(
         f"{study.faces[-1]:,.0f} faces: the area is {percent(area)} too small, the volume {percent(volume)}. Edges half as"
         f" long divide the errors by {fixed(first_area / area, 1)} and {fixed(first_volume / volume, 1)}.",

@@ -75,14 +75,23 @@ def run(
             volume_by_chance=volume_by_chance,
         )
     elif params.method == "lines":
-        found = shoot_lines(subject.p, subject.faces, _ball(subject), counts_to(min(params.throws, MOST_LINES)), rng)
+        found = shoot_lines(
+            subject.p, subject.faces, _ball(subject), counts_to(min(params.throws, MOST_LINES)), rng
+        )
     else:
         found = raise_dimension(params.dimension, params.throws, rng)
     state = None
     for now in found:
         state = State(params=params, subject=subject, now=now)
-        if isinstance(now, Throws) and params.draw == "random" and now.estimates.counts[-1] == counts[-1]:
-            state = replace(state, peeked=peeked(subject.volume / float(np.prod(subject.high - subject.low)), counts))
+        if (
+            isinstance(now, Throws)
+            and params.draw == "random"
+            and now.estimates.counts[-1] == counts[-1]
+        ):
+            state = replace(
+                state,
+                peeked=peeked(subject.volume / float(np.prod(subject.high - subject.low)), counts),
+            )
         yield state
     study = study_of(params)
     if state is not None and study is not None:
@@ -103,7 +112,9 @@ def counts_to(most: int, draw: Draw = "random") -> tuple[int, ...]:
 
 def _bands(faces: int) -> tuple[int, ...]:
     """Return no face, one, and ever more until all are there."""
-    return tuple(np.unique([0, 1, *np.rint(np.linspace(0, faces, BANDS + 1)[1:]).astype(int)]).tolist())
+    return tuple(
+        np.unique([0, 1, *np.rint(np.linspace(0, faces, BANDS + 1)[1:]).astype(int)]).tolist()
+    )
 
 
 def _ball(subject: Subject) -> tuple[np.ndarray, float]:

@@ -53,7 +53,10 @@ def sphere(subdivisions: int) -> Measurable:
 @functools.lru_cache(maxsize=16)
 def torus(subdivisions: int) -> Measurable:
     """Return a torus around z, its grid halved so many times."""
-    made, corner = surfaces.torus(16 * 4**subdivisions, RING, TUBE), np.array([RING + TUBE, RING + TUBE, TUBE])
+    made, corner = (
+        surfaces.torus(16 * 4**subdivisions, RING, TUBE),
+        np.array([RING + TUBE, RING + TUBE, TUBE]),
+    )
     return Measurable(
         p=made.p,
         faces=made.faces,
@@ -114,7 +117,9 @@ def lantern(sectors: int, rings: int) -> Measurable:
     """
     k, j = np.meshgrid(np.arange(rings + 1), np.arange(sectors), indexing="ij")
     turn = 2 * np.pi * (j + 0.5 * (k % 2)) / sectors
-    p = np.stack([RADIUS * np.cos(turn), RADIUS * np.sin(turn), k / rings - 0.5], axis=-1).reshape(-1, 3)
+    p = np.stack([RADIUS * np.cos(turn), RADIUS * np.sin(turn), k / rings - 0.5], axis=-1).reshape(
+        -1, 3
+    )
     k, j = (index[:rings].ravel() for index in (k, j))
     odd, row, above = k % 2, k * sectors, (k + 1) * sectors
     after, slip = (j + 1) % sectors, (j + k % 2) % sectors

@@ -155,7 +155,13 @@ def _tenth(states: Sequence[State]) -> float:
 
 def _tenth_why(states: Sequence[State]) -> str:
     now = as_a(Throws, states[-1].now)
-    share = dict(zip(now.estimates.counts, np.array(now.estimates.errors) / states[-1].subject.volume, strict=True))
+    share = dict(
+        zip(
+            now.estimates.counts,
+            np.array(now.estimates.errors) / states[-1].subject.volume,
+            strict=True,
+        )
+    )
     return (
         f"{brief(_tenth(states), 2)} times: the standard error falls from {percent(share[1000])} at 1,000 throws to"
         f" {percent(share[100_000])} at 100,000, with one over the root of their number."
@@ -204,19 +210,29 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="times",
         tolerance=20.0,
         wrong=(
-            (9.0, 11.0, "That would hold if the error fell with the number of throws. It falls with the root of it."),
+            (
+                9.0,
+                11.0,
+                "That would hold if the error fell with the number of throws. It falls with the root of it.",
+            ),
             (
                 900.0,
                 1100.0,
                 "Three dimensions do not enter: a throw is in or out, and only the number of throws counts.",
             ),
-            (3.0, 3.5, "The root of ten is what ten times as many throws gain. You need the square."),
+            (
+                3.0,
+                3.5,
+                "The root of ten is what ten times as many throws gain. You need the square.",
+            ),
         ),
     ),
     Question(
         "predict-hits",
         "100,000 points are thrown into a cube of ten dimensions. How many land in the ball that touches all its sides?",
-        answer=lambda states: float(np.argmin(np.abs(np.log10([25_000, 2_500, 250, 2.5]) - np.log10(_hits(states))))),
+        answer=lambda states: float(
+            np.argmin(np.abs(np.log10([25_000, 2_500, 250, 2.5]) - np.log10(_hits(states))))
+        ),
         why=lambda states: (
             f"{_hits(states):,}. The corners take over: at ten dimensions the ball fills a quarter of a per cent of its"
             " cube, and at twenty no throw finds it."
@@ -227,9 +243,15 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "some 25,000",
                 why="In five dimensions it is 16,000 already. With every dimension more of the cube lies in its corners.",
             ),
-            Choice("some 2,500", why="That is about seven or eight dimensions. Each further one takes more than half."),
+            Choice(
+                "some 2,500",
+                why="That is about seven or eight dimensions. Each further one takes more than half.",
+            ),
             "some 250",
-            Choice("two or three", why="That is about fifteen dimensions. π⁵ / 120 / 2¹⁰ is what a ball of ten fills."),
+            Choice(
+                "two or three",
+                why="That is about fifteen dimensions. π⁵ / 120 / 2¹⁰ is what a ball of ten fills.",
+            ),
         ),
     ),
     Question(
@@ -254,7 +276,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-lantern",
         "A cylinder is made of 2,662 triangles: 11 vertices in a ring, 121 bands, every vertex on the cylinder. How large is"
         " their area?",
-        answer=lambda states: float(np.argmin(np.abs(np.array([0.97, 1.03, 4.93]) - _lantern_share(states)))),
+        answer=lambda states: float(
+            np.argmin(np.abs(np.array([0.97, 1.03, 4.93]) - _lantern_share(states)))
+        ),
         why=lambda states: (
             f"{fixed(_lantern_share(states), 2)} times that of the cylinder. The bands are so low that their triangles lie"
             " almost level: points on a surface do not make triangles along it."

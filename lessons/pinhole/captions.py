@@ -22,14 +22,18 @@ def caption(state: State) -> Caption:
     """
     wrong, params = blame(state), state.params
     text = _STAGES[state.now.stage](state) + (wrong or _remark(state))
-    return Caption(text, "wrong" if wrong and params.mistake == "none" and params.k_follows else "info")
+    return Caption(
+        text, "wrong" if wrong and params.mistake == "none" and params.k_follows else "info"
+    )
 
 
 def blame(state: State) -> str:
     """Return what is wrong at this stage, with its size; nothing while all is right."""
     params, now = state.params, state.now
     back = back_error(state)
-    moved = now.stage == "camera" and not np.allclose(now.p_camera, apply(state.shot.T_camera_world, now.p_world))
+    moved = now.stage == "camera" and not np.allclose(
+        now.p_camera, apply(state.shot.T_camera_world, now.p_world)
+    )
     if not (moved or state.error > VISIBLE or state.missed + state.false > 0 or back > MISPLACED):
         return ""
     if params.mistake != "none":
@@ -44,7 +48,9 @@ def blame(state: State) -> str:
     if state.missed:
         parts.append(f"{state.missed} of {len(now.p_world)} points lose their pixel")
     if state.false:
-        parts.append(f"{counted(state.false, 'point has', 'points have')} a pixel that the true camera does not give")
+        parts.append(
+            f"{counted(state.false, 'point has', 'points have')} a pixel that the true camera does not give"
+        )
     if not parts and back > MISPLACED:
         parts.append(f"the points that come back are off by {length(back)} (median)")
     size = "; ".join(parts)
@@ -100,11 +106,19 @@ def _distort(state: State) -> str:
     moved = f * np.linalg.norm(state.now.xy_bent - state.now.xy, axis=1)
     if not any(state.shot.lens) and not (moved > VISIBLE).any():
         return "A lens without distortion: k₁ = k₂ = p₁ = p₂ = 0, and (x′, y′) = (x, y)."
-    most = f"the farthest goes {pixels(np.nanmax(moved))}" if np.isfinite(moved).any() else "nothing is"
+    most = (
+        f"the farthest goes {pixels(np.nanmax(moved))}"
+        if np.isfinite(moved).any()
+        else "nothing is"
+    )
     if not np.isfinite(moved[k]):
         return f"The followed point has no place on the lens; {most}."
     nearer = _norm(state.now.xy_bent[k]) < _norm(state.now.xy[k])
-    where = "" if moved[k] < 0.05 else f", {'nearer to' if nearer else 'further from'} the principal point"
+    where = (
+        ""
+        if moved[k] < 0.05
+        else f", {'nearer to' if nearer else 'further from'} the principal point"
+    )
     return (
         f"The lens moves the point {pixels(moved[k])}{where}: (x′, y′) = {coordinates(state.now.xy_bent[k], 3)};"
         f" {most}. It acts here, before f."
@@ -114,7 +128,9 @@ def _distort(state: State) -> str:
 def _pixels(state: State) -> str:
     k, h, w = state.params.point, *state.shot.picture.shape[:2]
     inside = np.all((state.now.uv > -0.5) & (state.now.uv < np.array([w, h]) - 0.5), axis=1)
-    many = f"{np.count_nonzero(inside)} of {len(state.now.uv)} points fall into the {w} × {h} picture."
+    many = (
+        f"{np.count_nonzero(inside)} of {len(state.now.uv)} points fall into the {w} × {h} picture."
+    )
     if not np.isfinite(state.now.uv[k]).all():
         return f"K makes pixels of what is left; the followed point has none. {many}"
     u, v = (fixed_or_power(value, 1) for value in state.now.uv[k])
@@ -146,7 +162,9 @@ def _remark(state: State) -> str:
     shot, params, stage = state.shot, state.params, state.now.stage
     fold, bare = invertible_radius(shot.lens), " Without the lens" if any(shot.lens) else ""
     if stage == "distort" and fold < 1.4:
-        return f" Beyond radius {fixed(fold, 3)} this model folds back; what lies there has no pixel."
+        return (
+            f" Beyond radius {fixed(fold, 3)} this model folds back; what lies there has no pixel."
+        )
     if stage == "pixels" and params.dolly >= 10 and math.isfinite(shot.gap):
         start = f"{bare} no" if bare else " No"
         return f"{start} corner in front of it is more than {pixels(shot.gap)} from its orthographic pixel."

@@ -62,7 +62,11 @@ def compare(shot: Shot, now: pinhole.State) -> tuple[float, int, int, int]:
         got = now.uv
     seen, found = np.isfinite(true).all(axis=1), np.isfinite(got).all(axis=1)
     both = seen & found
-    error = float(np.median(np.linalg.norm(got[both] - true[both], axis=1))) if both.any() else float("nan")
+    error = (
+        float(np.median(np.linalg.norm(got[both] - true[both], axis=1)))
+        if both.any()
+        else float("nan")
+    )
     return error, int(found.sum()), int((seen & ~found).sum()), int((found & ~seen).sum())
 
 
@@ -80,6 +84,9 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=2,
-    sweeps=(Sweep("dolly", (0.5, 1.0, 2.0, 4.0, 10.0, 50.0)), Sweep("k1", (-0.6, -0.3, 0.0, 0.3, 0.6))),
+    sweeps=(
+        Sweep("dolly", (0.5, 1.0, 2.0, 4.0, 10.0, 50.0)),
+        Sweep("k1", (-0.6, -0.3, 0.0, 0.3, 0.6)),
+    ),
     telling="The followed point",
 )

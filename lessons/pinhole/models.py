@@ -6,7 +6,16 @@ from itertools import islice
 
 import numpy as np
 
-from lessons.pinhole.following import STAGES, Center, Distort, Project, Stage, State, follow, onto_pixels
+from lessons.pinhole.following import (
+    STAGES,
+    Center,
+    Distort,
+    Project,
+    Stage,
+    State,
+    follow,
+    onto_pixels,
+)
 from lessons.pinhole.shot import wires
 from lessons.pinhole.state import Params, Shot
 from workbench.data.views.street import street
@@ -40,15 +49,27 @@ def pixels(model: Model, stage: Stage, K: np.ndarray, p_world: np.ndarray) -> np
     Before it has pixels itself, the true K makes them of the places on the plane one metre in front.
     """
     now = next(state for state in model(p_world) if state.stage in (stage, "pixels"))
-    return now.uv if now.reached("pixels") else onto_pixels(now.xy_bent if now.reached("distort") else now.xy, K)
+    return (
+        now.uv
+        if now.reached("pixels")
+        else onto_pixels(now.xy_bent if now.reached("distort") else now.xy, K)
+    )
 
 
-def model_of(params: Params, shot: Shot, project: Project, distort: Distort, camera_center: Center) -> Model:
+def model_of(
+    params: Params, shot: Shot, project: Project, distort: Distort, camera_center: Center
+) -> Model:
     """Return the calculation with the given functions, changed by the mistake that is asked for."""
     K = shot.K if params.k_follows else shot.K_first
     T, f = shot.T_camera_world, K[0, 0]
     model = partial(
-        follow, T_camera_world=T, K=K, lens=shot.lens, project=project, distort=distort, camera_center=camera_center
+        follow,
+        T_camera_world=T,
+        K=K,
+        lens=shot.lens,
+        project=project,
+        distort=distort,
+        camera_center=camera_center,
     )
     match params.mistake:
         case "pose inverted":
@@ -60,7 +81,9 @@ def model_of(params: Params, shot: Shot, project: Project, distort: Distort, cam
         case "row before column":
             return partial(model, K=SWAP @ K)
         case "lens on pixels":
-            return partial(model, distort=lambda xy, k1, k2, p1, p2: distort(f * xy, k1, k2, p1, p2) / f)
+            return partial(
+                model, distort=lambda xy, k1, k2, p1, p2: distort(f * xy, k1, k2, p1, p2) / f
+            )
         case "t for the centre":
             return partial(model, camera_center=lambda T_camera_world: T_camera_world[:3, 3].copy())
         case "ray length for depth":
@@ -92,7 +115,9 @@ def overlaid(shot: Shot, model: Model, stage: Stage, point: int) -> np.ndarray:
     )  # fmt: skip
     uv = to_pixels(street().points)
     spots = [_flat(uv, "source", 3), true, _flat(uv[[point]], "highlight", 7)]
-    return _over(shot.picture, drawn, *(render([spot], np.eye(4), np.eye(3), w, h) for spot in spots))
+    return _over(
+        shot.picture, drawn, *(render([spot], np.eye(4), np.eye(3), w, h) for spot in spots)
+    )
 
 
 def _over(picture: np.ndarray, *layers: Image) -> np.ndarray:

@@ -169,7 +169,9 @@ def _behind_why(states: Sequence[State]) -> str:
 def _centre_answer(states: Sequence[State]) -> float:
     T = states[-1].shot.T_camera_world
     places = (T[:3, 3], -T[:3, 3])
-    return next((float(i) for i, p in enumerate(places) if np.linalg.norm(p - camera_center(T)) < 0.1), 2.0)
+    return next(
+        (float(i) for i, p in enumerate(places) if np.linalg.norm(p - camera_center(T)) < 0.1), 2.0
+    )
 
 
 def _centre_why(states: Sequence[State]) -> str:
@@ -186,7 +188,9 @@ def shift_of_vanishing(states: Sequence[State]) -> float:
     shot = states[-1].shot
     R, t = shot.T_camera_world[:3, :3], shot.T_camera_world[:3, 3]
     stepped = motion(R, t - np.array([2.0, 0.0, 0.0]))
-    return float((vanishing_points(np.array([[0.0, 1.0, 0.0]]), stepped, shot.K) - shot.vanishing)[0, 0])
+    return float(
+        (vanishing_points(np.array([[0.0, 1.0, 0.0]]), stepped, shot.K) - shot.vanishing)[0, 0]
+    )
 
 
 def _rails_why(states: Sequence[State]) -> str:
@@ -207,7 +211,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-dolly",
         "The camera backs off to three times its distance from the crate, and f becomes three times as long. The crate"
         " keeps its size. What does the tower behind it do in the picture?",
-        answer=lambda states: 0.0 if tower_ratio(states) > 1.05 else 2.0 if tower_ratio(states) < 0.95 else 1.0,
+        answer=lambda states: (
+            0.0 if tower_ratio(states) > 1.05 else 2.0 if tower_ratio(states) < 0.95 else 1.0
+        ),
         why=_dolly_why,
         params=DOLLY,
         choices=(
@@ -216,7 +222,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "It keeps its size too",
                 "It would if it stood at the crate's distance. Size goes with f / Z, and Z is another one for the tower.",
             ),
-            Choice("It shrinks", "It would if only the camera moved. The focal length has grown three times as well."),
+            Choice(
+                "It shrinks",
+                "It would if only the camera moved. The focal length has grown three times as well.",
+            ),
         ),
         step=PIXELS,
     ),
@@ -246,9 +255,13 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         why=_centre_why,
         params=Params(camera=(2.0, -4.0, 2.5), target=(0.0, 8.0, 1.0)),
         choices=(
-            Choice("At t", "t is not a place in the world: it is the world's origin, given in the camera's frame."),
             Choice(
-                "At −t", "It would be if the camera's axes were the world's. It is turned, so −t has to be turned back."
+                "At t",
+                "t is not a place in the world: it is the world's origin, given in the camera's frame.",
+            ),
+            Choice(
+                "At −t",
+                "It would be if the camera's axes were the world's. It is turned, so −t has to be turned back.",
             ),
             Choice("At neither of the two"),
         ),
@@ -257,7 +270,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "predict-rails",
         "The camera steps 2 m to its right without turning. Where does the point go in which the rails seem to meet?",
-        answer=lambda states: 1.0 if abs(shift := shift_of_vanishing(states)) < 0.5 else 0.0 if shift < 0 else 2.0,
+        answer=lambda states: (
+            1.0 if abs(shift := shift_of_vanishing(states)) < 0.5 else 0.0 if shift < 0 else 2.0
+        ),
         why=_rails_why,
         params=RAILS,
         choices=(
@@ -299,7 +314,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "That is the middle of the new picture. The crop has moved the principal point away from the middle.",
             ),
             (79.0, 80.5, "The picture was halved, but 60 columns are missing at the left too."),
-            (99.0, 100.5, "The crop is right. Then the picture was halved, and with it all its coordinates."),
+            (
+                99.0,
+                100.5,
+                "The crop is right. Then the picture was halved, and with it all its coordinates.",
+            ),
             (159.0, 160.0, "K must follow what is done to the picture: this is the old one."),
         ),
     ),

@@ -48,7 +48,9 @@ def _shot(params: Params) -> Shot:
     T_near = look_at(p_world_eye, p_world_target)
     K_near = intrinsics(params.f, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
     T_camera_world, K_first = dolly(T_near, K_near, distance, params.dolly)
-    photo = render(street_items(), T_camera_world, K_first, WIDTH, HEIGHT, lens, background=(238, 243, 248))
+    photo = render(
+        street_items(), T_camera_world, K_first, WIDTH, HEIGHT, lens, background=(238, 243, 248)
+    )
     picture = _edited(photo.colors, edit)
     K, K_before = _edited_intrinsics(K_first, edit), _edited_intrinsics(K_near, edit)
     points = street().points
@@ -66,7 +68,9 @@ def _shot(params: Params) -> Shot:
         tower_before=_height(TOWER_EDGE, T_near, K_before, lens),
         ball_ratio=_ball_ratio(T_camera_world, K_first),
         vanishing=vanishing_points(np.array([[0.0, 1.0, 0.0]]), T_camera_world, K, lens)[0],
-        gaps=np.array([_gap(*dolly(T_near, K_near, distance, by), distance * by) for by in FACTORS]),
+        gaps=np.array(
+            [_gap(*dolly(T_near, K_near, distance, by), distance * by) for by in FACTORS]
+        ),
         gap=_gap(T_camera_world, K_first, distance * params.dolly),
     )
 
@@ -105,7 +109,11 @@ def _height(ends: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray, lens: D
 def _ball_ratio(T_camera_world: np.ndarray, K: np.ndarray) -> float:
     """Measure the outline's longest and shortest radius; NaN where the ball's middle is not in the picture."""
     u, v = project(BALL_CENTER[None], T_camera_world, K)[0]
-    inside = depths(BALL_CENTER[None], T_camera_world)[0] > 1.01 * BALL_RADIUS and 0 < u < WIDTH and 0 < v < HEIGHT
+    inside = (
+        depths(BALL_CENTER[None], T_camera_world)[0] > 1.01 * BALL_RADIUS
+        and 0 < u < WIDTH
+        and 0 < v < HEIGHT
+    )
     if not inside:
         return float("nan")
     uv = project(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 720), T_camera_world, K)
@@ -119,6 +127,8 @@ def _gap(T_camera_world: np.ndarray, K: np.ndarray, subject_depth: float) -> flo
     K_flat = K.copy()
     K_flat[:2, :2] /= subject_depth
     corners = street().edges.reshape(-1, 3)
-    miss = project(corners, T_camera_world, K) - project_orthographic(corners, T_camera_world, K_flat)
+    miss = project(corners, T_camera_world, K) - project_orthographic(
+        corners, T_camera_world, K_flat
+    )
     far = np.linalg.norm(miss, axis=1)
     return float(np.nanmax(far)) if np.isfinite(far).any() else float("nan")

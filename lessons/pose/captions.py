@@ -33,15 +33,24 @@ def caption(state: State) -> Caption:
             assert now.stop is not None
             text = f"Stop after {counted(now.steps, 'step')}: {now.stop.message}."
             if state.T is None:
-                return Caption(f"{text} It is wrong: without a pose there is nothing to refine.", "wrong")
+                return Caption(
+                    f"{text} It is wrong: without a pose there is nothing to refine.", "wrong"
+                )
             return _end(state, f"{text} RMS error in the picture {_px(state.rms)}.{_off(state)}")
         case Searched(phase="choose" | "solved" | "step") as now:
-            text = {"choose": _choose, "solved": _solved, "step": _step}[now.phase](state, now) + _off(state)
-            return Caption(text) if now.phase == "step" or state.params.refine else _end(state, text)
+            text = {"choose": _choose, "solved": _solved, "step": _step}[now.phase](
+                state, now
+            ) + _off(state)
+            return (
+                Caption(text) if now.phase == "step" or state.params.refine else _end(state, text)
+            )
         case Searched() as now:
             tone = "wrong" if now.phase == "root" and state.T is None else "info"
             return Caption(
-                {"rays": _rays, "quartic": _quartic, "root": _root, "both": _both}[now.phase](state, now), tone
+                {"rays": _rays, "quartic": _quartic, "root": _root, "both": _both}[now.phase](
+                    state, now
+                ),
+                tone,
             )
         case _:
             return _sampled(state, state.now)
@@ -51,7 +60,9 @@ def _end(state: State, text: str) -> Caption:
     if state.subject.T_true is not None:
         return Caption.verdict(text, right=state.right)
     guessed = state.params.focal == GUESSED_FOCAL
-    return Caption(f"{text} f = {pixels(GUESSED_FOCAL)} is a guess: set your camera's." if guessed else text)
+    return Caption(
+        f"{text} f = {pixels(GUESSED_FOCAL)} is a guess: set your camera's." if guessed else text
+    )
 
 
 def _given(state: State) -> str:
@@ -62,7 +73,9 @@ def _given(state: State) -> str:
         given = f"{n} points of your own and their pixels."
         if params.focal == GUESSED_FOCAL:
             ask = f"What is its focal length? Until you set it, {pixels(params.focal)} is taken as a guess"
-            return f"{given} Where was your camera? {ask}, and ({u:g}, {v:g}) as the principal point."
+            return (
+                f"{given} Where was your camera? {ask}, and ({u:g}, {v:g}) as the principal point."
+            )
         return (
             f"{given} Where was your camera, with the focal length that you say, {pixels(params.focal)}, and the principal"
             f" point ({u:g}, {v:g})?"
@@ -100,7 +113,11 @@ def _root(state: State, now: Searched) -> str:
     if state.T is None:
         return f"Solution {k} of {len(now.lengths)}: its pose holds numbers that are not finite. It is wrong."
     miss = rms(subject.pixel_errors(state.T)[:3])
-    sees = "exactly where they were seen" if miss < SEES_EXACTLY else f"{_px(miss)} from where they were seen"
+    sees = (
+        "exactly where they were seen"
+        if miss < SEES_EXACTLY
+        else f"{_px(miss)} from where they were seen"
+    )
     rays = ", ".join(length(s) for s in now.lengths[k - 1])
     where = coordinates(subject.frame.shown(camera_center(state.T)), 2)
     return (
@@ -118,9 +135,7 @@ def _both(state: State, now: Searched) -> str:
 
 def _choose(state: State, now: Searched) -> str:
     if state.params.method == "IPPE":
-        return (
-            f"Both refined: they miss the points by {_misses(state, now)}, root mean square. The better one is taken."
-        )
+        return f"Both refined: they miss the points by {_misses(state, now)}, root mean square. The better one is taken."
     if len(now.candidates) == 1:
         return f"The fourth point agrees with the only solution to {_misses(state, now)}."
     cameras = f"{COUNTS[len(now.candidates)]} cameras"
@@ -128,7 +143,10 @@ def _choose(state: State, now: Searched) -> str:
 
 
 def _solved(state: State, now: Searched) -> str:
-    n, controls = len(state.subject.p_shown), "three" if is_flat(state.subject.given.p_world) else "four"
+    n, controls = (
+        len(state.subject.p_shown),
+        "three" if is_flat(state.subject.given.p_world) else "four",
+    )
     text = {
         "DLT": f"The linear transform: a 3×4 matrix from all {n} points at once, and the rotation nearest to its left",
         "EPnP": f"EPnP: all {n} points are weighted sums of {controls} control points, which are put before the camera so"
@@ -139,7 +157,10 @@ def _solved(state: State, now: Searched) -> str:
 
 
 def _step(state: State, now: Searched) -> str:
-    part = f", of which {fixed(now.share, 4).rstrip('0')} is taken, as more would raise the error" * (now.share < 1.0)
+    part = (
+        f", of which {fixed(now.share, 4).rstrip('0')} is taken, as more would raise the error"
+        * (now.share < 1.0)
+    )
     return f"Gauss-Newton step {now.steps}{part}: RMS error in the picture {_px(state.rms)}."
 
 
@@ -156,7 +177,10 @@ def _sampled(state: State, now: ransac.State) -> Caption:
             else Caption(f"{text} It is wrong.", "wrong")
         )
     wrong = int(state.subject.given.is_outlier[now.sample].sum())
-    truth = f" In truth {COUNTS[wrong]} of them {'is an outlier' if wrong == 1 else 'are outliers'}." * known
+    truth = (
+        f" In truth {COUNTS[wrong]} of them {'is an outlier' if wrong == 1 else 'are outliers'}."
+        * known
+    )
     needed = counted(int(min(now.needed, 500)), "sample")
     return Caption(
         {
@@ -174,14 +198,21 @@ def _sampled(state: State, now: ransac.State) -> Caption:
 def _repeated(state: State, now: Repeated) -> Caption:
     n, right = now.pictures, int(np.count_nonzero(state.subject.near(now.degrees, now.metres)))
     if not len(now.Ts):
-        return Caption(f"In none of {n} other pictures, with other noise, is there a solution: all are wrong.", "wrong")
+        return Caption(
+            f"In none of {n} other pictures, with other noise, is there a solution: all are wrong.",
+            "wrong",
+        )
     turn, centre = angle(float(np.median(now.degrees))), length(float(np.median(now.metres)))
     text = f"The same in {n} other pictures, with other noise: half of the rotations are within {turn}, half of the"
     text += f" centres within {centre}."
     if now.swapped:
         text += f" In {percent(now.swapped / n, 0)} the wrong one of the two poses fitted better."
     if now.counts is not None:
-        shares = ", ".join(f"{percent(k / TRIPLES, 1)} {word}" for k, word in zip(now.counts, COUNTS, strict=True) if k)
+        shares = ", ".join(
+            f"{percent(k / TRIPLES, 1)} {word}"
+            for k, word in zip(now.counts, COUNTS, strict=True)
+            if k
+        )
         text += f" Of {TRIPLES:,} random triples have so many solutions: {shares}."
     text += f" {right} of {n} are right." if right < n else f" All {n} are right."
     if now.anew is not None:

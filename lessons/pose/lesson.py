@@ -66,7 +66,10 @@ def run(
 
 
 def first_pose(
-    params: Params, subject: Subject, pose_from_distances: PoseFromDistances, choose_pose: ChoosePose
+    params: Params,
+    subject: Subject,
+    pose_from_distances: PoseFromDistances,
+    choose_pose: ChoosePose,
 ) -> Iterator[Searched]:
     """Return the steps to a first pose by the method of the params.
 
@@ -78,7 +81,9 @@ def first_pose(
         return by_three_points(p, xy, pose_from_distances, choose_pose)
     if params.method == "IPPE":
         if not is_flat(p):
-            raise InputError("IPPE is for points of one plane: take the marker, or a box of thickness 0")
+            raise InputError(
+                "IPPE is for points of one plane: take the marker, or a box of thickness 0"
+            )
         return by_plane(p, xy, choose_pose)
     if params.method == "DLT" and len(p) < 6:
         raise InputError(f"the direct linear transform needs 6 points, and there are only {len(p)}")

@@ -169,10 +169,18 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         why=_most_why,
         params=FOUR,
         choices=(
-            Choice("one", why="Three laws of cosines are quadratic: of two lengths that fit, one is seldom ruled out."),
+            Choice(
+                "one",
+                why="Three laws of cosines are quadratic: of two lengths that fit, one is seldom ruled out.",
+            ),
             "two",
-            Choice("three", why="Roots of the quartic come and go in pairs, so an odd number is rare."),
-            Choice("four", why="A quartic has up to four roots. For most triples two of them are complex."),
+            Choice(
+                "three", why="Roots of the quartic come and go in pairs, so an odd number is rare."
+            ),
+            Choice(
+                "four",
+                why="A quartic has up to four roots. For most triples two of them are complex.",
+            ),
         ),
     ),
     Question(
@@ -193,7 +201,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 10.0,
                 "A large marker so turned is unambiguous. At 20 pixels noise hides the perspective that decides.",
             ),
-            (50.0, 60.0, "Half would be chance alone. Some perspective is left, and it decides more often than not."),
+            (
+                50.0,
+                60.0,
+                "Half would be chance alone. Some perspective is left, and it decides more often than not.",
+            ),
         ),
     ),
     Question(
@@ -213,7 +225,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 75.0,
                 "Twice the points, but not twice the samples: each further point halves the share of clean ones.",
             ),
-            (140.0, 225.0, "Each of the three further points halves the share of clean samples: 2 × 2 × 2."),
+            (
+                140.0,
+                225.0,
+                "Each of the three further points halves the share of clean samples: 2 × 2 × 2.",
+            ),
             (1000.0, 1400.0, "That squares 35. But one clean sample in 8 becomes one in 64."),
         ),
     ),
@@ -226,10 +242,14 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=FEW,
         choices=(
             Choice(
-                "fewer than 3 %", why="So it is from six points on. Four leave it a choice among mixes of four vectors."
+                "fewer than 3 %",
+                why="So it is from six points on. Four leave it a choice among mixes of four vectors.",
             ),
             "between 3 % and half of them",
-            Choice("more than half", why="Four points do determine a pose, and EPnP mostly finds the right mix."),
+            Choice(
+                "more than half",
+                why="Four points do determine a pose, and EPnP mostly finds the right mix.",
+            ),
         ),
     ),
     Question(
@@ -240,8 +260,14 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         why=_plane_why,
         params=PLANE,
         choices=(
-            Choice("by less than 2°", why="Refining goes down from where it starts, and here it starts anywhere."),
-            Choice("by 2° to 20°", why="This is not noise made larger: the matrix itself is not determined."),
+            Choice(
+                "by less than 2°",
+                why="Refining goes down from where it starts, and here it starts anywhere.",
+            ),
+            Choice(
+                "by 2° to 20°",
+                why="This is not noise made larger: the matrix itself is not determined.",
+            ),
             "by more: it means nothing",
         ),
     ),

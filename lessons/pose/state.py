@@ -35,18 +35,32 @@ class Params:
     target: Annotated[Target, Knob("What the camera looks at")] = "box"
     method: Annotated[Method, Knob("How its pose is computed")] = "P3P"
     points: Annotated[
-        int, Knob("How many points are known; of the street at most those in sight", 4, 200, needs=SPREAD)
+        int,
+        Knob(
+            "How many points are known; of the street at most those in sight", 4, 200, needs=SPREAD
+        ),
     ] = 20
     thickness: Annotated[
-        float, Knob("How thick the box is, as a share of its height; 0 is a plane", 0, 1, step=0.01, needs=BOX)
+        float,
+        Knob(
+            "How thick the box is, as a share of its height; 0 is a plane",
+            0,
+            1,
+            step=0.01,
+            needs=BOX,
+        ),
     ] = 1.0
     camera: Annotated[
         tuple[float, float, float],
         Knob("Where the camera is; drag its handle", -6, 6, unit="m", by=Gizmo(0.7),
              needs={"target": ("box", "street", "triangle")}),
     ] = (1.6, -2.6, 1.8)  # fmt: skip
-    distance: Annotated[float, Knob("How far the marker is, 0.1 m wide", 0.3, 10, unit="m", needs=MARKER)] = 1.0
-    tilt: Annotated[float, Knob("How far it is turned away", 0, 80, unit="deg", needs=MARKER)] = 40.0
+    distance: Annotated[
+        float, Knob("How far the marker is, 0.1 m wide", 0.3, 10, unit="m", needs=MARKER)
+    ] = 1.0
+    tilt: Annotated[float, Knob("How far it is turned away", 0, 80, unit="deg", needs=MARKER)] = (
+        40.0
+    )
     f: Annotated[
         float,
         Knob(
@@ -59,25 +73,34 @@ class Params:
             needs={"sightings": (None,)},
         ),
     ] = 800.0
-    noise: Annotated[float, Knob("Noise of each pixel coordinate (sigma)", 0, 3, unit="px", step=0.1)] = 1.0
-    outliers: Annotated[float, Knob("Share of points seen somewhere else", 0, 0.8, step=0.05, needs=SPREAD)] = 0.0
-    origin: Annotated[float, Knob("How far off the origin of the coordinates is", 0, 1000, unit="km", needs=SPREAD)] = (
-        0.0
-    )
+    noise: Annotated[
+        float, Knob("Noise of each pixel coordinate (sigma)", 0, 3, unit="px", step=0.1)
+    ] = 1.0
+    outliers: Annotated[
+        float, Knob("Share of points seen somewhere else", 0, 0.8, step=0.05, needs=SPREAD)
+    ] = 0.0
+    origin: Annotated[
+        float,
+        Knob("How far off the origin of the coordinates is", 0, 1000, unit="km", needs=SPREAD),
+    ] = 0.0
     centred: Annotated[
-        bool, Knob("Take points relative to their mean first, as one should", needs={"method": ("DLT",)})
+        bool,
+        Knob("Take points relative to their mean first, as one should", needs={"method": ("DLT",)}),
     ] = True
     refine: Annotated[
         bool,
-        Knob("Gauss-Newton steps on all points afterwards", needs={"method": ("P3P", "DLT", "SQPnP", "EPnP", "IPPE")}),
+        Knob(
+            "Gauss-Newton steps on all points afterwards",
+            needs={"method": ("P3P", "DLT", "SQPnP", "EPnP", "IPPE")},
+        ),
     ] = True
     inlier_pixels: Annotated[
         float, Knob("Points seen this near to where they should be are inliers", 0.5, 20, unit="px", step=0.5,
                     needs={"method": ("RANSAC",)})
     ] = 3.0  # fmt: skip
-    sightings: Annotated[Path | None, Knob("Own points instead: lines of X Y Z u v, metres and pixels (txt, csv)")] = (
-        None
-    )
+    sightings: Annotated[
+        Path | None, Knob("Own points instead: lines of X Y Z u v, metres and pixels (txt, csv)")
+    ] = None
     focal: Annotated[
         float,
         Knob(
@@ -199,7 +222,11 @@ class State:
             case Searched():
                 T = self.now.T
             case ransac.State():
-                T = self.now.best.estimate if self.now.best and self.now.estimate is None else self.now.estimate
+                T = (
+                    self.now.best.estimate
+                    if self.now.best and self.now.estimate is None
+                    else self.now.estimate
+                )
             case _:
                 T = None
         return T if T is not None and np.isfinite(T).all() else None
@@ -223,4 +250,6 @@ class State:
     @property
     def right(self) -> bool:
         """Whether it is right, as far as the truth is known."""
-        return self.subject.T_true is not None and bool(self.subject.near(*map(np.asarray, self.off)))
+        return self.subject.T_true is not None and bool(
+            self.subject.near(*map(np.asarray, self.off))
+        )

@@ -10,7 +10,9 @@ from workbench.scene import Caption
 
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven")
 
-BY_CHANCE = " So few of the most trusted vote for it that chance can explain it: it cannot end the run."
+BY_CHANCE = (
+    " So few of the most trusted vote for it that chance can explain it: it cannot end the run."
+)
 
 
 def caption(state: State) -> Caption:
@@ -28,9 +30,17 @@ def caption(state: State) -> Caption:
 
 def _sample(state: State) -> Caption:
     now, noun = state.now, state.subject.noun
-    how = "you picked" if state.chosen else "drawn by chance" if state.params.sampler == "uniform" else "drawn by trust"
+    how = (
+        "you picked"
+        if state.chosen
+        else "drawn by chance"
+        if state.params.sampler == "uniform"
+        else "drawn by trust"
+    )
     proportion = _proportion(state) if now.iteration == 1 else ""
-    return Caption(f"Sample {now.iteration}: {COUNTS[len(now.sample)]} {noun}, {how}.{_in_truth(state)}{proportion}")
+    return Caption(
+        f"Sample {now.iteration}: {COUNTS[len(now.sample)]} {noun}, {how}.{_in_truth(state)}{proportion}"
+    )
 
 
 def _in_truth(state: State) -> str:
@@ -61,7 +71,9 @@ def _model(state: State) -> Caption:
 def _inliers(state: State) -> Caption:
     now, trial, noun = state.now, sure(state.now.trial), state.subject.noun
     who = "Your sample" if state.chosen else f"Sample {now.iteration}"
-    text = f"{who}: {trial.count:,} of {len(trial.inliers):,} {noun} lie within {_limit(state)} of its"
+    text = (
+        f"{who}: {trial.count:,} of {len(trial.inliers):,} {noun} lie within {_limit(state)} of its"
+    )
     text += f" {state.subject.model.name}{_score(state, trial.score)}."
     if now.best is not None and trial.score <= now.best.score:
         text += f" The best so far has {_points(state, now.best)}: it stays."
@@ -111,9 +123,13 @@ def _stop(state: State) -> Caption:
     text += f"{now.best.count:,} of {len(now.best.inliers):,} {state.subject.noun} are within {_limit(state)}"
     text += f" of the {state.subject.model.name}"
     if not np.isfinite(state.best_error):
-        return Caption(f"{text}, RMS distance {_distance(state, now.best.rms)}.{_proportion(state)}")
+        return Caption(
+            f"{text}, RMS distance {_distance(state, now.best.rms)}.{_proportion(state)}"
+        )
     text += f". RMS error to the truth: RANSAC {_distance(state, state.best_error)}"
-    text += "".join(f", {rival.name} {_distance(state, rival.error)}" for rival in state.rivals) + "."
+    text += (
+        "".join(f", {rival.name} {_distance(state, rival.error)}" for rival in state.rivals) + "."
+    )
     return Caption.verdict(text, right=is_right(state), settled=now.stop is Stop.ENOUGH)
 
 
@@ -128,10 +144,18 @@ def _proportion(state: State) -> str:
     """Warn where the inlier distance and the size of somebody's own rows hardly belong together."""
     params, limit, unit = state.params, state.inlier_distance, state.subject.model.unit
     size = float(np.linalg.norm(np.ptp(state.subject.p, axis=0)))
-    if (params.cloud is None and params.matches is None) or size == 0.0 or size / 5000.0 <= limit <= size / 10.0:
+    if (
+        (params.cloud is None and params.matches is None)
+        or size == 0.0
+        or size / 5000.0 <= limit <= size / 10.0
+    ):
         return ""
     few = "few" if limit < size / 10.0 else "nearly all"
-    unsure = "Are the matches in pixels?" if unit == "px" else f"Is the cloud in {params.cloud_unit} (cloud_unit)?"
+    unsure = (
+        "Are the matches in pixels?"
+        if unit == "px"
+        else f"Is the cloud in {params.cloud_unit} (cloud_unit)?"
+    )
     return (
         f" Mind: the {state.subject.noun} extend over {_distance(state, size)}, so {few} of them can be expected within"
         f" {_limit(state)} of any {state.subject.model.name}. {unsure}"

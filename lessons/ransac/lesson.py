@@ -21,7 +21,13 @@ from workbench.algorithms.robust import HUBER, reweighted_fit
 from workbench.algorithms.robust.models import PLANE, from_points
 from workbench.algorithms.robust.ransac import Fit, Judge, iterations_needed, ransac
 from workbench.algorithms.robust.samplers import prosac_samples, uniform_samples
-from workbench.algorithms.robust.scores import Score, count_inliers, count_score, mlesac_score, msac_score
+from workbench.algorithms.robust.scores import (
+    Score,
+    count_inliers,
+    count_score,
+    mlesac_score,
+    msac_score,
+)
 from workbench.errors import InputError
 from workbench.geometry.shapes.lines_planes import plane_from_points
 from workbench.lesson import Lesson, Sweep
@@ -45,7 +51,9 @@ def run(
     rng = np.random.default_rng(params.seed)
     distance = params.inlier_pixels if subject.model.unit == "px" else params.inlier_distance
     model = subject.model
-    judge = Judge(p=subject.p, model=model, inlier_distance=distance, score=score_of(params, subject))
+    judge = Judge(
+        p=subject.p, model=model, inlier_distance=distance, score=score_of(params, subject)
+    )
     if model is PLANE:
         model = replace(PLANE, solve=from_points(checked(plane_from_points)))
         judge = counting(judge, count_inliers, decides=params.score == "count")
@@ -80,7 +88,11 @@ def run(
 
 def shown(params: Params, phase: str, iteration: int) -> bool:
     """Tell whether a part of a sample becomes a step."""
-    if params.steps == "every part" or iteration <= SHOWN_IN_PARTS or phase in ("best", "refit", "stop"):
+    if (
+        params.steps == "every part"
+        or iteration <= SHOWN_IN_PARTS
+        or phase in ("best", "refit", "stop")
+    ):
         return True
     return params.steps == "every sample" and phase in ("inliers", "degenerate")
 
@@ -88,16 +100,22 @@ def shown(params: Params, phase: str, iteration: int) -> bool:
 def score_of(params: Params, subject: Subject) -> Score:
     """Return the score that the params name. An outlier may be anywhere in the window of the model."""
     span = float(np.linalg.norm(subject.high - subject.low))
-    return {"count": count_score, "MSAC": msac_score, "MLESAC": partial(mlesac_score, span=span)}[params.score]
+    return {"count": count_score, "MSAC": msac_score, "MLESAC": partial(mlesac_score, span=span)}[
+        params.score
+    ]
 
 
-def checked(plane_from_points: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndarray], np.ndarray]:
+def checked(
+    plane_from_points: Callable[[np.ndarray], np.ndarray],
+) -> Callable[[np.ndarray], np.ndarray]:
     """Return the function, made to say so when it does not give a plane."""
 
     def plane(p: np.ndarray) -> np.ndarray:
         found = np.asarray(plane_from_points(p), dtype=float)
         if found.shape != (4,):
-            raise InputError(f"plane_from_points returned {found.shape} numbers; a plane is 4 numbers: a, b, c, d")
+            raise InputError(
+                f"plane_from_points returned {found.shape} numbers; a plane is 4 numbers: a, b, c, d"
+            )
         return found
 
     return plane
@@ -123,7 +141,9 @@ def counting(
     def counted(plane: np.ndarray) -> Fit:
         fit, votes = judge(plane), int(count_inliers(plane, judge.p, judge.inlier_distance))
         score = float(votes) if decides else fit.score
-        return Counted(estimate=plane, distances=fit.distances, inliers=fit.inliers, score=score, votes=votes)
+        return Counted(
+            estimate=plane, distances=fit.distances, inliers=fit.inliers, score=score, votes=votes
+        )
 
     return counted
 
@@ -154,10 +174,14 @@ def rivals_of(subject: Subject, corner: float) -> tuple[Rival, ...]:
     with np.errstate(
         over="ignore", invalid="ignore"
     ):  # rows that determine nothing: what is not finite is left out below
-        first, *_, last = reweighted_fit(subject.p, subject.model, HUBER, corner=corner, max_iterations=30)
+        first, *_, last = reweighted_fit(
+            subject.p, subject.model, HUBER, corner=corner, max_iterations=30
+        )
     found = (("least squares", first.estimate), ("Huber", last.estimate))
     return tuple(
-        Rival(name, estimate, subject.error(estimate)) for name, estimate in found if np.isfinite(estimate).all()
+        Rival(name, estimate, subject.error(estimate))
+        for name, estimate in found
+        if np.isfinite(estimate).all()
     )
 
 

@@ -21,7 +21,9 @@ WIRE = Params(table="with a wire", sample=(-1, 0, 1, 2))
 NEAR = Params(sample=(-1, 482, 510, 3))
 LOCAL = Params(outliers=0.6, local_refit=True, seed=7)
 PROSAC = Params(model="homography", outliers=0.6, points=400, sampler="PROSAC")
-MATCHES = Params(model="fundamental matrix", outliers=0.3, points=200, inlier_pixels=2.0, steps="improvements")
+MATCHES = Params(
+    model="fundamental matrix", outliers=0.3, points=200, inlier_pixels=2.0, steps="improvements"
+)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
@@ -215,7 +217,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="samples",
         tolerance=5.0,
         wrong=(
-            (5, 7, "That is so for samples of one point: half of those are clean. All three must be free of outliers."),
+            (
+                5,
+                7,
+                "That is so for samples of one point: half of those are clean. All three must be free of outliers.",
+            ),
             (
                 8,
                 12,
@@ -257,7 +263,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         why=_planes_why,
         params=WALL,
         choices=(
-            Choice("The table", "That is what we want, but nothing tells RANSAC so. It counts votes."),
+            Choice(
+                "The table", "That is what we want, but nothing tells RANSAC so. It counts votes."
+            ),
             Choice("The wall"),
             Choice(
                 "A plane between the two",

@@ -43,7 +43,9 @@ def subject_of(params: Params) -> Subject:
         return _own_matches(params, model)
     if params.first_image is not None or params.second_image is not None:
         raise InputError(f"own images are shown under own matches: give {called('matches')} too")
-    return _built_in(only(params, "model", "table", "points", "outliers", "noise", "noise_pixels", "scene_seed"))
+    return _built_in(
+        only(params, "model", "table", "points", "outliers", "noise", "noise_pixels", "scene_seed")
+    )
 
 
 @lru_cache(maxsize=64)
@@ -62,7 +64,9 @@ def _built_in(params: Params) -> Subject:
         "homography": lambda rng, **options: robust.match_scene(rng, flat=True, **options),
         "fundamental matrix": robust.match_scene,
     }
-    made = makers[params.model](rng, count=params.points, outlier_ratio=params.outliers, sigma=sigma)
+    made = makers[params.model](
+        rng, count=params.points, outlier_ratio=params.outliers, sigma=sigma
+    )
     known: dict[str, Any] = {
         "truth": made.truth,
         "p_true": made.p_true,
@@ -103,10 +107,19 @@ def _own_matches(params: Params, model: Model) -> Subject:
         rows = np.random.default_rng(params.scene_seed).choice(len(p), MOST_POINTS, replace=False)
         p, quality = p[rows], None if quality is None else quality[rows]
     truth = found.H if model.name == "homography" else found.F
-    near = np.zeros(len(p), bool) if truth is None else model.distances(truth, p) <= params.inlier_pixels
-    images = tuple(None if file is None else read_image(file) for file in (params.first_image, params.second_image))
+    near = (
+        np.zeros(len(p), bool)
+        if truth is None
+        else model.distances(truth, p) <= params.inlier_pixels
+    )
+    images = tuple(
+        None if file is None else read_image(file)
+        for file in (params.first_image, params.second_image)
+    )
     sizes = tuple(
-        1.05 * p[:, 2 * k : 2 * k + 2].max(axis=0) if image is None else np.array(image.shape[1::-1], float)
+        1.05 * p[:, 2 * k : 2 * k + 2].max(axis=0)
+        if image is None
+        else np.array(image.shape[1::-1], float)
         for k, image in enumerate(images)
     )
     return _of_matches(
@@ -116,7 +129,12 @@ def _own_matches(params: Params, model: Model) -> Subject:
 
 
 def _of_matches(
-    model: Model, p: np.ndarray, sizes: tuple[np.ndarray, ...], pixel: float, images=(None, None), **known
+    model: Model,
+    p: np.ndarray,
+    sizes: tuple[np.ndarray, ...],
+    pixel: float,
+    images=(None, None),
+    **known,
 ) -> Subject:
     """Stand the two images up side by side, facing the viewer."""
     width_first, height = sizes[0][0] * pixel, max(size[1] for size in sizes) * pixel

@@ -67,7 +67,11 @@ def size(count: float) -> str:
 
 def lost(state: State) -> bool:
     """Tell whether a part of the surface did not come back at all."""
-    return state.surface is not None and np.isfinite(state.surface.area) and state.surface.area < MOSTLY
+    return (
+        state.surface is not None
+        and np.isfinite(state.surface.area)
+        and state.surface.area < MOSTLY
+    )
 
 
 def _errors(surface: Surface) -> str:
@@ -87,7 +91,11 @@ def _sizes(surface: Surface) -> str:
     text = f". Area: {more(surface.area)}"
     if np.isfinite(surface.volume):
         text += f"; volume: {more(surface.volume)}"
-    return f"{text}; normals {angle(surface.tilt, 2)} off." if np.isfinite(surface.tilt) else f"{text}."
+    return (
+        f"{text}; normals {angle(surface.tilt, 2)} off."
+        if np.isfinite(surface.tilt)
+        else f"{text}."
+    )
 
 
 def _joined(state: State, now: Joined) -> Caption:
@@ -133,14 +141,20 @@ def _came_back(state: State, surface: Surface) -> str:
     if not len(surface.p):
         return f"{size(state.bytes)}, and no surface comes back: all cells are on one side."
     bits = isinstance(state.now, Cells) and state.now.values.dtype == bool
-    how = "half-way between full and empty middles" if bits else "where the line between two distances is zero"
+    how = (
+        "half-way between full and empty middles"
+        if bits
+        else "where the line between two distances is zero"
+    )
     return f"Marching cubes, {len(surface.p):,} vertices {how}: {_errors(surface)}{_sizes(surface)}"
 
 
 def _level(now: Level) -> Caption:
     cells, mixed = len(now.cells), int(now.mixed.sum())
     text = f"Level {now.depth}, edges of {length(float(now.grid.spacing[0]), 2)}: {mixed:,} of"
-    text += f" {counted(cells, 'cell')} may be crossed by the surface, as far as their middle knows."
+    text += (
+        f" {counted(cells, 'cell')} may be crossed by the surface, as far as their middle knows."
+    )
     if now.depth:
         text += f" Packed {size(now.packed_bytes)}, with pointers {size(now.pointer_bytes)};"
         text += f" dense bits {size(now.dense_bytes)}."
@@ -221,7 +235,9 @@ def _fitted(state: State, now: Fitted) -> Caption:
         return Caption(
             f"{text}. No surface: the field is nowhere zero, from {brief(low, 2)} to {brief(high, 2)}.",
         )
-    return Caption(f"{text}; {size(state.bytes)}. Where the field is zero: {_errors(surface)}{_sizes(surface)}")
+    return Caption(
+        f"{text}; {size(state.bytes)}. Where the field is zero: {_errors(surface)}{_sizes(surface)}"
+    )
 
 
 def loss(value: float) -> str:
@@ -233,9 +249,14 @@ def _others(state: State) -> Caption:
     subject, now, surface = sure(state.subject), state.now, state.surface
     names = ", ".join(_NAMES[name] for name in state.others)
     if surface is not None and not len(surface.p):
-        return Caption(f"{size(state.bytes)}, and no surface came back. Beside it in the chart: {names}.", "wrong")
+        return Caption(
+            f"{size(state.bytes)}, and no surface came back. Beside it in the chart: {names}.",
+            "wrong",
+        )
     error = now.mean if isinstance(now, Cloud | Joined) else state.errors[-1]
-    off = "off by nothing but rounding" if error < ROUND_OFF else f"{length(error, 2)} off on average"
+    off = (
+        "off by nothing but rounding" if error < ROUND_OFF else f"{length(error, 2)} off on average"
+    )
     text = f"{capital(subject.name)} in {size(state.bytes)}, {off}"
     if lost(state) and surface is not None:
         return Caption(

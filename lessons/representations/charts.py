@@ -54,7 +54,12 @@ def beside(state: State) -> dict[str, Primitive]:
     return scene
 
 
-_NAMED = {"voxels": "marching cubes", "distances": "marching cubes", "octree": "marching cubes", "neural": "zero level"}
+_NAMED = {
+    "voxels": "marching cubes",
+    "distances": "marching cubes",
+    "octree": "marching cubes",
+    "neural": "zero level",
+}
 
 
 def _mm(metres: float) -> float:
@@ -69,7 +74,9 @@ def _memory(state: State) -> dict[str, Primitive]:
     if state.sizes:
         x, y = np.log10(np.array(state.sizes, float)), _log(np.array(state.errors))
         dots = len(x) == 1 or state.params.form == "neural"
-        scene["memory/now"] = (MEMORY.dots if dots else MEMORY.curve)(x, y, form_of(state.params), "source")
+        scene["memory/now"] = (MEMORY.dots if dots else MEMORY.curve)(
+            x, y, form_of(state.params), "source"
+        )
     return scene
 
 
@@ -107,7 +114,9 @@ def _levels(state: State, now: Level) -> dict[str, Primitive]:
     mixed = np.array([*state.mixed, float(now.mixed.sum())])
     return {
         "all cells": CELLS.curve(depth, depth * np.log10(8.0), "a dense grid", "neutral"),
-        "mixed cells": CELLS.curve(depth, np.log10(np.maximum(mixed, 1.0)), "mixed, cut again", "source"),
+        "mixed cells": CELLS.curve(
+            depth, np.log10(np.maximum(mixed, 1.0)), "mixed, cut again", "source"
+        ),
     }
 
 
@@ -128,6 +137,10 @@ def _growth(growth: Growth) -> dict[str, Primitive]:
     x = np.log10(growth.counts)
     return {
         "looked by count": LOOKED.curve(x, growth.looked, "by a k-d tree", "source"),
-        "looked by dimension": SHARE.curve(growth.dimensions.astype(float), 100 * growth.shares, "looked at", "source"),
-        "all by dimension": SHARE.curve(growth.dimensions.astype(float), 0 * growth.shares + 100, "all", "neutral"),
+        "looked by dimension": SHARE.curve(
+            growth.dimensions.astype(float), 100 * growth.shares, "looked at", "source"
+        ),
+        "all by dimension": SHARE.curve(
+            growth.dimensions.astype(float), 0 * growth.shares + 100, "all", "neutral"
+        ),
     }

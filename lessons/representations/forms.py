@@ -162,7 +162,11 @@ def voxels(params: Params, subject: Subject, functions: Functions) -> Steps:
 
 def _marched(bits: np.ndarray, grid: Grid) -> tuple[np.ndarray, np.ndarray]:
     """Return the surface around full cells, which has no faces where none is full."""
-    return marched_surface(bits, grid) if bits.any() else (np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
+    return (
+        marched_surface(bits, grid)
+        if bits.any()
+        else (np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
+    )
 
 
 def distances(params: Params, subject: Subject, functions: Functions) -> Steps:
@@ -171,7 +175,9 @@ def distances(params: Params, subject: Subject, functions: Functions) -> Steps:
     for n in resolutions(params.resolution):
         grid = cube(n)
         values = (_sampled if subject.quick else _stored)(subject, n)
-        state = replace(state, now=Cells(grid=grid, values=values), surface=None, bytes=values.nbytes)
+        state = replace(
+            state, now=Cells(grid=grid, values=values), surface=None, bytes=values.nbytes
+        )
         yield state
         surface = measured(subject, *level_surface(values, grid, functions.edge_crossings))
         state = grown(replace(state, surface=surface), values.nbytes, surface.mean)
@@ -201,10 +207,19 @@ def octree(params: Params, subject: Subject, functions: Functions) -> Steps:
 
 def neural(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield a network while it learns the distance, and where its field is zero."""
-    rng, state, grid = np.random.default_rng(params.seed), State(params=params, subject=subject), cube(NEURAL_CELLS)
+    rng, state, grid = (
+        np.random.default_rng(params.seed),
+        State(params=params, subject=subject),
+        cube(NEURAL_CELLS),
+    )
     near = points_on_faces(subject.p, subject.faces, rng.random((NEAR, 3)))
-    p = np.concatenate([near + NEAR_SPREAD * rng.standard_normal(near.shape), rng.uniform(-1, 1, (FAR, 3))])
-    network, corners = new_network(params.width, params.features, params.activation, rng), grid.centres()
+    p = np.concatenate(
+        [near + NEAR_SPREAD * rng.standard_normal(near.shape), rng.uniform(-1, 1, (FAR, 3))]
+    )
+    network, corners = (
+        new_network(params.width, params.features, params.activation, rng),
+        grid.centres(),
+    )
     counts = iteration_counts(params.iterations)
     field = subject.field(p) if subject.quick else _known(subject, p.tobytes())
     found = train_field(network, p, field, counts=counts, target=params.target, rng=rng)
@@ -232,9 +247,13 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield the control net, one point by de Casteljau, and then patch after patch."""
     control = torus_patches(RING, TUBE, params.rational)
     shown = control[..., :3] / control[..., 3:]
-    net = np.unique(np.round(np.concatenate([shown, control[..., 3:]], axis=-1).reshape(-1, 4), 9) + 0.0, axis=0)
+    net = np.unique(
+        np.round(np.concatenate([shown, control[..., 3:]], axis=-1).reshape(-1, 4), 9) + 0.0, axis=0
+    )
     now = Patches(control=control, net=net)
-    state = State(params=params, subject=subject, now=now, bytes=(16 if params.rational else 12) * len(net))
+    state = State(
+        params=params, subject=subject, now=now, bytes=(16 if params.rational else 12) * len(net)
+    )
     yield state
     u, v = params.place
     rows = [de_casteljau(row, v) for row in control[0]]
@@ -265,7 +284,9 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
 def _square(n: int) -> tuple[np.ndarray, np.ndarray]:
     """Return n x n places of the unit square, and the triangles between them."""
     ends = np.linspace(0, 1, n)
-    i, j = (index.ravel() for index in np.meshgrid(np.arange(n - 1), np.arange(n - 1), indexing="ij"))
+    i, j = (
+        index.ravel() for index in np.meshgrid(np.arange(n - 1), np.arange(n - 1), indexing="ij")
+    )
     a, b, c, d = n * i + j, n * (i + 1) + j, n * (i + 1) + j + 1, n * i + j + 1
     faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
     return np.stack(np.meshgrid(ends, ends, indexing="ij"), axis=-1).reshape(-1, 2), faces
@@ -275,7 +296,9 @@ def evaluated(bezier_patch: BezierPatch, control: np.ndarray, uv: np.ndarray) ->
     """Return points of a rational patch: numerator and denominator are patches too."""
     control = raised_patch(control) if len(control) == 3 else control
     weights = np.asarray(bezier_patch(np.repeat(control[..., 3:], 3, axis=-1), uv), float)
-    return np.asarray(bezier_patch(control[..., :3], uv), float) / np.where(weights == 0, 1.0, weights)
+    return np.asarray(bezier_patch(control[..., :3], uv), float) / np.where(
+        weights == 0, 1.0, weights
+    )
 
 
 def kd_tree(params: Params, subject: Subject | None, functions: Functions) -> Steps:
@@ -290,7 +313,9 @@ def kd_tree(params: Params, subject: Subject | None, functions: Functions) -> St
         if depth <= deepest:
             yield replace(state, now=Built(tree=tree, depth=depth))
     visits = tuple(search(tree, query))
-    ends = np.unique(np.rint(np.geomspace(1, len(visits), min(len(visits), MOST_VISITS))).astype(int))
+    ends = np.unique(
+        np.rint(np.geomspace(1, len(visits), min(len(visits), MOST_VISITS))).astype(int)
+    )
     for end in ends.tolist():
         now = Searched(tree=tree, query=query, visits=visits[:end], done=end == len(visits))
         state = replace(state, now=now)

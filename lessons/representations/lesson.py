@@ -33,7 +33,11 @@ def run(
         own = subject_of(params, box_sdf) if params.cloud else None
         yield from FORMS[params.form](params, own, functions)
         return
-    shaped = replace(params, shape="torus", mesh=None, cloud=None) if params.form == "patches" else params
+    shaped = (
+        replace(params, shape="torus", mesh=None, cloud=None)
+        if params.form == "patches"
+        else params
+    )
     subject = subject_of(shaped, box_sdf)
     state = None
     for state in FORMS[params.form](params, subject, functions):

@@ -142,7 +142,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-half",
         "Cells with edges half as long: a grid of bits takes 8 times the bytes. How many times as many does the"
         " octree take?",
-        answer=lambda states: float(np.argmin(np.abs(np.array([2, 4, 8]) - _octree_factor(states)))),
+        answer=lambda states: float(
+            np.argmin(np.abs(np.array([2, 4, 8]) - _octree_factor(states)))
+        ),
         why=lambda states: (
             f"{brief(_octree_factor(states), 2)} times at the last cut. Only cells near the surface are cut, and a surface"
             " meets four times as many cells of half the edge."
@@ -163,7 +165,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "predict-area",
         "A torus as bits, its surface by marching cubes. What becomes of the area with ever smaller cells?",
-        answer=lambda states: 0.0 if _areas(states)[-1] < 1.02 else 1.0 if _areas(states)[-1] < 1.2 else 2.0,
+        answer=lambda states: (
+            0.0 if _areas(states)[-1] < 1.02 else 1.0 if _areas(states)[-1] < 1.2 else 2.0
+        ),
         why=lambda states: (
             f"With 16 cells {percent(_areas(states)[2] - 1)} too much, with 64 cells {percent(_areas(states)[-1] - 1)}. Bits"
             " know 26 directions at most: the surface goes up and down in facets that do not turn with the cells' size."
@@ -185,7 +189,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-looked",
         "16 times as many points in 3 dimensions. How many times as many does a search in the tree look at, on average?",
         answer=lambda states: float(
-            np.argmin(np.abs(np.log([16, 4, 1.1]) - np.log(_looked(states)[1] / _looked(states)[0])))
+            np.argmin(
+                np.abs(np.log([16, 4, 1.1]) - np.log(_looked(states)[1] / _looked(states)[0]))
+            )
         ),
         why=lambda states: (
             f"{_looked(states)[0]:.0f} of 1,000, {_looked(states)[1]:.0f} of 16,000. The tree is four cuts deeper; the cells"
@@ -195,7 +201,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         choices=(
             Choice("16 times", why="That is a search without a tree, which looks at every point."),
             Choice(
-                "4 times", why="A root would be a share of all points. The tree leaves out whole branches at each cut."
+                "4 times",
+                why="A root would be a share of all points. The tree leaves out whole branches at each cut.",
             ),
             "about as many",
         ),
@@ -204,7 +211,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "predict-middle",
         "Two boxes overlap by 10 cm; together they are a box, and its middle lies 30 cm deep. What is the smaller of the two"
         " distances there?",
-        answer=lambda states: float(np.argmin(np.abs(np.array([-0.3, -0.05, 0.05]) - _middle(states)[0]))),
+        answer=lambda states: float(
+            np.argmin(np.abs(np.array([-0.3, -0.05, 0.05]) - _middle(states)[0]))
+        ),
         why=lambda states: (
             f"{length(_middle(states)[0], 2)} for {length(_middle(states)[1], 2)}. Each box knows its own walls, and those"
             " inside the other box are no walls of both. Outside the smaller one is true."
@@ -216,7 +225,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 why="That is the distance of the whole box. Neither box knows that the other goes on behind its wall.",
             ),
             "−5 cm",
-            Choice("+5 cm", why="The size is right. But the middle is inside both boxes, and inside is below 0."),
+            Choice(
+                "+5 cm",
+                why="The size is right. But the middle is inside both boxes, and inside is below 0.",
+            ),
         ),
     ),
     Question(
@@ -224,7 +236,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         "144 control points of cubic patches miss the torus by 0.28 mm at worst. 64 with a weight each: what do they miss it"
         " by?",
         answer=lambda states: float(
-            np.argmin(np.abs(np.log10([1e-15, 1e-4, 1e-3]) - np.log10(_patch_error(states) + 1e-16)))
+            np.argmin(
+                np.abs(np.log10([1e-15, 1e-4, 1e-3]) - np.log10(_patch_error(states) + 1e-16))
+            )
         ),
         why=lambda states: (
             "By nothing but rounding: a quotient of quadratic polynomials runs along a circle, and a torus is circles along"
@@ -234,9 +248,13 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         choices=(
             "nothing",
             Choice(
-                "0.1 mm", why="Weights gain more than that: a cubic can only come near a circle, a quotient is one."
+                "0.1 mm",
+                why="Weights gain more than that: a cubic can only come near a circle, a quotient is one.",
             ),
-            Choice("1 mm", why="Fewer numbers usually mean a larger error. Here the form fits the shape."),
+            Choice(
+                "1 mm",
+                why="Fewer numbers usually mean a larger error. Here the form fits the shape.",
+            ),
         ),
     ),
 )

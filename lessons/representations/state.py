@@ -14,7 +14,9 @@ from workbench.data.framing import Upward
 from workbench.geometry.fields.voxels import Grid
 from workbench.knobs import Gizmo, Knob
 
-Form = Literal["cloud", "neighbours", "mesh", "voxels", "distances", "octree", "k-d tree", "patches", "neural"]
+Form = Literal[
+    "cloud", "neighbours", "mesh", "voxels", "distances", "octree", "k-d tree", "patches", "neural"
+]
 Shape = Literal["torus", "box", "rabbit", "plate", "two boxes"]
 SHAPED = {"form": ("cloud", "neighbours", "mesh", "voxels", "distances", "octree", "neural")}
 NEURAL = {"form": ("neural",)}
@@ -28,39 +30,65 @@ class Params:
     form: Annotated[Form, Knob("How the shape is stored")] = "distances"
     shape: Annotated[Shape, Knob("What is stored", needs=SHAPED)] = "torus"
     resolution: Annotated[
-        int, Knob("Cells along an edge of the cube at the end", 8, 64, needs={"form": ("voxels", "distances")})
+        int,
+        Knob(
+            "Cells along an edge of the cube at the end",
+            8,
+            64,
+            needs={"form": ("voxels", "distances")},
+        ),
     ] = 32
-    depth: Annotated[int, Knob("How often cells of the octree are cut", 3, 7, needs={"form": ("octree",)})] = 5
+    depth: Annotated[
+        int, Knob("How often cells of the octree are cut", 3, 7, needs={"form": ("octree",)})
+    ] = 5
     points: Annotated[
         int,
         Knob("Points at the end, of a mesh vertices at most", 100, 100_000, step=100,
              needs={"form": ("cloud", "neighbours", "mesh", "k-d tree")}),
     ] = 4000  # fmt: skip
-    neighbours: Annotated[int, Knob("How many each point is joined to", 1, 16, needs={"form": ("neighbours",)})] = 8
+    neighbours: Annotated[
+        int, Knob("How many each point is joined to", 1, 16, needs={"form": ("neighbours",)})
+    ] = 8
     thickness: Annotated[
         float,
-        Knob("Of the plate, in cells of the last grid", 0.2, 2, unit="cells", step=0.1, needs={"shape": ("plate",)}),
+        Knob(
+            "Of the plate, in cells of the last grid",
+            0.2,
+            2,
+            unit="cells",
+            step=0.1,
+            needs={"shape": ("plate",)},
+        ),
     ] = 0.5
     iterations: Annotated[int, Knob("Steps of Adam", 100, 1500, step=25, needs=NEURAL)] = 300
     width: Annotated[int, Knob("Numbers in each of two hidden layers", 8, 64, needs=NEURAL)] = 32
     features: Annotated[
-        int, Knob("Octaves of sine and cosine of each coordinate that go in too", 0, 5, needs=NEURAL)
+        int,
+        Knob("Octaves of sine and cosine of each coordinate that go in too", 0, 5, needs=NEURAL),
     ] = 2
     target: Annotated[Target, Knob("What the network is asked for", needs=NEURAL)] = "sdf"
     activation: Annotated[Activation, Knob("What follows each hidden layer", needs=NEURAL)] = "tanh"
-    rational: Annotated[bool, Knob("Control points have weights", needs={"form": ("patches",)})] = False
+    rational: Annotated[bool, Knob("Control points have weights", needs={"form": ("patches",)})] = (
+        False
+    )
     place: Annotated[
         tuple[float, float],
         Knob("Where on the first patch", 0, 1, parts=("u", "v"), needs={"form": ("patches",)}),
     ] = (0.4, 0.6)  # fmt: skip
-    dimensions: Annotated[int, Knob("Coordinates of each point", 2, 20, needs={"form": ("k-d tree",)})] = 3
+    dimensions: Annotated[
+        int, Knob("Coordinates of each point", 2, 20, needs={"form": ("k-d tree",)})
+    ] = 3
     query: Annotated[
         tuple[float, float, float],
         Knob("Whose nearest point is looked for", -1, 1, unit="m", by=Gizmo(0.3), needs={"form": ("k-d tree",)}),
     ] = (0.35, -0.6, 0.25)  # fmt: skip
     mesh: Annotated[Path | None, Knob("Own mesh instead: off, obj, ply, stl, glb")] = None
-    cloud: Annotated[Path | None, Knob("Own points instead: ply, pcd, obj, xyz, csv, npz", needs=OF_CLOUDS)] = None
-    up: Annotated[Upward, Knob("Which axis of an own file points up; auto guesses", of_files=True)] = "auto"
+    cloud: Annotated[
+        Path | None, Knob("Own points instead: ply, pcd, obj, xyz, csv, npz", needs=OF_CLOUDS)
+    ] = None
+    up: Annotated[
+        Upward, Knob("Which axis of an own file points up; auto guesses", of_files=True)
+    ] = "auto"
     seed: Annotated[int, Knob("What chance draws, and how the plate lies", 0, 99)] = 0
 
 

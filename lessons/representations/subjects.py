@@ -46,7 +46,9 @@ def subject_of(params: Params, box_sdf: BoxSdf) -> Subject:
     """
     if params.cloud is not None:
         if params.mesh is not None:
-            raise InputError(f"{called('mesh')} and {called('cloud')} are both given: one of them is stored")
+            raise InputError(
+                f"{called('mesh')} and {called('cloud')} are both given: one of them is stored"
+            )
         if params.form not in OF_CLOUDS["form"]:
             forms = ", ".join(OF_CLOUDS["form"])
             raise InputError(
@@ -77,7 +79,9 @@ def _boxed(shape: Shape, thin: float, seed: int, box_sdf: BoxSdf) -> Subject:
         return _box(
             "the two boxes",
             whole,
-            lambda q: np.minimum(box_sdf(q - PAIR_APART, PAIR_HALF), box_sdf(q + PAIR_APART, PAIR_HALF)),
+            lambda q: np.minimum(
+                box_sdf(q - PAIR_APART, PAIR_HALF), box_sdf(q + PAIR_APART, PAIR_HALF)
+            ),
         )
     half = np.array([PLATE, PLATE, thin])
     R = exp_so3(1.5 * np.random.default_rng(seed).normal(size=3))
@@ -88,7 +92,9 @@ def measured(subject: Subject, p: np.ndarray, faces: np.ndarray) -> Surface:
     """Return a surface with its errors."""
     if not len(faces) or not (area := surface_area(p, faces)) > 0:
         nan = float("nan")
-        return Surface(p=p[:0], faces=faces[:0], mean=nan, worst=nan, area=0.0, volume=0.0, tilt=nan)
+        return Surface(
+            p=p[:0], faces=faces[:0], mean=nan, worst=nan, area=0.0, volume=0.0, tilt=nan
+        )
     u = spread_numbers()
     q = points_on_faces(p, faces, u)
     away = np.abs(subject.distance(q))
@@ -120,7 +126,9 @@ def _tilt(subject: Subject, p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> 
     normals = face_normals(p, faces)
     k, _ = places_on_faces(p, faces, u)
     q = points_on_faces(p, faces, u)
-    steps = [subject.distance(q + STEP * axis) - subject.distance(q - STEP * axis) for axis in np.eye(3)]
+    steps = [
+        subject.distance(q + STEP * axis) - subject.distance(q - STEP * axis) for axis in np.eye(3)
+    ]
     gradient = np.stack(steps, axis=1)
     size = np.linalg.norm(gradient, axis=1)
     cosine = np.einsum("nx,nx->n", gradient, normals[k])[size > 0] / size[size > 0]
@@ -144,7 +152,10 @@ def _torus() -> Subject:
 
 
 def _box(
-    name: str, half: np.ndarray, field: Callable[[np.ndarray], np.ndarray], R: np.ndarray | None = None
+    name: str,
+    half: np.ndarray,
+    field: Callable[[np.ndarray], np.ndarray],
+    R: np.ndarray | None = None,
 ) -> Subject:
     """Return a box about the origin, turned, with what is stored as its distance."""
     R_box = np.eye(3) if R is None else R
@@ -180,7 +191,9 @@ def _of_mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
         faces=faces,
         distance=lambda q: mesh_sdf(mesh, q),
         field=lambda q: mesh_sdf(mesh, q),
-        inside=lambda q: windings(mesh.columns, q) != 0 if mesh.columns else np.zeros(len(q), dtype=bool),
+        inside=lambda q: (
+            windings(mesh.columns, q) != 0 if mesh.columns else np.zeros(len(q), dtype=bool)
+        ),
         area=surface_area(p, faces),
         volume=signed_volume(p, faces) if closed else float("nan"),
         on=points_on_faces(p, faces, spread_numbers()),

@@ -32,7 +32,10 @@ def caption_of_build(state: Built) -> Caption:
         (ghost,) = state.ghosts
         if ghost.same:
             return Caption(f"{caption.text} Here {ghost.name} does the same.", caption.tone)
-        return Caption(f"{caption.text} {ghost.name} leaves its farthest vertex {length(ghost.distance)} off.", "wrong")
+        return Caption(
+            f"{caption.text} {ghost.name} leaves its farthest vertex {length(ghost.distance)} off.",
+            "wrong",
+        )
     if state.complete and state.ghosts:
         beside = f"Beside it: {state.params.compare}, {_spread(state.ghosts)}."
         return Caption(f"{caption.text} {beside}", caption.tone)
@@ -51,7 +54,10 @@ def _front_with_w_1(state: Built) -> tuple[str, bool]:
     if np.linalg.norm(right[:3] - taken[:3]) < SAME:
         return "The front taken with w = 1 is the same here: nothing was translated.", False
     if apart < 1e-6:
-        return "The front taken with w = 1 points the same way here, but its length is another.", True
+        return (
+            "The front taken with w = 1 points the same way here, but its length is another.",
+            True,
+        )
     return f"The front taken with w = 1 points {angle(apart, 2)} away from it.", True
 
 
@@ -116,7 +122,9 @@ def _undo_caption(state: Built) -> Caption:
     if state.left < SAME:
         text = f"Taken back with (Rᵀ, −Rᵀt): all {len(state.body.solid.p):,} vertices are where they were before the motion."
         stays = _shape_that_stays(state)
-        return Caption(text + stays, "good" if not stays and state.params.compare in TAKEN_BACK else "info")
+        return Caption(
+            text + stays, "good" if not stays and state.params.compare in TAKEN_BACK else "info"
+        )
     text = f"Taken back by the given inverse: the farthest vertex is {length(state.left)} from where it was before"
     return Caption(f"{text} the motion.", "wrong")
 
@@ -136,7 +144,9 @@ def _shape_that_stays(state: Built) -> str:
     ]
     if not done:
         return ""
-    volume = next((change for change in state.by_all if change.name == "volume" and not change.kept), None)
+    volume = next(
+        (change for change in state.by_all if change.name == "volume" and not change.kept), None
+    )
     size = "" if volume is None else f", and with it the volume {times(volume.factor)}"
     return f" The {' and the '.join(done)} came before it and {'stays' if len(done) == 1 else 'stay'}{size}."
 
@@ -162,19 +172,25 @@ def caption_of_move(state: Moved) -> Caption:
     way, shortest = state.way, state.shortest.turned[-1]
     method = state.params.method
     if len(way.times) == 1:
-        return Caption(f"t = 0: the start. The shortest turn to the end is {fixed(shortest, 1)}°; {_HOW[method]}.")
+        return Caption(
+            f"t = 0: the start. The shortest turn to the end is {fixed(shortest, 1)}°; {_HOW[method]}."
+        )
     step = way.turned[-1] - way.turned[-2]
-    text = (
-        f"t = {state.t:.2f} by {method.replace('-q', '−q')}: turned {fixed(way.turned[-1], 1)}° so far, pose by pose,"
-    )
+    text = f"t = {state.t:.2f} by {method.replace('-q', '−q')}: turned {fixed(way.turned[-1], 1)}° so far, pose by pose,"
     text += f" {fixed(step, 1)}° of it in this step"
     if abs(state.volume - 1.0) > SAME:
         share = f"the volume is {percent(abs(state.volume))} of the start's"
-        return Caption(f"{text}; {share}{', mirrored' * (state.volume < 0)}, so this is no rotation.", "wrong")
+        return Caption(
+            f"{text}; {share}{', mirrored' * (state.volume < 0)}, so this is no rotation.", "wrong"
+        )
     if state.t < 1.0:
         aside = float(np.linalg.norm(state.T_world_body[:3, 3] - state.T_world_shortest[:3, 3]))
         place = f", its origin {length(aside)} from where lerp has it" if aside > SAME else ""
-        turn = f"{angle(state.off, 2)} from the shortest turn" if state.off > 1e-6 else "on the shortest turn"
+        turn = (
+            f"{angle(state.off, 2)} from the shortest turn"
+            if state.off > 1e-6
+            else "on the shortest turn"
+        )
         return Caption(f"{text}; {turn}{place}.")
     return _arrival(state, text, float(shortest))
 
@@ -182,10 +198,17 @@ def caption_of_move(state: Moved) -> Caption:
 def _arrival(state: Moved, text: str, shortest: float) -> Caption:
     """Say at t = 1 whether the end is met, and whether the way there was the shortest turn of a rigid body."""
     p, lowest = state.body.solid.p, float(np.abs(state.way.volume).min())
-    missed = np.linalg.norm(transform(state.T_world_body, p) - transform(state.T_world_end, p), axis=1).max()
+    missed = np.linalg.norm(
+        transform(state.T_world_body, p) - transform(state.T_world_end, p), axis=1
+    ).max()
     if missed > SAME:
-        return Caption(f"{text}. The end is missed: the farthest vertex is {length(float(missed))} off.", "wrong")
+        return Caption(
+            f"{text}. The end is missed: the farthest vertex is {length(float(missed))} off.",
+            "wrong",
+        )
     if abs(lowest - 1.0) > SAME:
-        return Caption(f"{text}. The end is met, but on the way the volume fell to {percent(lowest)}.")
+        return Caption(
+            f"{text}. The end is met, but on the way the volume fell to {percent(lowest)}."
+        )
     text += f". The end is met; the shortest turn is {fixed(shortest, 1)}°."
     return Caption(text, "info" if state.way.turned[-1] > shortest + 0.05 else "good")

@@ -20,7 +20,10 @@ from workbench.geometry.motions.rotations import (
 )
 from workbench.numerals import brief
 
-BEHIND, ALONG = np.array([-1.6, 1.4, 0.0]), np.array([0.95, 0.58, 0.0])  # a row across the first view, metres
+BEHIND, ALONG = (
+    np.array([-1.6, 1.4, 0.0]),
+    np.array([0.95, 0.58, 0.0]),
+)  # a row across the first view, metres
 CONVENTIONS: tuple[EulerOrder, ...] = ("xyz", "XYZ", "ZYX", "ZXZ")
 
 
@@ -45,7 +48,9 @@ def ghosts_of(params: Params, body: Body, numbers: Numbers, A: np.ndarray) -> tu
     return ghosts
 
 
-def undo_ghosts_of(params: Params, body: Body, T_world_body: np.ndarray, A: np.ndarray) -> tuple[Ghost, ...]:
+def undo_ghosts_of(
+    params: Params, body: Body, T_world_body: np.ndarray, A: np.ndarray
+) -> tuple[Ghost, ...]:
     """Return the body after a wrong inverse, to be compared with the body before the motion."""
     T = T_world_body @ A
     if params.compare == "undo by (Rᵀ, −t)":
@@ -80,7 +85,10 @@ def _fixed_and_own(numbers: Numbers) -> list[tuple[str, np.ndarray]]:
     backwards: EulerOrder = other[::-1]  # type: ignore[assignment]
     angles = numbers.angles[::-1]
     return [
-        (f"{backwards} {in_degrees(angles)}", replace(numbers, order=backwards, angles=angles).motion()),
+        (
+            f"{backwards} {in_degrees(angles)}",
+            replace(numbers, order=backwards, angles=angles).motion(),
+        ),
         (f"{other} {in_degrees(numbers.angles)}", replace(numbers, order=other).motion()),
     ]
 
@@ -93,7 +101,10 @@ def other_triples(numbers: Numbers) -> np.ndarray:
 
 
 def _other_triples(numbers: Numbers) -> list[tuple[str, np.ndarray]]:
-    return [(in_degrees(triple), replace(numbers, angles=triple).motion()) for triple in other_triples(numbers)]
+    return [
+        (in_degrees(triple), replace(numbers, angles=triple).motion())
+        for triple in other_triples(numbers)
+    ]
 
 
 def _transpose(numbers: Numbers) -> list[tuple[str, np.ndarray]]:

@@ -40,7 +40,9 @@ class State:
 
 
 @traced
-def compose(shape: Sequence[Factor], motions: Sequence[Factor], invert_rigid: Invert) -> Iterator[State]:
+def compose(
+    shape: Sequence[Factor], motions: Sequence[Factor], invert_rigid: Invert
+) -> Iterator[State]:
     """Yield the product after each factor, multiplied from right to left, and then with the rigid ones undone.
 
     Args:

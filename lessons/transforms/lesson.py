@@ -39,10 +39,16 @@ def run(
 
 
 def _build(
-    params: Params, invert_rigid: Invert, rotation_from_axis_angle: Rodrigues, euler_to_matrix: FromEuler
+    params: Params,
+    invert_rigid: Invert,
+    rotation_from_axis_angle: Rodrigues,
+    euler_to_matrix: FromEuler,
 ) -> Iterator[Built]:
     body, numbers = body_of(params), numbers_of(params)
-    shape, motions = shape_factors(params), motion_factors(params, euler_to_matrix, rotation_from_axis_angle)
+    shape, motions = (
+        shape_factors(params),
+        motion_factors(params, euler_to_matrix, rotation_from_axis_angle),
+    )
     p, faces = body.solid.p, body.solid.faces
     A = np.eye(4)
     for factor in shape:
@@ -66,16 +72,27 @@ def _build(
             by_all=changes(body.measures, after),
             trail=trail,
             complete=complete,
-            ghosts=undo_ghosts_of(params, body, now.T_world_body, A) if undone else ghosts if complete else (),
+            ghosts=undo_ghosts_of(params, body, now.T_world_body, A)
+            if undone
+            else ghosts
+            if complete
+            else (),
             left=float(np.linalg.norm(p_now - p_shaped, axis=1).max()) if undone else float("nan"),
         )
         before = after
 
 
 def _move(
-    params: Params, invert_rigid: Invert, rotation_from_axis_angle: Rodrigues, euler_to_matrix: FromEuler
+    params: Params,
+    invert_rigid: Invert,
+    rotation_from_axis_angle: Rodrigues,
+    euler_to_matrix: FromEuler,
 ) -> Iterator[Moved]:
-    body, numbers, times = body_of(params), numbers_of(params), np.linspace(0.0, 1.0, params.steps + 1)
+    body, numbers, times = (
+        body_of(params),
+        numbers_of(params),
+        np.linspace(0.0, 1.0, params.steps + 1),
+    )
     angles_end = np.radians(params.angles_end)
     R_end = euler_to_matrix(angles_end, params.order)
     if numbers.turn.any():  # the handle turns the end further, so that other angles make it
@@ -83,15 +100,25 @@ def _move(
         angles_end = rotations.matrix_to_euler(nearest_rotation(R_end), params.order)
     T_start = motion(euler_to_matrix(numbers.angles, params.order), np.zeros(3))
     T_end = motion(R_end, numbers.offset)
-    shortest = list(between.slerp_and_lerp(T_start, T_end, times, rotations.rotation_from_axis_angle))
-    shortest_way = way = Way(times=times[:0], path=np.empty((0, 3)), turned=times[:0], volume=times[:0])
+    shortest = list(
+        between.slerp_and_lerp(T_start, T_end, times, rotations.rotation_from_axis_angle)
+    )
+    shortest_way = way = Way(
+        times=times[:0], path=np.empty((0, 3)), turned=times[:0], volume=times[:0]
+    )
     for k, now in enumerate(shortest):
         shortest_way = _gone(shortest_way, now, shortest[max(k - 1, 0)], body.p_point)
     if params.method == "slerp + lerp":
         states = between.slerp_and_lerp(T_start, T_end, times, rotation_from_axis_angle)
     elif params.method == "Euler angles":
         states = between.lerp_of_euler_angles(
-            numbers.angles, angles_end, params.order, T_start[:3, 3], T_end[:3, 3], times, euler_to_matrix
+            numbers.angles,
+            angles_end,
+            params.order,
+            T_start[:3, 3],
+            T_end[:3, 3],
+            times,
+            euler_to_matrix,
         )
     elif params.method == "matrix entries":
         states = between.lerp_of_entries(T_start, T_end, times)
@@ -121,7 +148,9 @@ def _move(
 
 
 def _gone(way: Way, now: between.State, before: between.State, p_point: np.ndarray) -> Way:
-    turned = (way.turned[-1] if len(way.turned) else 0.0) + degrees_between(before.T_world_body, now.T_world_body)
+    turned = (way.turned[-1] if len(way.turned) else 0.0) + degrees_between(
+        before.T_world_body, now.T_world_body
+    )
     path = np.vstack([way.path, apply(now.T_world_body, p_point)])
     volume = np.linalg.det(now.T_world_body[:3, :3])
     return Way(

@@ -22,13 +22,28 @@ ORDER = Params(scale=ONE, angles=(0.0, 0.0, 90.0), pose=AHEAD, compare="the othe
 GIMBAL = Params(scale=ONE, angles=(30.0, 90.0, 50.0), compare="other triples")
 CONVENTIONS = Params(scale=ONE, angles=(40.0, 30.0, 70.0), compare="four conventions")
 SHEAR = Params(scale=ONE, shear=0.8, angles=(0.0, 0.0, 40.0))
-INVERSE = Params(scale=ONE, angles=(0.0, 0.0, -90.0), pose=(1.3, -0.5, 0.3, *NO_TURN), compare="undo by (Rᵀ, −t)")
-
-WOBBLE = Params(half="move between two poses", angles=NO_TURN, angles_end=(170.0, 40.0, 160.0), method="Euler angles")
-AVERAGE = Params(
-    half="move between two poses", angles=(0.0, 0.0, 170.0), angles_end=(0.0, 0.0, -170.0), method="Euler angles"
+INVERSE = Params(
+    scale=ONE, angles=(0.0, 0.0, -90.0), pose=(1.3, -0.5, 0.3, *NO_TURN), compare="undo by (Rᵀ, −t)"
 )
-ENTRIES = Params(half="move between two poses", angles=NO_TURN, angles_end=(0.0, 0.0, 170.0), method="matrix entries")
+
+WOBBLE = Params(
+    half="move between two poses",
+    angles=NO_TURN,
+    angles_end=(170.0, 40.0, 160.0),
+    method="Euler angles",
+)
+AVERAGE = Params(
+    half="move between two poses",
+    angles=(0.0, 0.0, 170.0),
+    angles_end=(0.0, 0.0, -170.0),
+    method="Euler angles",
+)
+ENTRIES = Params(
+    half="move between two poses",
+    angles=NO_TURN,
+    angles_end=(0.0, 0.0, 170.0),
+    method="matrix entries",
+)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
@@ -131,7 +146,10 @@ def complete(states: Sequence[State]) -> Built:
 
 def halfway(states: Sequence[State]) -> Moved:
     """Return the step nearest to t = 0.5."""
-    return min((state for state in states if isinstance(state, Moved)), key=lambda state: abs(state.t - 0.5))
+    return min(
+        (state for state in states if isinstance(state, Moved)),
+        key=lambda state: abs(state.t - 0.5),
+    )
 
 
 def directions_left(states: Sequence[State]) -> int:
@@ -190,7 +208,11 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
                 "That is how far each of the two is from the origin. They lie at right angles to each other as seen"
                 " from there.",
             ),
-            (2.9, 3.1, "That would be so after half a turn: then the two lie on opposite sides of the origin."),
+            (
+                2.9,
+                3.1,
+                "That would be so after half a turn: then the two lie on opposite sides of the origin.",
+            ),
         ),
     ),
     Question(
@@ -209,7 +231,8 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             ),
             Choice("2"),
             Choice(
-                "3", "Three numbers are not yet three directions: at this pitch two of them turn about the same line."
+                "3",
+                "Three numbers are not yet three directions: at this pitch two of them turn about the same line.",
             ),
         ),
         step=-2,
@@ -224,9 +247,14 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         ),
         params=SHEAR,
         choices=(
-            Choice("It shrinks", "Its upright edges lean and look squeezed, but base and height are what they were."),
+            Choice(
+                "It shrinks",
+                "Its upright edges lean and look squeezed, but base and height are what they were.",
+            ),
             Choice("It stays"),
-            Choice("It grows", "Its upright edges get longer, but base and height are what they were."),
+            Choice(
+                "It grows", "Its upright edges get longer, but base and height are what they were."
+            ),
         ),
         step=1,
     ),

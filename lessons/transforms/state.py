@@ -41,14 +41,19 @@ Compare = Literal[
 class Params:
     """The factors of one map, or two poses and the way between them."""
 
-    half: Annotated[Half, Knob("Build one map factor by factor, or go from one pose to another")] = "build a map"
+    half: Annotated[
+        Half, Knob("Build one map factor by factor, or go from one pose to another")
+    ] = "build a map"
     angles: Annotated[
         tuple[float, float, float],
         Knob("Three turns, in the order of the letters below; the start pose when moving", -180, 180, unit="deg", step=1,
              label="Angle", parts=("1", "2", "3")),
     ] = (30.0, 20.0, 60.0)  # fmt: skip
     order: Annotated[
-        EulerOrder, Knob("Axes of the three turns: lower case fixed in the world, upper case carried by the body")
+        EulerOrder,
+        Knob(
+            "Axes of the three turns: lower case fixed in the world, upper case carried by the body"
+        ),
     ] = "xyz"
     pose: Annotated[
         tuple[float, float, float, float, float, float],
@@ -61,24 +66,36 @@ class Params:
     ] = (1.6, 0.6, 0.3, 0.0, 0.0, 0.0)
     first: Annotated[First, Knob("Which comes first", needs=BUILDING)] = "rotate, then translate"
     scale: Annotated[
-        tuple[float, float, float], Knob("Factors along x, y and z, before all else", 0.2, 2, step=0.05, needs=BUILDING)
+        tuple[float, float, float],
+        Knob("Factors along x, y and z, before all else", 0.2, 2, step=0.05, needs=BUILDING),
     ] = (1.0, 1.0, 1.4)
-    shear: Annotated[float, Knob("Shift x by so much per metre of height", -1.5, 1.5, step=0.05, needs=BUILDING)] = 0.0
+    shear: Annotated[
+        float, Knob("Shift x by so much per metre of height", -1.5, 1.5, step=0.05, needs=BUILDING)
+    ] = 0.0
     perspective: Annotated[
-        float, Knob("Divide by w = 1 + so much times z", 0, 0.6, unit="1/m", step=0.02, needs=BUILDING)
+        float,
+        Knob("Divide by w = 1 + so much times z", 0, 0.6, unit="1/m", step=0.02, needs=BUILDING),
     ] = 0.0
     mirror: Annotated[Mirror, Knob("The coordinate that changes its sign", needs=BUILDING)] = "none"
-    compare: Annotated[Compare, Knob("A second reading drawn beside, while building", needs=BUILDING)] = "nothing"
+    compare: Annotated[
+        Compare, Knob("A second reading drawn beside, while building", needs=BUILDING)
+    ] = "nothing"
     angles_end: Annotated[
         tuple[float, float, float],
         Knob("The three turns of the end pose, when moving", -180, 180, unit="deg", step=1,
              label="End angle", parts=("1", "2", "3"), needs=MOVING),
     ] = (0.0, 0.0, -110.0)  # fmt: skip
-    method: Annotated[Method, Knob("What runs at constant speed between the two poses", needs=MOVING)] = "slerp + lerp"
+    method: Annotated[
+        Method, Knob("What runs at constant speed between the two poses", needs=MOVING)
+    ] = "slerp + lerp"
     steps: Annotated[int, Knob("Steps from one pose to the other", 2, 120, needs=MOVING)] = 30
     point: Annotated[int, Knob("The vertex that is followed", 0, 11, by=Pick("body"))] = 8
-    shape: Annotated[Shape, Knob("The body: only the house differs from its mirror image")] = "house"
-    mesh: Annotated[Path | None, Knob("Own mesh instead (off, obj, ply, stl, glb), shown 1 m large")] = None
+    shape: Annotated[Shape, Knob("The body: only the house differs from its mirror image")] = (
+        "house"
+    )
+    mesh: Annotated[
+        Path | None, Knob("Own mesh instead (off, obj, ply, stl, glb), shown 1 m large")
+    ] = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

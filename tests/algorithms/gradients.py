@@ -49,7 +49,9 @@ def assert_gradient(
     start, (_, slope) = values.copy(), at_the_same_batch()
     size = float(np.abs(slope).max())
     assert size > 0
-    one_by_one = chance.choice(np.flatnonzero(slope), min(30, np.count_nonzero(slope)), replace=False)
+    one_by_one = chance.choice(
+        np.flatnonzero(slope), min(30, np.count_nonzero(slope)), replace=False
+    )
     ways = [np.eye(1, slope.size, int(k)).reshape(slope.shape) for k in one_by_one]
     ways += [w / np.linalg.norm(w) for w in chance.normal(size=(5, *slope.shape))]
     for way in ways:
@@ -58,4 +60,6 @@ def assert_gradient(
             values[:] = start + sign * h * way
             losses.append(at_the_same_batch()[0])
         values[:] = start
-        assert (slope * way).sum() == pytest.approx((losses[0] - losses[1]) / (2 * h), abs=tolerance * size)
+        assert (slope * way).sum() == pytest.approx(
+            (losses[0] - losses[1]) / (2 * h), abs=tolerance * size
+        )

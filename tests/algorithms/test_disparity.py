@@ -36,12 +36,18 @@ def made(scene, noise=2.0, camera=CAMERA, seed=0) -> tuple[Any, np.ndarray, np.n
     pair = synthetic_pair(scene, camera, (160, 120), noise, np.random.default_rng(seed))
     assert pair.disparity is not None
     assert pair.visible is not None
-    return pair, np.rint(grey(pair.left)).astype(np.uint8), np.rint(grey(pair.right)).astype(np.uint8)
+    return (
+        pair,
+        np.rint(grey(pair.left)).astype(np.uint8),
+        np.rint(grey(pair.right)).astype(np.uint8),
+    )
 
 
 def disparity_map(left, right, max_disparity) -> tuple[np.ndarray, np.ndarray]:
     """Return the last map of census and eight paths, and which pixels were matched; a jump costs the worst match."""
-    *_, last = match(left, right, max_disparity, 1, lambda _: (CENSUS_BITS // 3, CENSUS_BITS), census_cost_volume)
+    *_, last = match(
+        left, right, max_disparity, 1, lambda _: (CENSUS_BITS // 3, CENSUS_BITS), census_cost_volume
+    )
     return filled(last), last.matched
 
 
@@ -127,7 +133,9 @@ def test_the_median_equals_scipys(seed, h, w):
     assert np.array_equal(median3(values), scipy.ndimage.median_filter(values, 3, mode="nearest"))
 
 
-@pytest.mark.parametrize("compare", [sad_cost_volume, ssd_cost_volume, census_cost_volume, ncc_cost_volume])
+@pytest.mark.parametrize(
+    "compare", [sad_cost_volume, ssd_cost_volume, census_cost_volume, ncc_cost_volume]
+)
 @pytest.mark.parametrize("shift", [0, 3, 7])
 def test_a_shifted_picture_has_its_shift_as_disparity(compare, shift):
     scene = np.random.default_rng(1).random((24, 50)) * 255
@@ -145,7 +153,10 @@ def test_the_steps_are_all_there_and_in_order():
         Stage.CHECK, Stage.REFINE, Stage.SMOOTH,
     ]  # fmt: skip
     assert [state.done for state in states[:16]] == list(range(1, 17))
-    assert all(len(state.cost) == state.done and state.disparity.max() <= state.done - 1 for state in states[:16])
+    assert all(
+        len(state.cost) == state.done and state.disparity.max() <= state.done - 1
+        for state in states[:16]
+    )
     assert np.isnan(states[-1].disparity[~states[-1].matched]).all()
     assert Stage.PATHS not in {state.stage for state in match(left, right, 15, 5, None)}
 
@@ -191,7 +202,9 @@ def test_small_and_bare_pictures_end_quietly(shape):
         disparity, matched = disparity_map(bare, bare, max_disparity)
         assert disparity.shape == matched.shape == shape
         assert (disparity == 0).all()
-        states = list(match(bare.astype(float), bare.astype(float), max_disparity, 3, lambda cost: (1.0, 2.0)))
+        states = list(
+            match(bare.astype(float), bare.astype(float), max_disparity, 3, lambda cost: (1.0, 2.0))
+        )
         assert np.isfinite(states[-1].disparity).all()
 
 
@@ -199,14 +212,26 @@ def test_a_student_may_choose_in_floats():
     _, left, right = made("planes")
     ours = list(match(left, right, 15, 3, lambda cost: (20.0, 60.0)))
     theirs = list(
-        match(left, right, 15, 3, lambda cost: (20.0, 60.0), choose=lambda cost: np.argmin(cost, 0).astype(np.float32))
+        match(
+            left,
+            right,
+            15,
+            3,
+            lambda cost: (20.0, 60.0),
+            choose=lambda cost: np.argmin(cost, 0).astype(np.float32),
+        )
     )
-    assert all(np.array_equal(a.disparity, b.disparity, equal_nan=True) for a, b in zip(ours, theirs, strict=True))
+    assert all(
+        np.array_equal(a.disparity, b.disparity, equal_nan=True)
+        for a, b in zip(ours, theirs, strict=True)
+    )
 
 
 def test_cones(shared_data):
     folder = shared_data / "stereo" / "cones"
-    left, right = (np.rint(grey(read_image(folder / name))).astype(np.uint8) for name in ("im2.png", "im6.png"))
+    left, right = (
+        np.rint(grey(read_image(folder / name))).astype(np.uint8) for name in ("im2.png", "im6.png")
+    )
     d_left, d_right = (read_image(folder / name) / 4.0 for name in ("disp2.pgm", "disp6.pgm"))
     partner = np.rint(np.arange(450) - d_left).astype(int)
     there = np.take_along_axis(d_right, np.clip(partner, 0, 449), axis=1)
@@ -240,7 +265,9 @@ def angle(depth, camera, one, two):
 
 
 def true_depth(pair):
-    return depth_from_disparity(pair.disparity + pair.camera.doffs, pair.camera.f, pair.camera.baseline)
+    return depth_from_disparity(
+        pair.disparity + pair.camera.doffs, pair.camera.f, pair.camera.baseline
+    )
 
 
 def plane_normal(depth, camera, rows, columns) -> np.ndarray:

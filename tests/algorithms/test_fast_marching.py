@@ -31,7 +31,11 @@ def by_heap(start, free, h):
             if 0 <= a < n and 0 <= b < m and not done[a, b] and free[a, b] and not given_[a, b]:
                 x, y = min(at(a - 1, b), at(a + 1, b)), min(at(a, b - 1), at(a, b + 1))
                 low, high = min(x, y), max(x, y)
-                u = low + h if high - low >= h else (low + high + np.sqrt(2 * h * h - (high - low) ** 2)) / 2
+                u = (
+                    low + h
+                    if high - low >= h
+                    else (low + high + np.sqrt(2 * h * h - (high - low) ** 2)) / 2
+                )
                 if u < T[a, b]:
                     T[a, b] = u
                     heapq.heappush(heap, (u, a, b))
@@ -61,7 +65,9 @@ def corner(side, disc=0.0):
 
 def test_the_error_falls_slowly_and_faster_from_an_exact_disc():
     np.testing.assert_allclose([corner(side) for side in (21, 41, 81)], [12.1, 8.0, 5.3], atol=0.05)
-    np.testing.assert_allclose([corner(side, 0.1) for side in (21, 41, 81)], [8.1, 3.6, 1.7], atol=0.06)
+    np.testing.assert_allclose(
+        [corner(side, 0.1) for side in (21, 41, 81)], [8.1, 3.6, 1.7], atol=0.06
+    )
 
 
 def test_what_is_accepted_stays():
@@ -107,4 +113,7 @@ def test_the_update_solves_its_equation(a, b, h):
 
 
 def test_one_neighbour_is_enough():
-    assert eikonal_update(np.array([np.inf, 1.0]), np.array([2.0, np.inf]), 0.5).tolist() == [2.5, 1.5]
+    assert eikonal_update(np.array([np.inf, 1.0]), np.array([2.0, np.inf]), 0.5).tolist() == [
+        2.5,
+        1.5,
+    ]

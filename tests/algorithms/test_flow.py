@@ -26,7 +26,9 @@ def clouds(seed, n, m):
 
 @pytest.mark.parametrize("name", BOTH)
 @few
-@example(2800, 13)  # beyond the kink Chamfer is steeper: a step along the mean would be longer than the longest
+@example(
+    2800, 13
+)  # beyond the kink Chamfer is steeper: a step along the mean would be longer than the longest
 @given(seeds, st.integers(1, 15))
 def test_the_distance_falls_at_every_step(name, seed, n):
     p_a, p_b = clouds(seed, n, n)
@@ -50,7 +52,10 @@ def nearly_home(seed, n):
     The best matching is the one to the own target, and stays it while no point is farther than a metre from there.
     """
     rng = np.random.default_rng(seed)
-    p_b = 4.0 * rng.permutation(np.stack(np.meshgrid(*3 * [np.arange(3.0)]), axis=-1).reshape(-1, 3))[:n]
+    p_b = (
+        4.0
+        * rng.permutation(np.stack(np.meshgrid(*3 * [np.arange(3.0)]), axis=-1).reshape(-1, 3))[:n]
+    )
     ways = rng.normal(size=(n, 3))
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
     return rng.permutation(p_b + 10 ** rng.uniform(-6, 0, (n, 1)) * ways), p_b
@@ -130,7 +135,10 @@ def test_a_distance_without_gradient_flows_the_same_way(name):
     p_a[:, 1] = p_b[:, 1] = 0.7  # in a plane
     distance, gradient = BOTH[name]
     ours = [state.p_moving for state in flow(p_a, p_b, distance, gradient, max_steps=8)]
-    numeric = [state.p_moving for state in flow(p_a, p_b, distance, partial(numeric_gradient, distance), max_steps=8)]
+    numeric = [
+        state.p_moving
+        for state in flow(p_a, p_b, distance, partial(numeric_gradient, distance), max_steps=8)
+    ]
     np.testing.assert_allclose(np.array(numeric), np.array(ours), atol=1e-5)
 
 

@@ -35,7 +35,9 @@ def not_half_a_turn(T_start, T_end):
 @given(poses, poses)
 def test_slerp_and_lerp_agree_with_scipy(T_start, T_end):
     if not_half_a_turn(T_start, T_end):
-        Rs = Slerp([0, 1], Rotation.from_matrix(np.stack([T_start[:3, :3], T_end[:3, :3]])))(TIMES).as_matrix()
+        Rs = Slerp([0, 1], Rotation.from_matrix(np.stack([T_start[:3, :3], T_end[:3, :3]])))(
+            TIMES
+        ).as_matrix()
         ts = T_start[:3, 3] + TIMES[:, None] * (T_end[:3, 3] - T_start[:3, 3])
         Ts = np.array(slerped(T_start, T_end))
         np.testing.assert_allclose(Ts[:, :3, :3], Rs, atol=1e-9)
@@ -53,10 +55,15 @@ def test_the_screw_agrees_with_scipy(T_start, T_end):
 
 
 def test_the_screw_is_the_fractional_power():
-    T_start, T_end = exp_se3(np.array([1.0, 2, 3, 0.1, 0.2, 0.3])), exp_se3(np.array([0.0, 1, 0, 1.0, -0.5, 0.4]))
+    T_start, T_end = (
+        exp_se3(np.array([1.0, 2, 3, 0.1, 0.2, 0.3])),
+        exp_se3(np.array([0.0, 1, 0, 1.0, -0.5, 0.4])),
+    )
     log = scipy.linalg.logm(T_end @ np.linalg.inv(T_start))
     np.testing.assert_allclose(
-        screwed(T_start, T_end), [np.real(scipy.linalg.expm(t * log)) @ T_start for t in TIMES], atol=1e-12
+        screwed(T_start, T_end),
+        [np.real(scipy.linalg.expm(t * log)) @ T_start for t in TIMES],
+        atol=1e-12,
     )
 
 
@@ -66,7 +73,9 @@ def test_moving_the_world_moves_the_way(T_start, T_end, T_other_world):
     for way in (slerped, screwed):
         if not_half_a_turn(T_start, T_end):
             moved = way(T_other_world @ T_start, T_other_world @ T_end)
-            np.testing.assert_allclose(moved, T_other_world @ np.array(way(T_start, T_end)), atol=1e-8)
+            np.testing.assert_allclose(
+                moved, T_other_world @ np.array(way(T_start, T_end)), atol=1e-8
+            )
 
 
 @few
@@ -91,7 +100,9 @@ def test_one_euler_angle_alone_is_slerp():
     states = lerp_of_euler_angles(zero, angles, "xyz", zero, zero, TIMES, euler_to_matrix)
     T_end = np.eye(4)
     T_end[:3, :3] = euler_to_matrix(angles, "xyz")
-    np.testing.assert_allclose([s.T_world_body for s in states], slerped(np.eye(4), T_end), atol=1e-14)
+    np.testing.assert_allclose(
+        [s.T_world_body for s in states], slerped(np.eye(4), T_end), atol=1e-14
+    )
 
 
 def test_poses_that_are_the_same_stay():

@@ -56,7 +56,9 @@ def test_what_was_passed_over_is_farther_and_the_rest_was_looked_at():
 
 def test_few_points_are_looked_at_in_three_dimensions_and_nearly_all_in_twenty():
     rng = np.random.default_rng(2)
-    looked = {d: looked_at(tree_of(rng.random((2000, d))), rng.random((10, d))).mean() for d in (3, 20)}
+    looked = {
+        d: looked_at(tree_of(rng.random((2000, d))), rng.random((10, d))).mean() for d in (3, 20)
+    }
     assert looked[3] < 60
     assert looked[20] > 1700
 

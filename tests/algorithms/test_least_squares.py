@@ -24,18 +24,24 @@ HOME, BEYOND = np.array([0.5, 0.4, 0.7]), np.array([2.5, 0.0, 1.0])
 
 
 def an_arc(seed: int, arc: float = 90.0, sigma: float = 0.02) -> np.ndarray:
-    return arc_points(np.radians(arc), 60) + sigma * np.random.default_rng(seed).normal(size=(60, 2))
+    return arc_points(np.radians(arc), 60) + sigma * np.random.default_rng(seed).normal(
+        size=(60, 2)
+    )
 
 
 def moments(p: np.ndarray, start: np.ndarray, damping: float = 1e-3, **more):
-    return list(descend(lambda c: linearise_sphere(c, p), np.add, start, damped_step, damping, **more))
+    return list(
+        descend(lambda c: linearise_sphere(c, p), np.add, start, damped_step, damping, **more)
+    )
 
 
 @settings(max_examples=25, deadline=None)
 @given(seed=seeds)
 def test_damped_the_sum_never_rises_and_every_ending_says_why(seed):
     rng = np.random.default_rng(seed)
-    found = moments(an_arc(seed, rng.uniform(20, 360)), np.append(rng.uniform(-4, 4, 2), rng.uniform(0.1, 3)))
+    found = moments(
+        an_arc(seed, rng.uniform(20, 360)), np.append(rng.uniform(-4, 4, 2), rng.uniform(0.1, 3))
+    )
     assert (np.diff([now.cost for now in found]) <= 0).all()
     assert found[-1].stop is not None
     assert found[-1].stop.message
@@ -69,7 +75,9 @@ def test_the_step_does_not_depend_on_units():
 def test_it_ends_where_scipy_ends():
     for seed in range(5):
         p = an_arc(seed)
-        oracle = scipy.optimize.least_squares(lambda c, p=p: linearise_sphere(c, p)[0], HOME, xtol=1e-12, ftol=1e-12)
+        oracle = scipy.optimize.least_squares(
+            lambda c, p=p: linearise_sphere(c, p)[0], HOME, xtol=1e-12, ftol=1e-12
+        )
         end = moments(p, HOME, tolerance=1e-12)[-1]
         assert end.stop is Stop.CONVERGED
         np.testing.assert_allclose(end.unknown, oracle.x, atol=1e-6)
@@ -126,7 +134,10 @@ def test_singular_and_infinite_ends_are_told():
     assert list(descend(constant, np.add, np.zeros(1), damped_step))[-1].stop is Stop.SINGULAR
     steep = lambda x: (np.exp(np.minimum(x, 800) ** 2) * np.ones(2), np.full((2, 1), 1e-3))  # noqa: E731
     assert (
-        list(descend(steep, np.add, np.array([1.0]), lambda r, J, d: np.array([900.0]), 0.0))[-1].stop is Stop.DIVERGED
+        list(descend(steep, np.add, np.array([1.0]), lambda r, J, d: np.array([900.0]), 0.0))[
+            -1
+        ].stop
+        is Stop.DIVERGED
     )
     assert moments(an_arc(0), HOME, iterations=1)[-1].stop is Stop.MAX_ITERATIONS
 
@@ -162,7 +173,9 @@ def test_the_covariance_is_scipys():
 def test_the_covariance_is_that_of_repetition_where_all_it_takes_for_granted_holds():
     rng, places = np.random.default_rng(0), arc_points(2 * np.pi, 60)
     p = places + 0.02 * rng.normal(size=(2000, 60, 2))
-    *_, fits = descend_many(lambda c: linearise_sphere(c, p), np.add, np.tile([0.0, 0.0, 1.0], (2000, 1)))
+    *_, fits = descend_many(
+        lambda c: linearise_sphere(c, p), np.add, np.tile([0.0, 0.0, 1.0], (2000, 1))
+    )
     _, jacobian = linearise_sphere(np.array([0.0, 0.0, 1.0]), places)
     found = 0.02**2 * np.linalg.inv(jacobian.T @ jacobian)
     np.testing.assert_allclose(np.cov(fits.unknowns.T), found, atol=0.08 * found.max())
@@ -172,7 +185,9 @@ def test_n_less_k_and_not_n():
     """12 points of half a circle, σ = 0.02: the mean of r·r / 9 is σ², that of r·r / 12 is not."""
     rng = np.random.default_rng(1)
     p = arc_points(np.pi, 12) + 0.02 * rng.normal(size=(2000, 12, 2))
-    *_, fits = descend_many(lambda c: linearise_sphere(c, p), np.add, np.tile([0.0, 0.0, 1.0], (2000, 1)))
+    *_, fits = descend_many(
+        lambda c: linearise_sphere(c, p), np.add, np.tile([0.0, 0.0, 1.0], (2000, 1))
+    )
     assert np.sqrt(fits.costs.mean() / 9) == pytest.approx(0.02, abs=3e-4)
     assert np.sqrt(fits.costs.mean() / 12) == pytest.approx(0.0173, abs=3e-4)
 

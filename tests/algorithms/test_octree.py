@@ -29,7 +29,9 @@ def test_no_cell_that_the_surface_crosses_is_left_out():
     *_, last = grow_octree(box, LOW, 2.0, 4)
     corners = np.stack(np.meshgrid(*[np.linspace(-1, 1, 17)] * 3, indexing="ij"), axis=-1)
     inside = (box(corners.reshape(-1, 3)) < 0).reshape(17, 17, 17)
-    cells = np.stack([inside[i : 16 + i, j : 16 + j, k : 16 + k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    cells = np.stack(
+        [inside[i : 16 + i, j : 16 + j, k : 16 + k] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+    )
     crossed = cells.any(axis=0) & ~cells.all(axis=0)
     mixed = np.zeros_like(crossed)
     mixed[tuple(last.cells[last.mixed].T)] = True
@@ -48,7 +50,11 @@ def test_bytes():
     found = levels(7)
     assert [level.packed_bytes for level in found[3:]] == [82, 402, 1746, 7122, 28_610]
     assert [level.dense_bytes for level in found[3:]] == [64, 512, 4096, 32_768, 262_144]
-    assert found[5].pointer_bytes == POINTER_BYTES * 873 == pytest.approx(15 * found[5].dense_bytes, rel=0.03)
+    assert (
+        found[5].pointer_bytes
+        == POINTER_BYTES * 873
+        == pytest.approx(15 * found[5].dense_bytes, rel=0.03)
+    )
 
 
 def test_nothing_near_is_a_tree_of_one_cell():

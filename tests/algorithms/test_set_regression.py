@@ -19,8 +19,13 @@ def test_gradients_are_those_of_differences(monkeypatch, set_loss):
 
 def test_earth_movers_of_squares_ends_in_the_mean_of_partners():
     """Two targets, the same points moved by different ways: one to one, the mean is moved by the mean of the ways."""
-    start, ways = np.random.default_rng(2).normal(size=(8, 3)), iter(np.tile([[0.5, 0, 0], [1.5, 0, 0]], (1000, 1)))
-    *_, last = learn_set(start, lambda: start + next(ways), set_loss="earth mover's", counts=(0, 120))
+    start, ways = (
+        np.random.default_rng(2).normal(size=(8, 3)),
+        iter(np.tile([[0.5, 0, 0], [1.5, 0, 0]], (1000, 1))),
+    )
+    *_, last = learn_set(
+        start, lambda: start + next(ways), set_loss="earth mover's", counts=(0, 120)
+    )
     np.testing.assert_allclose(last.p, start + np.array([1.0, 0, 0]), atol=0.05)
 
 
@@ -29,7 +34,11 @@ def test_under_chamfer_points_share_the_targets_among_them():
     spots = np.array([[-1.0, 0, 0], [1, 0, 0]])
     turn = iter(range(10_000))
     start = np.array([[-0.2, 0.1, 0], [0.2, -0.1, 0]])
-    *_, last = learn_set(start, lambda: spots[[next(turn) % 2] * 2], set_loss="Chamfer", counts=(0, 120))
+    *_, last = learn_set(
+        start, lambda: spots[[next(turn) % 2] * 2], set_loss="Chamfer", counts=(0, 120)
+    )
     assert abs(last.p[0, 0] - last.p[1, 0]) > 0.5
-    *_, last = learn_set(start, lambda: spots[[next(turn) % 2] * 2], set_loss="earth mover's", counts=(0, 120))
+    *_, last = learn_set(
+        start, lambda: spots[[next(turn) % 2] * 2], set_loss="earth mover's", counts=(0, 120)
+    )
     np.testing.assert_allclose(last.p, 0, atol=0.1)

@@ -21,8 +21,12 @@ def log_domain(cost, regularisation, g, sweeps):
     n, m = cost.shape
     f = np.zeros(n)
     for _ in range(sweeps):
-        f = -regularisation * (scipy.special.logsumexp((g - cost) / regularisation, axis=1) + np.log(n))
-        g = -regularisation * (scipy.special.logsumexp((f[:, None] - cost) / regularisation, axis=0) + np.log(m))
+        f = -regularisation * (
+            scipy.special.logsumexp((g - cost) / regularisation, axis=1) + np.log(n)
+        )
+        g = -regularisation * (
+            scipy.special.logsumexp((f[:, None] - cost) / regularisation, axis=0) + np.log(m)
+        )
     return f, g
 
 
@@ -49,7 +53,9 @@ def test_the_plan_does_not_depend_on_the_start(seed, n, m, blur):
     regularisation = blur * cost.max()
     found = sinkhorn(cost, regularisation, tolerance=1e-13, max_sweeps=40)
     f, g = log_domain(cost, regularisation, np.random.default_rng(seed).normal(size=m), 40)
-    np.testing.assert_allclose(found.plan(cost), np.exp((f[:, None] + g - cost) / regularisation), atol=1e-12)
+    np.testing.assert_allclose(
+        found.plan(cost), np.exp((f[:, None] + g - cost) / regularisation), atol=1e-12
+    )
 
 
 @few
@@ -63,7 +69,9 @@ def test_sums_are_as_right_as_it_says_and_the_cost_is_above_the_optimum(seed, n,
     plan = found.plan(cost)
     assert np.abs(plan.sum(axis=1) - 1 / n).sum() == pytest.approx(found.marginal_error, abs=1e-12)
     np.testing.assert_allclose(plan.sum(axis=0), 1 / m, atol=1e-12)
-    missing = 2 * found.marginal_error * cost.max()  # what it costs at most to give all masses their place
+    missing = (
+        2 * found.marginal_error * cost.max()
+    )  # what it costs at most to give all masses their place
     assert found.cost(cost) >= earth_movers(p_a, p_b) - missing - 1e-12
 
 
@@ -72,7 +80,10 @@ def test_less_blur_is_nearer_to_the_optimum():
     p_a, p_b = rng.normal(size=(60, 3)), rng.normal(size=(60, 3)) + 0.5
     cost = scipy.spatial.distance.cdist(p_a, p_b)
     exact = earth_movers(p_a, p_b)
-    excess = [sinkhorn(cost, blur, tolerance=1e-6).cost(cost) / exact - 1 for blur in (1.0, 0.3, 0.1, 0.03, 0.01)]
+    excess = [
+        sinkhorn(cost, blur, tolerance=1e-6).cost(cost) / exact - 1
+        for blur in (1.0, 0.3, 0.1, 0.03, 0.01)
+    ]
     assert np.all(np.diff(excess) < 0)
     assert excess[0] > 0.2
     assert 0 < excess[-1] < 0.002

@@ -48,7 +48,9 @@ def test_heat_is_kept_and_tends_to_the_exact_one(kind):
     if kind == "cotangent":
         from workbench.geometry.meshes.laplacian import cotangent_laplacian, mixed_areas
 
-        laplacian = Laplacian(cotangent_laplacian(ball.p, ball.faces), mixed_areas(ball.p, ball.faces))
+        laplacian = Laplacian(
+            cotangent_laplacian(ball.p, ball.faces), mixed_areas(ball.p, ball.faces)
+        )
     else:
         mass = np.ones(len(ball.p)) if kind == "plain" else graphs.degrees(adjacency)
         laplacian = Laplacian(graphs.laplacian(adjacency), mass)
@@ -74,7 +76,9 @@ def test_smoothing_shrinks_and_taubins_does_not():
     ball = surfaces.sphere(642)
     adjacency = meshes.adjacency(ball.faces, 642)
     shrunk, kept = (list(smooth(ball.p, adjacency, 50, outward=mu))[-1].p for mu in (0.0, 0.526))
-    volumes = [signed_volume(p, ball.faces) / signed_volume(ball.p, ball.faces) for p in (shrunk, kept)]
+    volumes = [
+        signed_volume(p, ball.faces) / signed_volume(ball.p, ball.faces) for p in (shrunk, kept)
+    ]
     assert volumes[0] < 0.7
     assert volumes[1] == pytest.approx(1, abs=0.05)  # the slow parts grow a little
 
@@ -83,7 +87,13 @@ def test_layers_are_powers_where_weights_are_the_identity():
     features = np.zeros((34, 2))
     features[[0, 33], [0, 1]] = 1
     steps = list(spread(KARATE.toarray(), features, [np.eye(2)] * 3))
-    assert [step.part for step in steps] == ["input", "loops", "normalised", "gathered", *["layer"] * 3]
+    assert [step.part for step in steps] == [
+        "input",
+        "loops",
+        "normalised",
+        "gathered",
+        *["layer"] * 3,
+    ]
     power = np.linalg.matrix_power(graphs.propagation(KARATE.toarray()), 3)
     np.testing.assert_allclose(steps[-1].features, power @ features)
     assert len(list(spread(KARATE.toarray(), features, []))) == 1
@@ -113,7 +123,10 @@ def test_training_goes_down_the_gradient():
     rate = 1e-4
     taken = list(train(dense, x, weights, labelled, classes, iterations=1, rate=rate))
     expected = loss(
-        [w - rate * np.sign(np.where(np.abs(s) > 1e-6, s, 0)) for w, s in zip(weights, slopes, strict=True)]
+        [
+            w - rate * np.sign(np.where(np.abs(s) > 1e-6, s, 0))
+            for w, s in zip(weights, slopes, strict=True)
+        ]
     )
     assert taken[1].loss == pytest.approx(expected, abs=1e-7)
     assert taken[1].loss < taken[0].loss

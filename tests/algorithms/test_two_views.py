@@ -59,7 +59,9 @@ def test_the_linear_answer_is_eight_points_before_its_rank():
     scales = normalising_similarity(np.stack([uv_first, uv_second]))
     linear = solve_linear(uv_first, uv_second, *scales)
     ours = fit_fundamental(uv_first, uv_second)
-    np.testing.assert_allclose(linear.F_rank_two * np.sign((linear.F_rank_two * ours).sum()), ours, atol=1e-12)
+    np.testing.assert_allclose(
+        linear.F_rank_two * np.sign((linear.F_rank_two * ours).sum()), ours, atol=1e-12
+    )
     assert linear.singular_values.shape == (9,)
     assert (np.diff(linear.singular_values) <= 0).all()
     few = solve_linear(uv_first[:8], uv_second[:8], *scales)

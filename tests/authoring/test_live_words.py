@@ -18,7 +18,9 @@ class Params:
     points: Annotated[int, Knob("How many", 1, 9)] = 5
 
 
-LESSON = replace(fake.lesson, params=Params, presets=(), questions=(), sweeps=(Sweep("points", (1, 5, 9)),))
+LESSON = replace(
+    fake.lesson, params=Params, presets=(), questions=(), sweeps=(Sweep("points", (1, 5, 9)),)
+)
 
 
 def said(text: str) -> list[str]:
@@ -70,5 +72,7 @@ def test_the_same_words_are_left_alone_where_nobody_is_asked(text):
 
 def test_of_two_wordings_the_published_one_is_looked_at_and_lines_are_those_of_the_file(tmp_path):
     page = tmp_path / "page.md"
-    page.write_text("# A\n\n{{live: Click\n\none.}}{{site:\nChoose a run.}} Then\ndrag it.\n\n{{site: Click it.}}\n")
+    page.write_text(
+        "# A\n\n{{live: Click\n\none.}}{{site:\nChoose a run.}} Then\ndrag it.\n\n{{site: Click it.}}\n"
+    )
     assert list(on_page(replace(LESSON, page=page))) == [(7, "drag it"), (9, "Click")]

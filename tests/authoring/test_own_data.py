@@ -90,10 +90,24 @@ def test_a_pair_of_pictures_can_be_handed_over_one_after_the_other(tmp_path):
 
 def test_a_command_names_flags_and_keeps_the_choice_that_was_made(tmp_path, capsys):
     files = made_files(tmp_path)
-    words = ["record", "distances", "--mesh", str(files["mesh.off"]), "--out", str(tmp_path / "a.rrd")]
+    words = [
+        "record",
+        "distances",
+        "--mesh",
+        str(files["mesh.off"]),
+        "--out",
+        str(tmp_path / "a.rrd"),
+    ]
     assert main([*words, "--stage", "balls"]) == 2
     assert "--mesh is read where --stage is surface" in capsys.readouterr().err
-    words = ["record", "disparity", "--left", str(files["photo.png"]), "--out", str(tmp_path / "b.rrd")]
+    words = [
+        "record",
+        "disparity",
+        "--left",
+        str(files["photo.png"]),
+        "--out",
+        str(tmp_path / "b.rrd"),
+    ]
     assert main(words) == 2
     assert "give both --left and --right" in capsys.readouterr().err
 

@@ -16,7 +16,9 @@ YIELD = "        yield State(k, p, circle)\n"
 
 @pytest.fixture
 def folder(tmp_path) -> Path:
-    return Path(shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__")))
+    return Path(
+        shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__"))
+    )
 
 
 def test_a_lesson_that_holds(folder, capfd):

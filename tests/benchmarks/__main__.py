@@ -45,8 +45,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         prog="python -m tests.benchmarks", description="Run all benchmarks, one after the other."
     )
-    parser.add_argument("--write", type=Path, metavar="FILE", help="write the page instead of printing it")
-    parser.add_argument("--only", nargs="+", metavar="NAME", choices=names(), help="of " + ", ".join(names()))
+    parser.add_argument(
+        "--write", type=Path, metavar="FILE", help="write the page instead of printing it"
+    )
+    parser.add_argument(
+        "--only", nargs="+", metavar="NAME", choices=names(), help="of " + ", ".join(names())
+    )
     given = parser.parse_args()
     ran = []
     for name in given.only or names():
@@ -68,11 +72,25 @@ def names() -> list[str]:
 def measured(name: str) -> Ran:
     """Run one benchmark to its end."""
     module = f"tests.benchmarks.bench_{name}"
-    about = next(line for line in (FOLDER / f"bench_{name}.py").read_text(encoding="utf-8").splitlines() if line)
+    about = next(
+        line
+        for line in (FOLDER / f"bench_{name}.py").read_text(encoding="utf-8").splitlines()
+        if line
+    )
     busy, began = load(), time.monotonic()
     try:
-        done = subprocess.run([sys.executable, "-m", module], cwd=ROOT, capture_output=True, text=True, timeout=LONGEST)
-        said = done.stdout if done.returncode == 0 else f"{done.stdout}failed: {done.stderr.strip().splitlines()[-1]}"
+        done = subprocess.run(
+            [sys.executable, "-m", module],
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            timeout=LONGEST,
+        )
+        said = (
+            done.stdout
+            if done.returncode == 0
+            else f"{done.stdout}failed: {done.stderr.strip().splitlines()[-1]}"
+        )
     except subprocess.TimeoutExpired:
         said = f"given up after {LONGEST:.0f} s"
     return Ran(

@@ -30,7 +30,9 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--rounds", type=int, default=11)
     rounds, cv2 = parser.parse_args().rounds, peer("cv2")
-    print(f"{'camera':12}{'ours ms':>9}{'cv2 ms':>9}{'ratio':>8}{'at most':>9}{'rms':>11}{'K':>11}{'±':>11}")
+    print(
+        f"{'camera':12}{'ours ms':>9}{'cv2 ms':>9}{'ratio':>8}{'at most':>9}{'rms':>11}{'K':>11}{'±':>11}"
+    )
     for name, (p, uv) in cameras().items():
 
         def ours(p: np.ndarray = p, uv: np.ndarray = uv) -> State:
@@ -57,7 +59,10 @@ def main() -> None:
             np.abs(found.K - other[1]).max(),
             np.abs(found.deviations - other[5].ravel()[:9]).max(),
         )
-        print(f"{name:12}{least[0]:9.1f}{least[1]:9.1f}{ratio:8.2f}{2:9.0f}" + "".join(f"{one:11.1e}" for one in apart))
+        print(
+            f"{name:12}{least[0]:9.1f}{least[1]:9.1f}{ratio:8.2f}{2:9.0f}"
+            + "".join(f"{one:11.1e}" for one in apart)
+        )
 
 
 def cameras() -> dict[str, tuple[np.ndarray, np.ndarray]]:

@@ -20,7 +20,10 @@ from workbench.geometry.motions import exp_so3, motion
 N = 1_000_000
 LENS = Distortion(-0.26637, -0.038589, 0.0017832, -0.00028122, 0.23839)
 K = intrinsics(535.9, 342.3, 235.6)
-FLOORS = {"project": 0.15, "undistort": 0.39}  # over the best peer: what a prototype in numpy and scipy reached
+FLOORS = {
+    "project": 0.15,
+    "undistort": 0.39,
+}  # over the best peer: what a prototype in numpy and scipy reached
 
 
 def milliseconds(task: Callable[[], object], repeats: int = 5) -> float:
@@ -51,20 +54,26 @@ def main() -> None:
     theirs, gaps = peers(p_world, w, T_camera_world[:3, 3], uv)
     for task, floor in FLOORS.items():
         if task in theirs:
-            ratio = f"{theirs[task]:9.1f}{ours[task] / theirs[task]:7.3f}{floor:7.2f}{gaps[task]:12.1e}"
+            ratio = (
+                f"{theirs[task]:9.1f}{ours[task] / theirs[task]:7.3f}{floor:7.2f}{gaps[task]:12.1e}"
+            )
         else:
             ratio = f"{'-':>9}{'-':>7}{floor:7.2f}{'-':>12}"
         print(f"{task:36}{ours[task]:9.1f}{ratio}")
 
     scene = street()
-    items: list[Item] = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids.values()]
+    items: list[Item] = [
+        MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids.values()
+    ]
     items.append(SegmentItem(scene.edges, np.zeros((len(scene.edges), 3), np.uint8)))
     eye = look_at(np.array([0.5, -3.0, 1.7]), np.array([0.3, 8.0, 1.0]))
     K_small = intrinsics(260.0, 159.5, 119.5)
     faces = sum(len(solid.faces) for solid in scene.solids.values())
     for name, lens in (("no lens", NONE), ("barrel", Distortion(-0.3, 0.08))):
         spent = milliseconds(lambda lens=lens: render(items, eye, K_small, 320, 240, lens))
-        print(f"{f'draw the street, {faces:,} faces, {name}':36}{spent:9.1f}   (320 x 240, goal 50)")
+        print(
+            f"{f'draw the street, {faces:,} faces, {name}':36}{spent:9.1f}   (320 x 240, goal 50)"
+        )
 
 
 def peers(p_world: np.ndarray, w: np.ndarray, t: np.ndarray, uv: np.ndarray) -> tuple[dict, dict]:
@@ -83,7 +92,10 @@ def peers(p_world: np.ndarray, w: np.ndarray, t: np.ndarray, uv: np.ndarray) -> 
     def back() -> np.ndarray:
         return cv2.undistortPoints(uv[:, None], K, coefficients, criteria=stop)[:, 0]
 
-    gaps = {"project": np.abs(forward() - uv).max(), "undistort": np.abs(back() - normalize(uv, K, LENS)).max()}
+    gaps = {
+        "project": np.abs(forward() - uv).max(),
+        "undistort": np.abs(back() - normalize(uv, K, LENS)).max(),
+    }
     return {"project": milliseconds(forward), "undistort": milliseconds(back)}, gaps
 
 

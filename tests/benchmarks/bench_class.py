@@ -78,7 +78,9 @@ class Served:
     def held(self) -> tuple[int, float]:
         """Return threads, and MB in memory."""
         all_of_it = self._all()
-        return sum(one.num_threads() for one in all_of_it), sum(one.memory_full_info().pss for one in all_of_it) / 2**20
+        return sum(one.num_threads() for one in all_of_it), sum(
+            one.memory_full_info().pss for one in all_of_it
+        ) / 2**20
 
     def spent(self) -> tuple[float, float]:
         """Return seconds of a clock, and seconds of CPU."""
@@ -120,7 +122,9 @@ async def stepping(page: FakePage, until: float, waits: Waits, every: float = 1.
         await asyncio.sleep(max(0.0, every - (time.perf_counter() - began)))
 
 
-async def learning(page: FakePage, until: float, waits: tuple[Waits, Waits], rng: np.random.Generator) -> None:
+async def learning(
+    page: FakePage, until: float, waits: tuple[Waits, Waits], rng: np.random.Generator
+) -> None:
     """Once a second move one knob near its default, or, two times of three, step on; wait for what comes of it."""
     await asyncio.sleep(rng.uniform())
     while time.perf_counter() < until:
@@ -135,7 +139,9 @@ async def learning(page: FakePage, until: float, waits: tuple[Waits, Waits], rng
 
 async def one_knob(page: FakePage, rng: np.random.Generator) -> bool:
     """Move one knob near its default and wait for what comes of it; tell whether it moved."""
-    knobs = [knob for knob in page.knobs if knob["kind"] in ("float", "int") and not knob["parts"][1:]]
+    knobs = [
+        knob for knob in page.knobs if knob["kind"] in ("float", "int") and not knob["parts"][1:]
+    ]
     knob = knobs[rng.integers(len(knobs))]
     near = float(knob["default"]) + 0.1 * (knob["high"] - knob["low"]) * rng.uniform(-1, 1)
     value = float(np.clip(near, knob["low"], knob["high"]))
@@ -152,17 +158,26 @@ async def one_lesson(server: Served, given: argparse.Namespace) -> dict[str, Wai
     found = {"one lesson": Waits()}
     pages = await class_of(server, ["?lesson=icp"] * given.students)
     await asyncio.gather(*(page.until(lambda page: page.run["finished"]) for page in pages))
-    await measured(server, given, [lambda end, page=page: stepping(page, end, found["one lesson"]) for page in pages])
+    await measured(
+        server,
+        given,
+        [lambda end, page=page: stepping(page, end, found["one lesson"]) for page in pages],
+    )
     await asyncio.gather(*(page.close() for page in pages))
     return found
 
 
 async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
     """All on mixed lessons, doing something once a second; beside them one who only steps, and new pages."""
-    found = {name: Waits() for name in ("mixed, knobs", "mixed, their steps", "mixed, steps", "mixed, new page")}
+    found = {
+        name: Waits()
+        for name in ("mixed, knobs", "mixed, their steps", "mixed, steps", "mixed, new page")
+    }
     learned = found["mixed, knobs"], found["mixed, their steps"]
     names = given.lessons
-    pages = await class_of(server, [f"?lesson={names[i % len(names)]}" for i in range(given.students)])
+    pages = await class_of(
+        server, [f"?lesson={names[i % len(names)]}" for i in range(given.students)]
+    )
     walker = (await arrived(server, "?lesson=transforms"))[0]
     await walker.until(lambda page: page.run["finished"])
     tasks: list[Callable[[float], Awaitable[None]]] = [
@@ -178,7 +193,10 @@ async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
 
 async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
     """One who steps, alone; then beside 30 browsers that say nothing and 30 that reload all the time."""
-    found = {name: Waits() for name in ("alone, steps", "alone, new page", "silent, steps", "silent, new page")}
+    found = {
+        name: Waits()
+        for name in ("alone, steps", "alone, new page", "silent, steps", "silent, new page")
+    }
     walker = (await arrived(server, "?lesson=transforms"))[0]
     await walker.until(lambda page: page.run["finished"])
 
@@ -206,7 +224,13 @@ async def attacked(server: Served, given: argparse.Namespace) -> dict[str, Waits
     walker = (await arrived(server, "?lesson=transforms"))[0]
     await walker.until(lambda page: page.run["finished"])
     await measured(server, given, [lambda end: stepping(walker, end, found["alone, steps"], 0.25)])
-    command = [sys.executable, "-m", "tests.benchmarks.attackers", server.address, str(given.seconds + 20)]
+    command = [
+        sys.executable,
+        "-m",
+        "tests.benchmarks.attackers",
+        server.address,
+        str(given.seconds + 20),
+    ]
     with psutil.Popen(command, cwd=ROOT, text=True, stdout=subprocess.PIPE) as attackers:
         while await asyncio.to_thread(attackers.stdout.readline) != "here\n":
             assert attackers.is_running()
@@ -230,14 +254,21 @@ async def coming(server: Served, query: str, end: float, waits: Waits) -> None:
         await asyncio.sleep(1.0)
 
 
-async def measured(server: Served, given: argparse.Namespace, tasks: list[Callable[[float], Awaitable[None]]]) -> None:
+async def measured(
+    server: Served, given: argparse.Namespace, tasks: list[Callable[[float], Awaitable[None]]]
+) -> None:
     """Let all do their work at once, and note what the server spent."""
     began, cpu = server.spent()
     own = time.process_time()
     await asyncio.gather(*(task(began + given.seconds) for task in tasks))
     ended, spent = server.spent()
     seconds = ended - began
-    given.spent = (spent - cpu) / seconds, (time.process_time() - own) / seconds, server.held()[1], seconds
+    given.spent = (
+        (spent - cpu) / seconds,
+        (time.process_time() - own) / seconds,
+        server.held()[1],
+        seconds,
+    )
 
 
 async def costs(server: Served, given: argparse.Namespace) -> None:
@@ -265,7 +296,13 @@ async def costs(server: Served, given: argparse.Namespace) -> None:
     )
 
 
-SCENARIOS: dict[str, Any] = {"cost": costs, "one": one_lesson, "mixed": mixed, "silent": silent, "attacked": attacked}
+SCENARIOS: dict[str, Any] = {
+    "cost": costs,
+    "one": one_lesson,
+    "mixed": mixed,
+    "silent": silent,
+    "attacked": attacked,
+}
 
 
 def afterwards(server: Served, at_work: float) -> tuple[int, float]:
@@ -279,13 +316,17 @@ def afterwards(server: Served, at_work: float) -> tuple[int, float]:
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--students", type=int, default=100)
     parser.add_argument("--seconds", type=float, default=15.0)
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--only", nargs="+", choices=sorted(SCENARIOS), default=list(SCENARIOS))
     parser.add_argument(
-        "--lessons", nargs="+", default=["transforms", "pinhole", "icp", "ransac", "curvature", "disparity"]
+        "--lessons",
+        nargs="+",
+        default=["transforms", "pinhole", "icp", "ransac", "curvature", "disparity"],
     )
     given = parser.parse_args()
     parts = f"one process with {given.threads} threads that compute each"

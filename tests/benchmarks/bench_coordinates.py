@@ -29,24 +29,36 @@ def bench_spherical(rounds: int) -> None:
     if astropy:
         peers["astropy"] = lambda: astropy.cartesian_to_spherical(*p.T)
     ours, *theirs = best(lambda: spherical_from_cartesian(p), *peers.values(), repeat=rounds)
-    line("spherical coordinates, 1,000,000 points", ours, dict(zip(peers, theirs, strict=True)), "0.66 to trimesh")
+    line(
+        "spherical coordinates, 1,000,000 points",
+        ours,
+        dict(zip(peers, theirs, strict=True)),
+        "0.66 to trimesh",
+    )
     c = spherical_from_cartesian(p)
     print(f"    back, farthest off: {np.abs(cartesian_from_spherical(c) - p).max():.1e} m")
     if trimesh:
         near = np.array([[np.sin(1e-9), 0.0, np.cos(1e-9)]])
         theirs = trimesh.util.vector_to_spherical(near)[0, 1]
-        print(f"    polar angle of a billionth: ours {spherical_from_cartesian(near)[0, 1]:.3e}, trimesh {theirs:.3e}")
+        print(
+            f"    polar angle of a billionth: ours {spherical_from_cartesian(near)[0, 1]:.3e}, trimesh {theirs:.3e}"
+        )
 
 
 def bench_distances(rounds: int) -> None:
     rng = np.random.default_rng(0)
-    a, b = (np.column_stack([rng.uniform(-90, 90, WAYS), rng.uniform(-180, 180, WAYS)]) for _ in range(2))
+    a, b = (
+        np.column_stack([rng.uniform(-90, 90, WAYS), rng.uniform(-180, 180, WAYS)])
+        for _ in range(2)
+    )
     geod = pyproj.Geod(a=EARTH_RADIUS, f=0.0) if pyproj else None
     peers = {"pyproj": lambda: geod.inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])} if geod else {}
     ours, *theirs = best(lambda: great_circle_distance(a, b), *peers.values(), repeat=rounds)
     line("distances on a sphere, 100,000", ours, dict(zip(peers, theirs, strict=True)), "0.1")
     if geod:
-        off = np.abs(great_circle_distance(a, b) - geod.inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])[2]).max()
+        off = np.abs(
+            great_circle_distance(a, b) - geod.inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])[2]
+        ).max()
         earth = pyproj.Geod(ellps="WGS84").inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])[2]
         share = np.abs(great_circle_distance(a, b) / earth - 1)
         print(

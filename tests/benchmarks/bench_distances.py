@@ -32,17 +32,40 @@ SIDE = 81
 
 def main() -> None:
     """Print one table per task."""
-    networkx, fmm, potpourri, igl = peer("networkx"), peer("skfmm"), peer("potpourri3d"), peer("igl")
+    networkx, fmm, potpourri, igl = (
+        peer("networkx"),
+        peer("skfmm"),
+        peer("potpourri3d"),
+        peer("igl"),
+    )
     x = np.linspace(0.0, 1.0, SIDE)
     p = np.stack(np.meshgrid(x, x, indexing="ij"), axis=-1).reshape(-1, 2)
-    compare("Dijkstra, 81 x 81 nodes, 8 neighbours", ways(p, networkx), None, FLOORS["dijkstra"], repeats=5)
+    compare(
+        "Dijkstra, 81 x 81 nodes, 8 neighbours",
+        ways(p, networkx),
+        None,
+        FLOORS["dijkstra"],
+        repeats=5,
+    )
     compare("Fast marching, 81 x 81, from an exact disc", marches(x, fmm), None, None, repeats=5)
     ball = surfaces.sphere(2562)
     compare(
-        "Distance by heat, 2,562 vertices", heats(ball.p, ball.faces, potpourri, igl), None, FLOORS["heat"], repeats=5
+        "Distance by heat, 2,562 vertices",
+        heats(ball.p, ball.faces, potpourri, igl),
+        None,
+        FLOORS["heat"],
+        repeats=5,
     )
-    compare("Exact geodesics beside points on edges, 642 vertices", exact(igl), None, None, repeats=3)
-    compare("Mahalanobis, 2,000 x 2,000 points in 10 dimensions", whitened(), None, FLOORS["mahalanobis"], repeats=3)
+    compare(
+        "Exact geodesics beside points on edges, 642 vertices", exact(igl), None, None, repeats=3
+    )
+    compare(
+        "Mahalanobis, 2,000 x 2,000 points in 10 dimensions",
+        whitened(),
+        None,
+        FLOORS["mahalanobis"],
+        repeats=3,
+    )
 
 
 def ways(p: np.ndarray, networkx: ModuleType | None) -> dict[str, Contender]:
@@ -51,7 +74,9 @@ def ways(p: np.ndarray, networkx: ModuleType | None) -> dict[str, Contender]:
     lengths = geodesics.edge_lengths(p, edges)
     graph = scipy.sparse.csr_array((lengths, tuple(edges.T)), shape=(len(p), len(p)))
     contenders: dict[str, Contender] = {
-        "ours, graph made": lambda: float(geodesics.shortest_distances(edges, lengths, len(p), 0).sum()),
+        "ours, graph made": lambda: float(
+            geodesics.shortest_distances(edges, lengths, len(p), 0).sum()
+        ),
         "scipy, graph made": lambda: float(
             scipy.sparse.csgraph.dijkstra(
                 scipy.sparse.csr_array((lengths, tuple(edges.T)), shape=(len(p), len(p))),
@@ -82,8 +107,12 @@ def marches(x: np.ndarray, fmm: ModuleType | None) -> dict[str, Contender]:
 
     contenders: dict[str, Contender] = {"ours, first order": ours}
     if fmm is not None:
-        contenders["scikit-fmm, first order"] = lambda: float(fmm.distance(true - 0.1, dx=h, order=1)[-1, -1] + 0.1)
-        contenders["scikit-fmm, second order"] = lambda: float(fmm.distance(true - 0.1, dx=h)[-1, -1] + 0.1)
+        contenders["scikit-fmm, first order"] = lambda: float(
+            fmm.distance(true - 0.1, dx=h, order=1)[-1, -1] + 0.1
+        )
+        contenders["scikit-fmm, second order"] = lambda: float(
+            fmm.distance(true - 0.1, dx=h)[-1, -1] + 0.1
+        )
     return contenders
 
 
@@ -120,7 +149,9 @@ def exact(igl: ModuleType | None) -> dict[str, Contender]:
 
     def ours() -> float:
         nodes, edges, lengths = geodesics.with_points_on_edges(ball.p, ball.faces, 4)
-        return float(geodesics.shortest_distances(edges, lengths, len(nodes), 0)[: len(ball.p)].sum())
+        return float(
+            geodesics.shortest_distances(edges, lengths, len(nodes), 0)[: len(ball.p)].sum()
+        )
 
     contenders: dict[str, Contender] = {"ours, 4 points on each edge": ours}
     if igl is not None:

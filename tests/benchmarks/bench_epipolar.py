@@ -23,9 +23,18 @@ from workbench.geometry.cameras import normalize
 from workbench.geometry.motions import angle_between, motion
 from workbench.geometry.motions.alignment import degrees_between
 from workbench.geometry.two_views.epipolar import fit_fundamental, refine_fundamental
-from workbench.geometry.two_views.essential import essential_from_fundamental, essential_to_poses, refine_motion
+from workbench.geometry.two_views.essential import (
+    essential_from_fundamental,
+    essential_to_poses,
+    refine_motion,
+)
 from workbench.geometry.two_views.rectification import rectify
-from workbench.geometry.two_views.triangulation import before_both, camera_matrix, midpoints, triangulate
+from workbench.geometry.two_views.triangulation import (
+    before_both,
+    camera_matrix,
+    midpoints,
+    triangulate,
+)
 
 MATCHES, SIGMA = 1365, 0.5
 cv2, poselib = optional("cv2"), optional("poselib")
@@ -44,7 +53,11 @@ def best(*tasks: Callable[[], Any], repeat: int = 5) -> list[float]:
 
 
 def compared(
-    task: str, rounds: int, ours: Callable[[], Any], peers: dict[str, Callable[[], Any]], floor: str = ""
+    task: str,
+    rounds: int,
+    ours: Callable[[], Any],
+    peers: dict[str, Callable[[], Any]],
+    floor: str = "",
 ) -> None:
     mine, *theirs = best(ours, *peers.values(), repeat=rounds)
     line(task, mine, dict(zip(peers, theirs, strict=True)), floor)
@@ -79,7 +92,12 @@ def main() -> None:
 
     def by_poselib() -> np.ndarray:
         cameras = [
-            {"model": "PINHOLE", "width": 1024, "height": 683, "params": [k[0, 0], k[1, 1], k[0, 2], k[1, 2]]}
+            {
+                "model": "PINHOLE",
+                "width": 1024,
+                "height": 683,
+                "params": [k[0, 0], k[1, 1], k[0, 2], k[1, 2]],
+            }
             for k in (K, L)
         ]
         found = poselib.estimate_relative_pose(x, y, *cameras, {"max_epipolar_error": 2.0}, {})[0]
@@ -90,15 +108,28 @@ def main() -> None:
         _, R, t, _ = cv2.recoverPose(E, xn, yn, np.eye(3), mask=mask)
         return motion(R, t.ravel())
 
-    peers = ({"cv2 five points": by_cv2} if cv2 else {}) | ({"poselib": by_poselib} if poselib else {})
+    peers = ({"cv2 five points": by_cv2} if cv2 else {}) | (
+        {"poselib": by_poselib} if poselib else {}
+    )
     compared("motion: eight points, refined", rounds, ours, peers)
     for name, made in {"ours": ours, "ours, not refined": lambda: ours(False), **peers}.items():
         found = made()
         direction = np.degrees(angle_between(found[:3, 3], T[:3, 3]))
-        print(f"    {name}: {degrees_between(found, T):.3f} degrees of rotation, {direction:.3f} of direction off")
-    compared("F refined over seven numbers", rounds, lambda: refine_fundamental(fit_fundamental(x, y), x, y), {})
+        print(
+            f"    {name}: {degrees_between(found, T):.3f} degrees of rotation, {direction:.3f} of direction off"
+        )
+    compared(
+        "F refined over seven numbers",
+        rounds,
+        lambda: refine_fundamental(fit_fundamental(x, y), x, y),
+        {},
+    )
     none, t = np.zeros((5, 1)), T[:3, 3:].copy()
-    rectified = {"cv2": lambda: cv2.stereoRectify(K, none, L, none, (1024, 683), T[:3, :3].copy(), t)} if cv2 else {}
+    rectified = (
+        {"cv2": lambda: cv2.stereoRectify(K, none, L, none, (1024, 683), T[:3, :3].copy(), t)}
+        if cv2
+        else {}
+    )
     compared("rectification", rounds, lambda: rectify(T, K, L), rectified)
 
 

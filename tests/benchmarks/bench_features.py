@@ -47,7 +47,9 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     rounds = parser.parse_args().rounds
     print(f"{'task (ms)':<44} {'ours':>8}   {'peers':<44} {'ratio':>6}   floor")
-    clouds = [(f"rabbit, {n:,} points", rabbit(n, np.random.default_rng(0)), RADIUS) for n in (2000, 3000)]
+    clouds = [
+        (f"rabbit, {n:,} points", rabbit(n, np.random.default_rng(0)), RADIUS) for n in (2000, 3000)
+    ]
     if SCANS.exists():
         bunny = voxel_means(read_cloud(SCANS / "bun000.ply"), 0.005)
         clouds.append((f"bunny, {len(bunny):,} points", bunny, 0.025))
@@ -57,7 +59,10 @@ def main() -> None:
     keypoints(rounds, p, clouds[-1][2])
     features = fpfh(p, point_normals(p), clouds[-1][2])
     compared(
-        "mutual matches of these with themselves", rounds, lambda: mutual_matches(features, features[::-1], 0.9), {}
+        "mutual matches of these with themselves",
+        rounds,
+        lambda: mutual_matches(features, features[::-1], 0.9),
+        {},
     )
     left, _, _ = motorcycle_levels()
     compared(
@@ -99,9 +104,16 @@ def keypoints(rounds: int, p: np.ndarray, radius: float) -> None:
     if open3d:
         cloud = cloud_of(p)
         peers["open3d"] = lambda: open3d.geometry.keypoint.compute_iss_keypoints(
-            cloud, salient_radius=radius, non_max_radius=radius / 2, gamma_21=0.975, gamma_32=0.975, min_neighbors=5
+            cloud,
+            salient_radius=radius,
+            non_max_radius=radius / 2,
+            gamma_21=0.975,
+            gamma_32=0.975,
+            min_neighbors=5,
         )
-    compared("ISS keypoints of the last", rounds, lambda: iss_keypoints(p, radius, radius / 2), peers)
+    compared(
+        "ISS keypoints of the last", rounds, lambda: iss_keypoints(p, radius, radius / 2), peers
+    )
 
 
 def from_any_start() -> None:
@@ -119,14 +131,22 @@ def from_any_start() -> None:
             *_, last = run(Params(target=files[0], source=source, truth=truth, up="y", seed=seed))
             took = time.process_time() - began
             assert isinstance(last.now, Scanned)
-            before = np.nan if last.now.T_before is None else last.now.scans.error(last.now.T_before).rotation
+            before = (
+                np.nan
+                if last.now.T_before is None
+                else last.now.scans.error(last.now.T_before).rotation
+            )
             rows.append((before, last.now.error.rotation, took))
     before, after, took = np.array(rows).T
     print(
         f"\nbunny scans from {STARTS} random starts, every step of the lesson, files read: {np.median(took):.2f} s each"
     )
-    print(f"    before ICP within 0.5 degrees: {np.sum(before < 0.5)}, at most {np.nanmax(before):.3f}")
-    print(f"    after ICP within 0.1 degrees: {np.sum(after < 0.1)}, at most {np.nanmax(after):.3f}")
+    print(
+        f"    before ICP within 0.5 degrees: {np.sum(before < 0.5)}, at most {np.nanmax(before):.3f}"
+    )
+    print(
+        f"    after ICP within 0.1 degrees: {np.sum(after < 0.1)}, at most {np.nanmax(after):.3f}"
+    )
 
 
 def cloud_of(p: np.ndarray, n: np.ndarray | None = None) -> Any:
@@ -137,7 +157,9 @@ def cloud_of(p: np.ndarray, n: np.ndarray | None = None) -> Any:
     return cloud
 
 
-def compared(task: str, rounds: int, ours: Callable[[], Any], peers: dict[str, Callable[[], Any]]) -> None:
+def compared(
+    task: str, rounds: int, ours: Callable[[], Any], peers: dict[str, Callable[[], Any]]
+) -> None:
     """Print the least CPU times, taking turns, milliseconds."""
     ways = {"": ours} | peers
     least = dict.fromkeys(ways, np.inf)

@@ -32,7 +32,9 @@ circle_fit, cv2 = optional("circle_fit"), optional("cv2")
 
 
 def descent(shape: RoundShape, p: np.ndarray, start: np.ndarray) -> np.ndarray:
-    *_, end = descend(lambda c: shape.linearise(c, p), shape.retract, start, damped_step, tolerance=1e-10)
+    *_, end = descend(
+        lambda c: shape.linearise(c, p), shape.retract, start, damped_step, tolerance=1e-10
+    )
     return end.unknown
 
 
@@ -52,8 +54,12 @@ def compare(task: str, ours, peers: dict, floor: str = "") -> None:
 def bench_circle() -> None:
     p = arc_points(np.radians(90), N) + 0.02 * np.random.default_rng(0).normal(size=(N, 2))
     start = np.array([0.5, 0.4, 0.7])
-    scipys = lambda: scipy.optimize.least_squares(lambda c: CIRCLE.linearise(c, p)[0], start, method="lm").x  # noqa: E731
-    compare("circle, 1,000 points, from afar", lambda: descent(CIRCLE, p, start), {"scipy lm": scipys})
+    scipys = lambda: (
+        scipy.optimize.least_squares(lambda c: CIRCLE.linearise(c, p)[0], start, method="lm").x
+    )  # noqa: E731
+    compare(
+        "circle, 1,000 points, from afar", lambda: descent(CIRCLE, p, start), {"scipy lm": scipys}
+    )
     print(f"    R: ours {descent(CIRCLE, p, start)[2]:.5f}, scipy {scipys()[2]:.5f}")
     peers = {"circle-fit": lambda: circle_fit.taubinSVD(p)} if circle_fit else {}
     compare("Taubin's circle, 1,000 points", lambda: fit_algebraic(p), peers)
@@ -87,7 +93,9 @@ def bench_line() -> None:
     def opencvs():
         return cv2.fitLine(p.astype(np.float32), cv2.DIST_HUBER, 0, 1e-4, 1e-4).ravel()
 
-    compare("line, 200 points, 40 off: Huber, then Tukey", ours, {"cv2 HUBER": opencvs} if cv2 else {})
+    compare(
+        "line, 200 points, 40 off: Huber, then Tukey", ours, {"cv2 HUBER": opencvs} if cv2 else {}
+    )
     true = np.degrees(np.arctan(0.5))
     print(f"    degrees off: ours {abs(np.degrees(line_angle(ours())) - true):.2f}", end="")
     if cv2:

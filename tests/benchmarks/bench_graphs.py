@@ -28,11 +28,19 @@ def main() -> None:
     networkx, neighbors = peer("networkx"), peer("sklearn.neighbors")
     p = np.random.default_rng(0).random((20_000, 3))
     compare(
-        "Graph of 8 neighbours, either way, 20,000 points", joins(p, neighbors), None, FLOORS["neighbours"], repeats=5
+        "Graph of 8 neighbours, either way, 20,000 points",
+        joins(p, neighbors),
+        None,
+        FLOORS["neighbours"],
+        repeats=5,
     )
     few = graphs.joined(graphs.directed_graph(graphs.neighbours(p[:5000], 8)[0]), "union")
     compare(
-        "Second eigenvalue and vector of L, 5,000 nodes", fiedlers(few, networkx), None, FLOORS["fiedler"], repeats=3
+        "Second eigenvalue and vector of L, 5,000 nodes",
+        fiedlers(few, networkx),
+        None,
+        FLOORS["fiedler"],
+        repeats=3,
     )
     compare("The same, networkx as it is", slow(few, networkx), None, None, repeats=1)
     many = graphs.joined(graphs.directed_graph(graphs.neighbours(p, 8)[0]), "union")
@@ -42,7 +50,9 @@ def main() -> None:
 def joins(p: np.ndarray, neighbors: ModuleType | None) -> dict[str, Contender]:
     """Return who makes a symmetric graph of neighbours; the sum of its entries must agree."""
     contenders: dict[str, Contender] = {
-        "ours": lambda: float(graphs.joined(graphs.directed_graph(graphs.neighbours(p, 8)[0]), "union").sum())
+        "ours": lambda: float(
+            graphs.joined(graphs.directed_graph(graphs.neighbours(p, 8)[0]), "union").sum()
+        )
     }
     if neighbors is not None:
 
@@ -54,7 +64,9 @@ def joins(p: np.ndarray, neighbors: ModuleType | None) -> dict[str, Contender]:
     return contenders
 
 
-def fiedlers(adjacency: scipy.sparse.csr_array, networkx: ModuleType | None) -> dict[str, Contender]:
+def fiedlers(
+    adjacency: scipy.sparse.csr_array, networkx: ModuleType | None
+) -> dict[str, Contender]:
     """Return who finds the second eigenvalue of L = D - A."""
     ones = np.ones(adjacency.shape[0])
     contenders: dict[str, Contender] = {
@@ -63,7 +75,9 @@ def fiedlers(adjacency: scipy.sparse.csr_array, networkx: ModuleType | None) -> 
 
     def plain() -> float:
         L = graphs.laplacian(adjacency).tocsc()
-        return float(np.sort(scipy.sparse.linalg.eigsh(L, 2, sigma=-1e-3, return_eigenvectors=False))[1])
+        return float(
+            np.sort(scipy.sparse.linalg.eigsh(L, 2, sigma=-1e-3, return_eigenvectors=False))[1]
+        )
 
     contenders["our L, eigsh as it is"] = plain
     if networkx is not None:
@@ -80,13 +94,17 @@ def slow(adjacency: scipy.sparse.csr_array, networkx: ModuleType | None) -> dict
     contenders = {"ours": fiedlers(adjacency, None)["ours"]}
     if networkx is not None:
         graph = networkx.from_scipy_sparse_array(adjacency)
-        contenders["networkx tracemin_pcg"] = lambda: float(networkx.algebraic_connectivity(graph, seed=0))
+        contenders["networkx tracemin_pcg"] = lambda: float(
+            networkx.algebraic_connectivity(graph, seed=0)
+        )
     return contenders
 
 
 def pieces(adjacency: scipy.sparse.csr_array, networkx: ModuleType | None) -> dict[str, Contender]:
     """Return who counts the components."""
-    contenders: dict[str, Contender] = {"ours": lambda: float(graphs.components(adjacency).max() + 1)}
+    contenders: dict[str, Contender] = {
+        "ours": lambda: float(graphs.components(adjacency).max() + 1)
+    }
     if networkx is not None:
         graph = networkx.from_scipy_sparse_array(adjacency)
         contenders["networkx"] = lambda: float(networkx.number_connected_components(graph))

@@ -73,15 +73,21 @@ def bench_alignment() -> None:
     weights = None
 
     def with_scipy() -> None:
-        scipy.spatial.transform.Rotation.align_vectors(q - q.mean(0), p - p.mean(0), weights=weights)
+        scipy.spatial.transform.Rotation.align_vectors(
+            q - q.mean(0), p - p.mean(0), weights=weights
+        )
 
     estimate = None
     if open3d is not None:
-        pairs = open3d.utility.Vector2iVector(np.repeat(np.arange(len(p), dtype=np.int32)[:, None], 2, axis=1))
+        pairs = open3d.utility.Vector2iVector(
+            np.repeat(np.arange(len(p), dtype=np.int32)[:, None], 2, axis=1)
+        )
         clouds = [open3d.geometry.PointCloud(open3d.utility.Vector3dVector(x)) for x in (p, q)]
         method = open3d.pipelines.registration.TransformationEstimationPointToPoint()
         estimate = lambda: method.compute_transformation(*clouds, pairs)  # noqa: E731
-    by_trimesh = trimesh and (lambda: trimesh.registration.procrustes(p, q, reflection=False, scale=False))
+    by_trimesh = trimesh and (
+        lambda: trimesh.registration.procrustes(p, q, reflection=False, scale=False)
+    )
     ours, *peers = best(lambda: align_rigid(q, p), estimate, with_scipy, by_trimesh)
     line(
         "align_rigid, 100,000 pairs",
@@ -115,7 +121,12 @@ def bench_icp(n: int, floor: str, floor_whole: str) -> None:
 
     def fixed_iterations() -> None:
         for _ in icp(
-            p_target, p_source, n_target=n_target, gate=Gate(FIRST), max_iterations=ITERATIONS, tolerance=1e-300
+            p_target,
+            p_source,
+            n_target=n_target,
+            gate=Gate(FIRST),
+            max_iterations=ITERATIONS,
+            tolerance=1e-300,
         ):
             pass
 
@@ -135,25 +146,40 @@ def bench_icp(n: int, floor: str, floor_whole: str) -> None:
     ours, *peers = (t / ITERATIONS for t in best(fixed_iterations, o3_fixed, gicp_fixed, repeat=3))
     line(f"point-to-plane, an iteration, {n:,}", ours, dict(zip(names, peers, strict=True)), floor)
     ours, *peers = best(whole, o3_whole, gicp_whole, repeat=3)
-    line(f"point-to-plane, to its stop, {n:,}", ours, dict(zip(names, peers, strict=True)), floor_whole)
+    line(
+        f"point-to-plane, to its stop, {n:,}",
+        ours,
+        dict(zip(names, peers, strict=True)),
+        floor_whole,
+    )
     errors = {"ours, d < 3 medians": whole(), "start": start}
     if o3_icp and o3_whole:
-        errors |= {"open3d, one gate": o3_icp(FIRST, start, 1e-6, 50), "open3d, two gates": o3_whole()}
+        errors |= {
+            "open3d, one gate": o3_icp(FIRST, start, 1e-6, 50),
+            "open3d, two gates": o3_whole(),
+        }
     if gicp_whole:
         errors |= {"small_gicp, two gates": gicp_whole()}
-    print("    final error, degrees: " + ", ".join(f"{k} {degrees_off(T, T_true):.4f}" for k, T in errors.items()))
+    print(
+        "    final error, degrees: "
+        + ", ".join(f"{k} {degrees_off(T, T_true):.4f}" for k, T in errors.items())
+    )
 
 
 def with_open3d(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> Register:
     """Return open3d's point-to-plane ICP on these clouds; its tree is built in every call, there is no way around it."""
     registration = open3d.pipelines.registration
-    source, target = (open3d.geometry.PointCloud(open3d.utility.Vector3dVector(p)) for p in (p_source, p_target))
+    source, target = (
+        open3d.geometry.PointCloud(open3d.utility.Vector3dVector(p)) for p in (p_source, p_target)
+    )
     target.normals = open3d.utility.Vector3dVector(n_target)
     plane = registration.TransformationEstimationPointToPlane()
 
     def register(gate: float, T: np.ndarray, stop: float, most: int) -> np.ndarray:
         criteria = registration.ICPConvergenceCriteria(stop, stop, most)
-        return registration.registration_icp(source, target, gate, T, plane, criteria).transformation
+        return registration.registration_icp(
+            source, target, gate, T, plane, criteria
+        ).transformation
 
     return register
 
@@ -182,13 +208,21 @@ def profile(n: int) -> None:
     runs = [profiled_run(p_target, p_source, n_target) for _ in range(8)]
     total, query, step, iterations = min(runs)
     trees = best(lambda: matcher(p_target, p_source))[0]
-    print(f"an iteration at {n:,} points, 80 % overlap: {total / iterations:.1f} ms of processor time =")
-    for name, spent in (("nearest-neighbour query", query), ("linear step", step), ("all else", total - query - step)):
+    print(
+        f"an iteration at {n:,} points, 80 % overlap: {total / iterations:.1f} ms of processor time ="
+    )
+    for name, spent in (
+        ("nearest-neighbour query", query),
+        ("linear step", step),
+        ("all else", total - query - step),
+    ):
         print(f"    {name:<26} {spent / iterations:6.1f} ms  {100 * spent / total:3.0f} %")
     print(f"    once per run, both trees   {trees:6.1f} ms\n")
 
 
-def profiled_run(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> tuple[float, float, float, int]:
+def profiled_run(
+    p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
+) -> tuple[float, float, float, int]:
     """Return milliseconds of processor time in all, in the query and in the linear step, and the number of iterations."""
     spent = {"match": 0.0, "step": 0.0}
 

@@ -37,11 +37,18 @@ def turned(field: Field, value: Any) -> Iterator[Any]:
         yield from (choice for choice in field.choices if choice != value)
     elif field.kind in ("float", "int"):
         other = value + field.step
-        yield field.clean(other if other <= (field.knob.high or 0.0) else value - field.step, clamp=True)
+        yield field.clean(
+            other if other <= (field.knob.high or 0.0) else value - field.step, clamp=True
+        )
     elif field.kind in ("floats", "ints"):
         first, *rest = value
         other = first + field.step
-        yield (field.clean((other if other <= (field.knob.high or 0.0) else first - field.step, *rest), clamp=True))
+        yield (
+            field.clean(
+                (other if other <= (field.knob.high or 0.0) else first - field.step, *rest),
+                clamp=True,
+            )
+        )
 
 
 def first_picture(lesson: Lesson, params: Any) -> tuple[Timeline, float]:
@@ -55,7 +62,9 @@ def first_picture(lesson: Lesson, params: Any) -> tuple[Timeline, float]:
 
 def main(names: list[str]) -> None:
     """Print a row per lesson, and below it the knobs whose first picture takes too long."""
-    print(f"{'processor time, ms':<18}{'opened':>8}{'its run':>9}{'knobs':>7}{'median':>8}{'worst':>7}  of a whole run")
+    print(
+        f"{'processor time, ms':<18}{'opened':>8}{'its run':>9}{'knobs':>7}{'median':>8}{'worst':>7}  of a whole run"
+    )
     for lesson in catalog().values():
         if not names or lesson.name in names:
             _measure(lesson)
@@ -90,7 +99,9 @@ def _measure(lesson: Lesson) -> None:
                     continue
     found.sort()
     seconds, name = max(runs)
-    worst = [f"{1000 * seconds:.0f} ms: {name}" for seconds, name in reversed(found) if seconds > MOST]
+    worst = [
+        f"{1000 * seconds:.0f} ms: {name}" for seconds, name in reversed(found) if seconds > MOST
+    ]
     print(f"{lesson.name:<18}{1000 * opened:8.0f}{1000 * whole:9.0f}{len(found):7d}{1000 * found[len(found) // 2][0]:8.0f}"
           f"{1000 * found[-1][0]:7.0f}  {1000 * seconds:.0f} ({name})", flush=True)  # fmt: skip
     for line in worst[:12]:

@@ -68,7 +68,9 @@ def opened(chromium, address: str, *, draws: bool) -> dict[str, float]:
         page.wait_for_function("seen.caption && seen.scene", polling=100)
         server = 1000 * (time.process_time() - began)
         spent = 1000 * sum(seconds - before.get(pid, 0.0) for pid, seconds in renderers().items())
-        painted = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+        painted = page.evaluate(
+            "performance.getEntriesByName('first-contentful-paint')[0].startTime"
+        )
         return {"text": painted, "page": spent, "server": server, **page.evaluate("seen")}
     finally:
         page.context.close()
@@ -97,7 +99,9 @@ def main() -> None:
     try:
         with started() as chromium:
             opened(chromium, f"{server.address}/?lesson={given.only[0]}", draws=True)
-            print(f"load of other work {os.getloadavg()[0]:.1f}; medians of {given.times}, ms; goals: {GOALS}")
+            print(
+                f"load of other work {os.getloadavg()[0]:.1f}; medians of {given.times}, ms; goals: {GOALS}"
+            )
             print(f"{'lesson':16}" + "".join(f"{key:>9}" for key in COLUMNS) + "   load")
             for name in given.only:
                 address = f"{server.address}/?lesson={name}"
@@ -107,7 +111,9 @@ def main() -> None:
                 said = {key: np.median([one[key] for one in still]) for key in still[0]}
                 said["drawn"] = np.median([one["scene"] for one in drawn])
                 print(
-                    f"{name:16}" + "".join(f"{said[key]:9.0f}" for key in COLUMNS) + f"   {os.getloadavg()[0]:.1f}",
+                    f"{name:16}"
+                    + "".join(f"{said[key]:9.0f}" for key in COLUMNS)
+                    + f"   {os.getloadavg()[0]:.1f}",
                     flush=True,
                 )
     finally:

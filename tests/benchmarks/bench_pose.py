@@ -60,18 +60,31 @@ def three(rounds: int, cv2, poselib) -> None:
     rays, pairs = [list(one) for one in unit_rays(xy)], list(zip(p, xy, strict=True))
     ways: dict[str, Contender] = {
         "ours, side by side": lambda: np.array(len(p3p(p, xy)[0])),
-        "ours, one by one": lambda: np.array(sum(len(p3p(p[k : k + 1], xy[k : k + 1])[0]) for k in range(1000))),
+        "ours, one by one": lambda: np.array(
+            sum(len(p3p(p[k : k + 1], xy[k : k + 1])[0]) for k in range(1000))
+        ),
     }
     if cv2:
 
         def by_opencv() -> np.ndarray:
-            solve = [cv2.solveP3P(a[:, None], b[:, None].copy(), np.eye(3), None, cv2.SOLVEPNP_P3P) for a, b in pairs]
+            solve = [
+                cv2.solveP3P(a[:, None], b[:, None].copy(), np.eye(3), None, cv2.SOLVEPNP_P3P)
+                for a, b in pairs
+            ]
             return np.array(sum(found[0] for found in solve))
 
         ways["cv2 solveP3P"] = by_opencv
     if poselib:
-        ways["poselib p3p"] = lambda: np.array(sum(len(poselib.p3p(a, list(b))) for a, b in zip(rays, p, strict=True)))
-    compare("P3P, 1,000 triples; last column: solutions", rounds, ways, lambda found: float(found), per=1000)
+        ways["poselib p3p"] = lambda: np.array(
+            sum(len(poselib.p3p(a, list(b))) for a, b in zip(rays, p, strict=True))
+        )
+    compare(
+        "P3P, 1,000 triples; last column: solutions",
+        rounds,
+        ways,
+        lambda found: float(found),
+        per=1000,
+    )
 
 
 def many(rounds: int, n: int, cv2) -> None:
@@ -88,7 +101,13 @@ def many(rounds: int, n: int, cv2) -> None:
             ways[f"cv2 {name}"] = lambda flag=flag: np.stack(
                 [by_cv2(cv2, a, b, flag) for a, b in zip(p, xy, strict=True)]
             )
-    compare(f"SQPnP, 60 pictures of {n} points; degrees", rounds, ways, lambda Ts: middle(Ts, views), per=60)
+    compare(
+        f"SQPnP, 60 pictures of {n} points; degrees",
+        rounds,
+        ways,
+        lambda Ts: middle(Ts, views),
+        per=60,
+    )
 
 
 def by_control_points(rounds: int, n: int, cv2) -> None:
@@ -100,8 +119,16 @@ def by_control_points(rounds: int, n: int, cv2) -> None:
         "ours, one by one": lambda: np.stack([epnp(a, b) for a, b in zip(p, xy, strict=True)]),
     }
     if cv2:
-        ways["cv2 EPNP"] = lambda: np.stack([by_cv2(cv2, a, b, cv2.SOLVEPNP_EPNP) for a, b in zip(p, xy, strict=True)])
-    compare(f"EPnP, 60 pictures of {n} points; degrees", rounds, ways, lambda Ts: middle(Ts, views), per=60)
+        ways["cv2 EPNP"] = lambda: np.stack(
+            [by_cv2(cv2, a, b, cv2.SOLVEPNP_EPNP) for a, b in zip(p, xy, strict=True)]
+        )
+    compare(
+        f"EPnP, 60 pictures of {n} points; degrees",
+        rounds,
+        ways,
+        lambda Ts: middle(Ts, views),
+        per=60,
+    )
 
 
 def planes(rounds: int, cv2) -> None:
@@ -110,11 +137,17 @@ def planes(rounds: int, cv2) -> None:
     p, xy = np.stack([one[1] for one in views]), np.stack([one[2] for one in views])
     ways: dict[str, Contender] = {
         "ours, side by side": lambda: planar_motions(p, xy)[:, 0],
-        "ours, one by one": lambda: np.stack([planar_motions(a, b)[0] for a, b in zip(p, xy, strict=True)]),
+        "ours, one by one": lambda: np.stack(
+            [planar_motions(a, b)[0] for a, b in zip(p, xy, strict=True)]
+        ),
     }
     if cv2:
-        ways["cv2 IPPE"] = lambda: np.stack([by_cv2(cv2, p, xy, cv2.SOLVEPNP_IPPE) for _, p, xy in views])
-    compare("IPPE, 60 pictures of 20 points of a plane; no column", rounds, ways, lambda Ts: 0.0, per=60)
+        ways["cv2 IPPE"] = lambda: np.stack(
+            [by_cv2(cv2, p, xy, cv2.SOLVEPNP_IPPE) for _, p, xy in views]
+        )
+    compare(
+        "IPPE, 60 pictures of 20 points of a plane; no column", rounds, ways, lambda Ts: 0.0, per=60
+    )
 
 
 def among_outliers(rounds: int, outliers: float, cv2, poselib) -> None:
@@ -125,7 +158,9 @@ def among_outliers(rounds: int, outliers: float, cv2, poselib) -> None:
         wrong = int(outliers * 200)
         xy[:wrong] = np.random.default_rng(seed + 500).uniform([-0.4, -0.3], [0.4, 0.3], (wrong, 2))
         views.append((T, p, F * xy + [320, 240]))
-    ways: dict[str, Contender] = {"ours": lambda: np.stack([by_ransac(p, uv) for _, p, uv in views])}
+    ways: dict[str, Contender] = {
+        "ours": lambda: np.stack([by_ransac(p, uv) for _, p, uv in views])
+    }
     if cv2:
         options = {"reprojectionError": 3.0, "confidence": 0.99, "iterationsCount": 2000}
 
@@ -168,7 +203,12 @@ def middle(Ts: np.ndarray, views: list) -> float:
 
 
 def compare(
-    task: str, rounds: int, ways: dict[str, Contender], judged: Callable[[np.ndarray], float], *, per: int
+    task: str,
+    rounds: int,
+    ways: dict[str, Contender],
+    judged: Callable[[np.ndarray], float],
+    *,
+    per: int,
 ) -> None:
     """Run all contenders, taking turns, and print their times per problem, ours over theirs, and what came out."""
     least, found = dict.fromkeys(ways, np.inf), {}

@@ -33,18 +33,31 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=10)
     seeds = range(5000, 5000 + parser.parse_args().seeds)
-    planes = [plane_scene(np.random.default_rng(seed), count=5000, outlier_ratio=0.5, sigma=0.01) for seed in seeds]
+    planes = [
+        plane_scene(np.random.default_rng(seed), count=5000, outlier_ratio=0.5, sigma=0.01)
+        for seed in seeds
+    ]
     compare("plane", planes, PLANE, plane_contenders(0.02))
     for model, distance in ((HOMOGRAPHY, 3.5), (FUNDAMENTAL, 2.0)):
         flat = model is HOMOGRAPHY
         scenes = [
-            match_scene(np.random.default_rng(seed), count=600, outlier_ratio=0.3, sigma=1.0, flat=flat)
+            match_scene(
+                np.random.default_rng(seed), count=600, outlier_ratio=0.3, sigma=1.0, flat=flat
+            )
             for seed in seeds
         ]
-        compare(model.name, scenes, model, match_contenders(model, distance), f"inlier distance {distance} px")
+        compare(
+            model.name,
+            scenes,
+            model,
+            match_contenders(model, distance),
+            f"inlier distance {distance} px",
+        )
 
 
-def compare(task: str, scenes: list, model: Model, contenders: dict[str, Contender], note: str = "") -> None:
+def compare(
+    task: str, scenes: list, model: Model, contenders: dict[str, Contender], note: str = ""
+) -> None:
     """Run all contenders on all scenes, taking turns, and print their figures and the ratios to the best peer."""
     times = {name: [] for name in contenders}
     errors = {name: [] for name in contenders}
@@ -63,7 +76,9 @@ def compare(task: str, scenes: list, model: Model, contenders: dict[str, Contend
     for name in contenders:
         median, p90, worst = np.quantile(errors[name], (0.5, 0.9, 1.0))
         ratio = "" if name == "ours" else f"{ours / np.median(times[name]):.2f}"
-        print(f"  {name:22}{np.median(times[name]):9.2f}{ratio:>11}{median:11.4f}{p90:9.4f}{worst:9.3f}")
+        print(
+            f"  {name:22}{np.median(times[name]):9.2f}{ratio:>11}{median:11.4f}{p90:9.4f}{worst:9.3f}"
+        )
 
 
 def ours(model: Model, distance: float) -> Contender:
@@ -84,7 +99,9 @@ def plane_contenders(distance: float) -> dict[str, Contender]:
 
         def by_open3d(p: np.ndarray) -> np.ndarray:
             cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(p))
-            plane, _ = cloud.segment_plane(distance, ransac_n=3, num_iterations=MOST_SAMPLES, probability=0.99)
+            plane, _ = cloud.segment_plane(
+                distance, ransac_n=3, num_iterations=MOST_SAMPLES, probability=0.99
+            )
             return np.array(plane)
 
         contenders["open3d"] = by_open3d

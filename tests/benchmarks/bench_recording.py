@@ -60,12 +60,16 @@ def main() -> None:
     """Print a table."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "run.rrd"
-        record_file(catalog()["transforms"], catalog()["transforms"].params(), path)  # imports what is imported once
+        record_file(
+            catalog()["transforms"], catalog()["transforms"].params(), path
+        )  # imports what is imported once
         print(f"{'run':<32} {'bare':>8} {'recorded':>9} {'ratio':>6} {'size':>9} {'steps':>6}")
         for task in tasks():
             bare, recorded, steps = [], [], 0
             for _ in range(ROUNDS):
-                bare.append(seconds(lambda task=task: Timeline(task.lesson, task.params).complete()))
+                bare.append(
+                    seconds(lambda task=task: Timeline(task.lesson, task.params).complete())
+                )
                 began = time.perf_counter()
                 steps = record_file(task.lesson, task.params, path, force=True).steps
                 recorded.append(time.perf_counter() - began)

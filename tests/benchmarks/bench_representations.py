@@ -36,12 +36,36 @@ FLOORS = {"network": 0.5, "patch": 0.02}
 def main(rounds: int = 3) -> None:
     """Print one table per task."""
     compare(
-        "1,500 iterations of 512, 3-32-32-1 with 2 octaves; mean error, m", networks(), None, FLOORS["network"], rounds
+        "1,500 iterations of 512, 3-32-32-1 with 2 octaves; mean error, m",
+        networks(),
+        None,
+        FLOORS["network"],
+        rounds,
     )
-    compare("25 iterations and the level set of 28³: one step of the lesson", steps(), None, None, rounds)
-    compare("100 x 100 points of a bicubic patch", patches(peer("geomdl.BSpline")), None, FLOORS["patch"], rounds)
-    compare("32³ distances of a torus and their level set; volume", level_sets(), None, None, rounds)
-    compare("Signed distances of 4,000 points to 5,684 faces", distances(peer("igl")), None, None, rounds)
+    compare(
+        "25 iterations and the level set of 28³: one step of the lesson",
+        steps(),
+        None,
+        None,
+        rounds,
+    )
+    compare(
+        "100 x 100 points of a bicubic patch",
+        patches(peer("geomdl.BSpline")),
+        None,
+        FLOORS["patch"],
+        rounds,
+    )
+    compare(
+        "32³ distances of a torus and their level set; volume", level_sets(), None, None, rounds
+    )
+    compare(
+        "Signed distances of 4,000 points to 5,684 faces",
+        distances(peer("igl")),
+        None,
+        None,
+        rounds,
+    )
     compare("Nearest of 4,000 points for 100 queries", searches(), None, None, rounds)
 
 
@@ -58,7 +82,9 @@ def networks() -> dict[str, Contender]:
 
     def ours() -> float:
         rng = np.random.default_rng(1)
-        *_, last = train_field(new_network(32, 2, "tanh", rng), p, y, counts=(1500,), target="sdf", rng=rng)
+        *_, last = train_field(
+            new_network(32, 2, "tanh", rng), p, y, counts=(1500,), target="sdf", rng=rng
+        )
         return float(np.abs(last.network(p) - y).mean())
 
     contenders: dict[str, Contender] = {"ours": ours}
@@ -87,7 +113,9 @@ def steps() -> dict[str, Contender]:
 
     def ours() -> float:
         rng = np.random.default_rng(1)
-        *_, last = train_field(new_network(32, 2, "tanh", rng), p, y, counts=(25,), target="sdf", rng=rng)
+        *_, last = train_field(
+            new_network(32, 2, "tanh", rng), p, y, counts=(25,), target="sdf", rng=rng
+        )
         return float(len(level_surface(last.network(corners).reshape(grid.shape), grid)[0]))
 
     return {"ours": ours}
@@ -133,9 +161,13 @@ def distances(igl: ModuleType | None) -> dict[str, Contender]:
     """Return who measures to a mesh; the sum must agree."""
     p, faces = rabbit_mesh(0.03)
     q = np.random.default_rng(3).uniform(-0.6, 0.6, (4000, 3))
-    contenders: dict[str, Contender] = {"ours": lambda: float(mesh_sdf(face_tree(p, faces, closed=True), q).sum())}
+    contenders: dict[str, Contender] = {
+        "ours": lambda: float(mesh_sdf(face_tree(p, faces, closed=True), q).sum())
+    }
     if igl is not None:
-        contenders["igl signed_distance"] = lambda: float(np.sum(igl.signed_distance(q, p, faces)[0]))
+        contenders["igl signed_distance"] = lambda: float(
+            np.sum(igl.signed_distance(q, p, faces)[0])
+        )
     return contenders
 
 
@@ -144,7 +176,9 @@ def searches() -> dict[str, Contender]:
     rng = np.random.default_rng(4)
     p, q = rng.random((4000, 3)), rng.random((100, 3))
     return {
-        "ours, step by step": lambda: float(looked_at(build_tree(p, np.zeros(3), np.ones(3)), q).mean()),
+        "ours, step by step": lambda: float(
+            looked_at(build_tree(p, np.zeros(3), np.ones(3)), q).mean()
+        ),
         "scipy cKDTree (distance)": lambda: float(np.mean(scipy.spatial.cKDTree(p).query(q)[0])),
     }
 

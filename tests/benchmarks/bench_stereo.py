@@ -49,12 +49,16 @@ def main() -> None:
 
 def tasks() -> dict[str, Task]:
     """Return the default run's balls, the motorcycle of its preset, and cones at half their size where they are there."""
-    balls = synthetic_pair("spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), 4.0, np.random.default_rng(0))
+    balls = synthetic_pair(
+        "spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), 4.0, np.random.default_rng(0)
+    )
     found = {
         "balls 160 x 120, 32": task_of(balls, 32),
         "motorcycle 185 x 125, 32": task_of(shrunk(motorcycle_pair(), 4), 32),
     }
-    return found | ({"cones 225 x 187, 32": task_of(shrunk(cones(), 2), 32)} if CONES.is_dir() else {})
+    return found | (
+        {"cones 225 x 187, 32": task_of(shrunk(cones(), 2), 32)} if CONES.is_dir() else {}
+    )
 
 
 def task_of(pair: StereoPair, disparities: int) -> Task:
@@ -62,7 +66,9 @@ def task_of(pair: StereoPair, disparities: int) -> Task:
     assert pair.disparity is not None
     assert pair.visible is not None
     left, right = (np.rint(grey(picture)).astype(np.uint8) for picture in (pair.left, pair.right))
-    return Task(left, right, pair.disparity, pair.visible & (pair.disparity < disparities - 1), disparities)
+    return Task(
+        left, right, pair.disparity, pair.visible & (pair.disparity < disparities - 1), disparities
+    )
 
 
 def cones() -> StereoPair:
@@ -81,7 +87,9 @@ def ours(disparities: int, window: int, *, paths: bool) -> Matcher:
     compare_by = census_cost_volume if paths else sad_cost_volume
 
     def run(left: np.ndarray, right: np.ndarray) -> np.ndarray:
-        *_, last = match(left.astype(float), right.astype(float), disparities - 1, window, penalties, compare_by)
+        *_, last = match(
+            left.astype(float), right.astype(float), disparities - 1, window, penalties, compare_by
+        )
         return last.disparity
 
     return run
@@ -92,8 +100,13 @@ def semi_global_contenders(disparities: int) -> dict[str, Matcher]:
     found: dict[str, Matcher] = {"ours": ours(disparities, BLOCK, paths=True)}
     cv2 = peer()
     if cv2 is not None:
-        for name, mode in (("cv2 3WAY", cv2.STEREO_SGBM_MODE_SGBM_3WAY), ("cv2 HH, 8 paths", cv2.STEREO_SGBM_MODE_HH)):
-            matcher = cv2.StereoSGBM_create(0, disparities, 5, P1=8 * 25, P2=32 * 25, disp12MaxDiff=1, mode=mode)
+        for name, mode in (
+            ("cv2 3WAY", cv2.STEREO_SGBM_MODE_SGBM_3WAY),
+            ("cv2 HH, 8 paths", cv2.STEREO_SGBM_MODE_HH),
+        ):
+            matcher = cv2.StereoSGBM_create(
+                0, disparities, 5, P1=8 * 25, P2=32 * 25, disp12MaxDiff=1, mode=mode
+            )
             found[name] = as_floats(matcher)
     return found
 
@@ -144,7 +157,9 @@ def compare(name: str, task: Task, contenders: dict[str, Matcher], rounds: int) 
         known = np.isfinite(off)
         bad = [100 * float((off[known] > limit).mean()) for limit in (1, 2)]
         ratio = least["ours"] / least[who]
-        print(f"  {who:18}{least[who]:8.1f}{ratio:14.2f}{bad[0]:9.2f}%{bad[1]:9.2f}%{100 * (~known).mean():7.2f}%")
+        print(
+            f"  {who:18}{least[who]:8.1f}{ratio:14.2f}{bad[0]:9.2f}%{bad[1]:9.2f}%{100 * (~known).mean():7.2f}%"
+        )
 
 
 if __name__ == "__main__":

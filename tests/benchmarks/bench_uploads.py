@@ -40,7 +40,10 @@ async def handed(page: FakePage, field: str, name: str, content: bytes) -> None:
     """Hand a file to a field of a page, and wait for what comes of it."""
     before, page.step = page.run["run"], {}
     async with httpx.AsyncClient(timeout=120) as client:
-        address, origin = f"{page.address}files/{page.token}/{field}", {"Origin": page.headers["Origin"]}
+        address, origin = (
+            f"{page.address}files/{page.token}/{field}",
+            {"Origin": page.headers["Origin"]},
+        )
         answer = await client.post(address, params={"name": name}, content=content, headers=origin)
         assert answer.status_code == 204, answer.text
 
@@ -94,9 +97,15 @@ async def watched(server: Served, given: argparse.Namespace) -> None:
 def main() -> None:
     """Run it."""
     with_files = [name for name, lesson in course().items() if paths_of(lesson.params)]
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.bench_uploads", description=__doc__)
-    parser.add_argument("--lessons", nargs="+", default=with_files, choices=with_files, metavar="NAME")
-    parser.add_argument("--files", nargs="+", default=list(FILES), choices=list(FILES), metavar="NAME")
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.benchmarks.bench_uploads", description=__doc__
+    )
+    parser.add_argument(
+        "--lessons", nargs="+", default=with_files, choices=with_files, metavar="NAME"
+    )
+    parser.add_argument(
+        "--files", nargs="+", default=list(FILES), choices=list(FILES), metavar="NAME"
+    )
     given = parser.parse_args()
     server = Served(threads=2)
     try:

@@ -21,7 +21,9 @@ HERE = "browser/test_author_errors.py, line "
 
 @dataclass(frozen=True)
 class Params:
-    fails: Annotated[Literal["nowhere", "in run", "in draw", "in the sink"], Knob("Where")] = "nowhere"
+    fails: Annotated[Literal["nowhere", "in run", "in draw", "in the sink"], Knob("Where")] = (
+        "nowhere"
+    )
 
 
 def run(params: Params) -> Iterator[str]:
@@ -90,7 +92,9 @@ def test_the_page_says_where_a_lesson_fails_and_goes_on(chromium, monkeypatch, c
     assert said.count("Traceback (most recent call last)") >= 4
 
 
-def test_a_page_that_cannot_be_read_is_said_in_its_place_and_the_run_plays(chromium, capsys, tmp_path):
+def test_a_page_that_cannot_be_read_is_said_in_its_place_and_the_run_plays(
+    chromium, capsys, tmp_path
+):
     file = tmp_path / "page.md"
     file.write_text("# Broken")
     server = Server(links.Place(lesson(str(file)), Params(), None))
@@ -99,7 +103,9 @@ def test_a_page_that_cannot_be_read_is_said_in_its_place_and_the_run_plays(chrom
     try:
         page.goto(server.address)
         page.locator("#caption").get_by_text("It fails nowhere.").wait_for()
-        page.locator("article .trouble").get_by_text(f"lesson broken: its page {file}: No such file").first.wait_for()
+        page.locator("article .trouble").get_by_text(
+            f"lesson broken: its page {file}: No such file"
+        ).first.wait_for()
     finally:
         page.close()
         server.stop()

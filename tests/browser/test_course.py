@@ -20,7 +20,9 @@ def first_words(lesson) -> str:
 def test_the_course_leads_from_lesson_to_lesson_and_what_was_left_is_closed(visit, server):
     me = visit(scene=True)
     cards = me.page.locator(".cards li")
-    assert [card.get_attribute("data-card") for card in cards.all()] == [lesson.name for lesson in LESSONS]
+    assert [card.get_attribute("data-card") for card in cards.all()] == [
+        lesson.name for lesson in LESSONS
+    ]
     assert cards.locator(".done").all_inner_texts() == [""] * len(LESSONS)
     before, last = LESSONS[-2:]
     assert me.page.locator("[data-card] a").last.get_attribute("href") == f"?lesson={last.name}"
@@ -89,10 +91,14 @@ def test_the_theme_is_kept_on_every_page(visit):
     me.page.wait_for_selector("[data-theme=dark]")
     me.go("?lesson=pinhole")
     me.page.wait_for_selector("[data-theme=dark]")
-    me.page.frame_locator("#scene iframe").locator("[data-mantine-color-scheme=dark]").wait_for(state="attached")
+    me.page.frame_locator("#scene iframe").locator("[data-mantine-color-scheme=dark]").wait_for(
+        state="attached"
+    )
 
 
 def test_a_link_to_no_lesson_is_told_on_the_course_page(visit):
     me = visit("?lesson=nope")
-    me.page.get_by_role("alert").get_by_text("this link names the lesson 'nope', which is not here").wait_for()
+    me.page.get_by_role("alert").get_by_text(
+        "this link names the lesson 'nope', which is not here"
+    ).wait_for()
     assert me.page.locator(".cards li").count() == len(LESSONS)

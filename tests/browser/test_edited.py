@@ -23,7 +23,9 @@ def save(file: Path, old: str, new: str) -> None:
 
 
 def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
-    folder = Path(shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__")))
+    folder = Path(
+        shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__"))
+    )
     lesson = load(folder)
     server = Server(links.Place(lesson, lesson.params(), None), edited=Edited(folder, lesson))
     try:
@@ -33,7 +35,9 @@ def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
         other.says("The algebraic fit of 41 points")
         me.scene()
         at_rest(me.page)  # the camera of the lesson has come
-        me.page.evaluate("void (feed.aim = () => { throw new Error('the camera stays where a person put it') })")
+        me.page.evaluate(
+            "void (feed.aim = () => { throw new Error('the camera stays where a person put it') })"
+        )
 
         save(folder / "draw.py", "Gauss-Newton step", "Step of Gauss-Newton")
         save(folder / "page.md", "# A circle through points", "# Through points a circle")

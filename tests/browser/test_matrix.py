@@ -78,15 +78,23 @@ def opens_at(timeline: Timeline, step: int) -> int:
 def says_what_the_timeline_says(home: Home) -> None:
     run = here(home)
     home.says(run[opens_at(run, home.lesson.first_step)].caption.text)
-    home.until("n => page.known() === n && page.run.series.every((one) => one.values.length === n)", len(run))
-    told = {one["path"]: (one["name"], one["unit"], one["values"]) for one in home.ask("page.run.series")}
+    home.until(
+        "n => page.known() === n && page.run.series.every((one) => one.values.length === n)",
+        len(run),
+    )
+    told = {
+        one["path"]: (one["name"], one["unit"], one["values"])
+        for one in home.ask("page.run.series")
+    }
     series = run.series()
     assert told.keys() == series.keys()
     for path, one in series.items():
         name, unit, values = told[path]
         assert (name, unit) == (one.scalar.name, one.scalar.unit)
         known = [math.nan if value is None else value for value in values]
-        np.testing.assert_allclose(known, np.where(np.isfinite(one.values), one.values, np.nan), rtol=1e-5, atol=1e-12)
+        np.testing.assert_allclose(
+            known, np.where(np.isfinite(one.values), one.values, np.nan), rtol=1e-5, atol=1e-12
+        )
     home.find("#scene iframe").wait_for()
     home.frame.frame_locator("#scene iframe").locator("canvas").first.wait_for()
     home.ask("void (secondsBetweenPictures = 3600)")
@@ -103,8 +111,18 @@ def is_stepped_and_played_by_keys(home: Home) -> None:
     home.press("Tab")
     assert home.ask("document.activeElement.className") == "skip"
     end = own_end(run)
-    ends = (("End", end), *([("End", last)] if end < last else []))  # tries of other starts follow the run's own end
-    for key, k in (("Home", 0), ("n", 1), ("ArrowRight", 2), ("p", 1), *ends, ("ArrowLeft", last - 1)):
+    ends = (
+        ("End", end),
+        *([("End", last)] if end < last else []),
+    )  # tries of other starts follow the run's own end
+    for key, k in (
+        ("Home", 0),
+        ("n", 1),
+        ("ArrowRight", 2),
+        ("p", 1),
+        *ends,
+        ("ArrowLeft", last - 1),
+    ):
         home.press(key)
         shows(min(k, last))
     home.find("[data-act=back]").press("Enter")
@@ -150,7 +168,9 @@ def a_knob_leads_to_another_run(home: Home) -> None:
     slider = home.find("#drawer fieldset:not(:disabled) input[type=range]").first
     name = slider.locator("xpath=ancestor::fieldset").get_attribute("data-knob")
     before = home.ask("name => page.run.params[name]", name)
-    slider.press("ArrowLeft" if slider.input_value() == slider.get_attribute("max") else "ArrowRight")
+    slider.press(
+        "ArrowLeft" if slider.input_value() == slider.get_attribute("max") else "ArrowRight"
+    )
     home.until("([name, was]) => String(page.run.params[name]) !== was", [name, text_of(before)])
     agrees_with_its_params(home)
     home.find("#drawer").get_by_role("button", name="Reset").press("Enter")
@@ -168,7 +188,10 @@ def agrees_with_its_params(home: Home) -> None:
 
 
 def a_handle_and_a_point_are_moved_by_hand(home: Home) -> None:
-    by = {kind: [f for f in fields_of(home.lesson.params) if isinstance(f.knob.by, kind)] for kind in (Gizmo, Pick)}
+    by = {
+        kind: [f for f in fields_of(home.lesson.params) if isinstance(f.knob.by, kind)]
+        for kind in (Gizmo, Pick)
+    }
     home.ask("void (secondsBetweenPictures = 0.2)")
     for field in by[Gizmo][:1]:
         home.press("h")
@@ -192,7 +215,9 @@ def moved(home: Home, name: str, act: Callable[[int], None]) -> None:
         act(turn)
         with contextlib.suppress(TookTooLong):
             home.frame.wait_for_function(
-                "([name, was]) => String(page.run.params[name]) !== was", arg=[name, before], timeout=3000
+                "([name, was]) => String(page.run.params[name]) !== was",
+                arg=[name, before],
+                timeout=3000,
             )
             return agrees_with_its_params(home)
     raise AssertionError(f"{name} stays {before}")
@@ -239,7 +264,9 @@ def on_screen(home: Home, p_world: np.ndarray) -> np.ndarray:
     """Return where points of the scene (..., 3) are in the window, by the camera of viser's client."""
     camera, box = home.ask("labels.camera"), home.find("#scene").bounding_box()
     w, x, y, z = camera["wxyz"]
-    xyz = (p_world - np.array(camera["position"])) @ Rotation.from_quat([x, y, z, w]).as_matrix()  # right, down, ahead
+    xyz = (p_world - np.array(camera["position"])) @ Rotation.from_quat(
+        [x, y, z, w]
+    ).as_matrix()  # right, down, ahead
     scale = 0.5 * box["height"] / np.tan(0.5 * camera["fov"])
     middle = np.array([box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]])
     return middle + scale * xyz[..., :2] / xyz[..., 2:]
@@ -258,7 +285,13 @@ def links_run_things(home: Home) -> None:
         link = home.find(f"a.run[data-run='{name}']").first
         step = link.get_attribute("data-step")
         run = complete(home, preset.params)
-        at = int(step) if step is not None else home.lesson.first_step if preset.step is None else preset.step
+        at = (
+            int(step)
+            if step is not None
+            else home.lesson.first_step
+            if preset.step is None
+            else preset.step
+        )
         link.press("Enter")
         home.says(run[opens_at(run, at)].caption.text, opens_at(run, at))
         home.find(f"button[data-run='{name}'][aria-pressed=true]").wait_for()
@@ -295,7 +328,9 @@ def a_sweep_leads_to_another_run(home: Home) -> None:
     dial = home.find("#drawer input[type=range]").first
     for key in ("Home", "End"):
         dial.press(key)
-        value = values[home.ask("at => RECORDED.sweeps[0].values.at(at)", 0 if key == "Home" else -1)]
+        value = values[
+            home.ask("at => RECORDED.sweeps[0].values.at(at)", 0 if key == "Home" else -1)
+        ]
         run = complete(home, lesson.validated(replace(lesson.params(), **{knob: value})))
         home.until("() => source.open_.name === page.run.name")
         home.until(AGREES, [step.caption.text for step in run.known()])

@@ -26,8 +26,12 @@ def test_a_reload_comes_back_to_the_place_and_what_was_answered_stays(visit):
     me.says(far[lesson.first_step].caption.text)
     me.act("next")
     me.says(far[lesson.first_step + 1].caption.text)
-    me.page.wait_for_function("location.search.includes('start_angle=120') && location.search.includes('step=1')")
-    assert "theirs=1" in me.page.evaluate("location.search")  # keys that are not ours are left alone
+    me.page.wait_for_function(
+        "location.search.includes('start_angle=120') && location.search.includes('step=1')"
+    )
+    assert "theirs=1" in me.page.evaluate(
+        "location.search"
+    )  # keys that are not ours are left alone
     me.page.reload()
     me.says(far[lesson.first_step + 1].caption.text)
     assert found.why in form.locator("output").inner_text()
@@ -45,7 +49,14 @@ def test_the_scene_is_large_and_the_controls_do_not_move(visit):
     for k in range(1, 9):
         me.act("next")
         me.page.wait_for_function(f"page.k === {first + k}")
-        places.add(str([me.page.locator(f"[data-act={verb}]").bounding_box() for verb in ("first", "play", "last")]))
+        places.add(
+            str(
+                [
+                    me.page.locator(f"[data-act={verb}]").bounding_box()
+                    for verb in ("first", "play", "last")
+                ]
+            )
+        )
     assert len(places) == 1
 
 

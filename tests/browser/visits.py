@@ -31,15 +31,24 @@ def at_rest(page: Any) -> np.ndarray:
     Thin lines of a grid are not drawn the same twice.
     """
     view = page.locator("#view").bounding_box()
-    between = {"x": view["x"] + 10, "y": view["y"] + 40, "width": view["width"] - 20, "height": view["height"] - 90}
+    between = {
+        "x": view["x"] + 10,
+        "y": view["y"] + 40,
+        "width": view["width"] - 20,
+        "height": view["height"] - 90,
+    }
     before, alike = b"", 0
     for _ in range(MOST):
-        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        page.evaluate(
+            "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+        )
         now = page.screenshot(clip=between)
         alike = alike + 1 if now == before else 0
         if alike == ALIKE:
             image = Image.open(io.BytesIO(now)).convert("RGB")
-            return np.asarray(image.resize((image.width // 10, image.height // 10), Image.Resampling.BOX)).astype(int)
+            return np.asarray(
+                image.resize((image.width // 10, image.height // 10), Image.Resampling.BOX)
+            ).astype(int)
         before = now
     raise AssertionError("the scene does not come to rest")
 
@@ -62,15 +71,22 @@ class Visit:
     ):
         self.errors: list[str] = []
         self.address = server.address
-        context = chromium.new_context(viewport={"width": width, "height": height}, reduced_motion="reduce")
+        context = chromium.new_context(
+            viewport={"width": width, "height": height}, reduced_motion="reduce"
+        )
         context.grant_permissions(["clipboard-read", "clipboard-write"], origin=server.address)
         self.page = context.new_page()
         self.page.add_init_script(SELDOM)
         if not scene:
             empty = "<!doctype html><title>No scene</title>"
-            self.page.route("**/scene/", lambda route: route.fulfill(body=empty, content_type="text/html"))
+            self.page.route(
+                "**/scene/", lambda route: route.fulfill(body=empty, content_type="text/html")
+            )
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-        self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
+        self.page.on(
+            "console",
+            lambda message: self.errors.append(message.text) if message.type == "error" else None,
+        )
         self.page.on("request", lambda request: self._local(request.url, server))
         self.go(query)
 

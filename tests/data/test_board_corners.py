@@ -21,7 +21,9 @@ def taken(T_camera_board: np.ndarray, scale: int = 1, noise: float = 3.0) -> np.
     w, h = 2 * scale * np.array(boards.SIZE)
     item = MeshItem(*boards.board_mesh())
     K = resize_intrinsics(boards.K_TRUE, 2.0 * scale, 2.0 * scale)
-    fine = render([item], T_camera_board, K, int(w), int(h), boards.LENS_TRUE, background=(150, 150, 150)).colors
+    fine = render(
+        [item], T_camera_board, K, int(w), int(h), boards.LENS_TRUE, background=(150, 150, 150)
+    ).colors
     image = fine[..., 0].reshape(h // 2, 2, w // 2, 2).mean(axis=(1, 3))
     image = scipy.ndimage.gaussian_filter(image, 0.7 * scale)
     image += noise * np.random.default_rng(0).normal(size=image.shape)
@@ -29,7 +31,9 @@ def taken(T_camera_board: np.ndarray, scale: int = 1, noise: float = 3.0) -> np.
 
 
 def poses(count: int, tilt: float, distance: float = 0.4) -> np.ndarray:
-    return boards.board_poses(np.random.default_rng(1), count, tilt=np.radians(tilt), distance=distance, spread=1.0)
+    return boards.board_poses(
+        np.random.default_rng(1), count, tilt=np.radians(tilt), distance=distance, spread=1.0
+    )
 
 
 def off(found: np.ndarray | None, uv: np.ndarray) -> float:
@@ -42,7 +46,10 @@ def off(found: np.ndarray | None, uv: np.ndarray) -> float:
 def test_every_board_is_found_with_its_first_corner_first(tilt, distance):
     p = boards.board_points()
     for T in poses(8, tilt, distance):
-        assert off(board_corners(taken(T), 9, 6), project(p, T, boards.K_TRUE, boards.LENS_TRUE)) < 0.35
+        assert (
+            off(board_corners(taken(T), 9, 6), project(p, T, boards.K_TRUE, boards.LENS_TRUE))
+            < 0.35
+        )
 
 
 def test_a_large_picture_and_one_of_few_pixels():
@@ -55,10 +62,15 @@ def test_a_large_picture_and_one_of_few_pixels():
     assert off(board_corners(small, 9, 6), (uv + 0.5) / 2 - 0.5) < 0.2
     for size in ((320, 240), (1600, 1200), (3840, 2880)):
         whole = Image.fromarray(taken(T)).resize(size, Image.Resampling.BICUBIC)
-        assert off(board_corners(np.asarray(whole), 9, 6), (uv + 0.5) * size[0] / 640 - 0.5) < 0.15 * size[0] / 320
+        assert (
+            off(board_corners(np.asarray(whole), 9, 6), (uv + 0.5) * size[0] / 640 - 0.5)
+            < 0.15 * size[0] / 320
+        )
 
 
-@pytest.mark.parametrize("change", [lambda g: np.rot90(g), lambda g: 255 - g, lambda g: g // 6, lambda g: g // 2 + 120])
+@pytest.mark.parametrize(
+    "change", [lambda g: np.rot90(g), lambda g: 255 - g, lambda g: g // 6, lambda g: g // 2 + 120]
+)
 def test_turned_negative_dark_or_pale(change):
     assert board_corners(np.ascontiguousarray(change(taken(poses(1, 20)[0]))), 9, 6) is not None
 

@@ -27,7 +27,9 @@ def without_numbers(*whole: int, some: tuple[tuple[int, int], ...] = (), k: int 
     return uv
 
 
-@pytest.mark.parametrize("names", [("object_points", "left"), ("p_board", "uv"), ("board", "corners")])
+@pytest.mark.parametrize(
+    "names", [("object_points", "left"), ("p_board", "uv"), ("board", "corners")]
+)
 def test_arrays_under_several_names(tmp_path, names):
     arrays: dict[str, Any] = {names[0]: P[:, :2], names[1]: views()}
     np.savez(tmp_path / "c.npz", **arrays)
@@ -50,7 +52,9 @@ def test_opencvs_shapes_a_second_camera_and_a_size(tmp_path):
 @pytest.mark.parametrize("header", ["", "view,X,Y,u,v\n", "# a comment\n\n"])
 def test_lines_of_text(tmp_path, header):
     lines = [
-        f"{i}, {x}, {y}, {u}, {v}" for i, uv in enumerate(views()) for (x, y, _), (u, v) in zip(P, uv, strict=True)
+        f"{i}, {x}, {y}, {u}, {v}"
+        for i, uv in enumerate(views())
+        for (x, y, _), (u, v) in zip(P, uv, strict=True)
     ]
     (tmp_path / "c.csv").write_text(header + "\n".join(lines))
     found = read_corners(tmp_path / "c.csv")
@@ -69,12 +73,18 @@ def test_lines_of_text(tmp_path, header):
     ],
 )  # fmt: skip
 @pytest.mark.parametrize("ending", ["npz", "csv"])
-def test_corners_without_a_number_are_left_out_and_counted(tmp_path, uv, kept_views, kept_points, said, ending):
+def test_corners_without_a_number_are_left_out_and_counted(
+    tmp_path, uv, kept_views, kept_points, said, ending
+):
     path = tmp_path / f"c.{ending}"
     if ending == "npz":
         np.savez(path, board=P, uv=uv)
     else:
-        rows = [f"{i} {x} {y} {u} {v}" for i, of in enumerate(uv) for (x, y, _), (u, v) in zip(P, of, strict=True)]
+        rows = [
+            f"{i} {x} {y} {u} {v}"
+            for i, of in enumerate(uv)
+            for (x, y, _), (u, v) in zip(P, of, strict=True)
+        ]
         path.write_text("\n".join(rows))
     found = read_corners(path)
     assert told(path) == (f"{path.name}: {said}",)

@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from lessons.fitting.fit_scenes import arc_points, cap_points, errors, line_points, outlying_plane, pipe_points
+from lessons.fitting.fit_scenes import (
+    arc_points,
+    cap_points,
+    errors,
+    line_points,
+    outlying_plane,
+    pipe_points,
+)
 from workbench.data.files.rims import find_rim, rim_points
 from workbench.errors import InputError
 
@@ -11,7 +18,11 @@ from workbench.errors import InputError
 @pytest.mark.parametrize("arc", [0.4, 2.0, 2 * np.pi])
 def test_places_lie_on_their_shapes_and_within_their_arc(arc):
     p, q, r = arc_points(arc, 50), cap_points(arc, 50), pipe_points(arc, 50)
-    for lengths in (np.linalg.norm(p, axis=1), np.linalg.norm(q, axis=1), np.linalg.norm(r[:, :2], axis=1)):
+    for lengths in (
+        np.linalg.norm(p, axis=1),
+        np.linalg.norm(q, axis=1),
+        np.linalg.norm(r[:, :2], axis=1),
+    ):
         np.testing.assert_allclose(lengths, 1)
     for x, y in (p.T, r.T[:2]):
         assert np.abs(np.arctan2(y, x)).max() <= arc / 2 + 1e-9
@@ -32,7 +43,12 @@ def test_outliers_lie_where_they_are_said_to():
     assert off.sum() == 100
     assert 0 <= p[off, 2].min() < p[off, 2].max() <= 0.5
     assert np.abs(p[~off, 2]).max() < 0.05
-    assert outlying_plane(np.random.default_rng(0), 400, 0.01, 0.25, 0.5, both_sides=True)[0][:, 2].min() < -0.3
+    assert (
+        outlying_plane(np.random.default_rng(0), 400, 0.01, 0.25, 0.5, both_sides=True)[0][
+            :, 2
+        ].min()
+        < -0.3
+    )
 
 
 def test_a_drawn_disc_has_its_rim():

@@ -128,7 +128,9 @@ def garbled(content: bytes, rng: np.random.Generator) -> bytes:
     return bytes(changed)
 
 
-@pytest.mark.parametrize("case", range(len(GOOD)), ids=[f"{name}-{k}" for k, (_, name, _) in enumerate(GOOD)])
+@pytest.mark.parametrize(
+    "case", range(len(GOOD)), ids=[f"{name}-{k}" for k, (_, name, _) in enumerate(GOOD)]
+)
 def test_a_garbled_file_is_a_result_or_one_line(tmp_path, capfd, case):
     read, name, content = GOOD[case]
     path = tmp_path / name
@@ -155,7 +157,11 @@ def test_a_garbled_file_is_a_result_or_one_line(tmp_path, capfd, case):
     [
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "names a vertex that is not there"),
         ("a.obj", b"v 0 0 0\nf 1 -7 2\nv 1 0 0\n", "names a vertex that is not there"),
-        ("a.off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "names a vertex that is not there"),
+        (
+            "a.off",
+            b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n",
+            "names a vertex that is not there",
+        ),
     ],
 )
 def test_a_face_that_names_no_vertex_is_told_so(tmp_path, name, content, said):

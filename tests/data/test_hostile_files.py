@@ -100,15 +100,21 @@ def test_a_small_file_does_not_unpack_to_a_large_one(tmp_path, reader):
 
 
 def test_a_compressed_cloud_does_not_unpack_to_a_large_one(tmp_path):
-    head = b"FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 100\nDATA binary_compressed\n"
-    (tmp_path / "a.pcd").write_bytes(head + struct.pack("<II", 6, 1200) + b"\x00\x00\xe0\xff\x00\x00")
+    head = (
+        b"FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 100\nDATA binary_compressed\n"
+    )
+    (tmp_path / "a.pcd").write_bytes(
+        head + struct.pack("<II", 6, 1200) + b"\x00\x00\xe0\xff\x00\x00"
+    )
     with allowing(replace(COMMAND, unpacked=1000)):
         refused(read_cloud, tmp_path / "a.pcd", "MB unpacked; that is too large")
 
 
 def test_a_header_that_promises_more_than_there_is_takes_no_memory(tmp_path):
     stream = io.BytesIO()
-    np.lib.format.write_array_header_1_0(stream, {"descr": "<f8", "fortran_order": False, "shape": (10**13, 3)})
+    np.lib.format.write_array_header_1_0(
+        stream, {"descr": "<f8", "fortran_order": False, "shape": (10**13, 3)}
+    )
     (tmp_path / "a.npy").write_bytes(stream.getvalue())
     refused(read_cloud, tmp_path / "a.npy", "not readable as arrays of numpy")
     head = "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\n"
@@ -168,7 +174,9 @@ def test_an_image_s_size_is_judged_before_it_is_unpacked(tmp_path, monkeypatch):
     Image.new("1", (2000, 2000)).save(tmp_path / "a.png")
     monkeypatch.setattr(Image.Image, "convert", lambda *_: pytest.fail("unpacked"))
     with allowing(replace(COMMAND, pixels=10**6)):
-        refused(inspect.unwrap(read_image), tmp_path / "a.png", "2000 x 2000 pixels; at most 1,000,000")
+        refused(
+            inspect.unwrap(read_image), tmp_path / "a.png", "2000 x 2000 pixels; at most 1,000,000"
+        )
 
 
 def test_a_folder_of_pictures_leads_nowhere_else(tmp_path):
@@ -206,7 +214,11 @@ def test_a_zip_of_pictures_writes_nothing_and_does_not_unpack_to_much(tmp_path, 
     content = bytearray(path.read_bytes())
     content[60:70] = bytes(10)
     Path("damaged.zip").write_bytes(content)
-    refused(lambda path: pictures_of(path, names_in(path)), Path("damaged.zip"), "cannot be unpacked|not readable")
+    refused(
+        lambda path: pictures_of(path, names_in(path)),
+        Path("damaged.zip"),
+        "cannot be unpacked|not readable",
+    )
 
 
 def test_a_mesh_names_no_other_files(tmp_path):

@@ -39,7 +39,9 @@ def test_the_lantern_has_the_area_that_schwarz_says(sectors, rings):
     assert len(made.faces) == 2 * sectors * rings
     assert len(boundary_edges(made.faces)) == 2 * sectors
     check_mesh(made.p, made.faces)
-    outward = (face_normals(made.p, made.faces) * made.p[made.faces].mean(axis=1) * [1, 1, 0]).sum(axis=1)
+    outward = (face_normals(made.p, made.faces) * made.p[made.faces].mean(axis=1) * [1, 1, 0]).sum(
+        axis=1
+    )
     assert (outward > 0).all()
     lean = 1 - np.cos(np.pi / sectors)
     area = 2 * sectors * rings * np.sin(np.pi / sectors) * np.hypot(1 / rings, lean)

@@ -38,7 +38,10 @@ def test_the_mesh_is_one_closed_surface_on_the_field_with_round_triangles(spacin
 def test_faces_turn_outwards_and_the_mesh_holds_what_points_cover():
     p, faces = rabbit_mesh()
     _, outwards = rabbit_field(p[faces].mean(axis=1))
-    assert (np.einsum("ij,ij->i", face_normals(p, faces), outwards) > 0.5 * np.linalg.norm(outwards, axis=1)).all()
+    assert (
+        np.einsum("ij,ij->i", face_normals(p, faces), outwards)
+        > 0.5 * np.linalg.norm(outwards, axis=1)
+    ).all()
     cloud = rabbit(4000, np.random.default_rng(0))
     gaps, _ = scipy.spatial.KDTree(p).query(cloud)
     assert np.max(gaps) < 0.03

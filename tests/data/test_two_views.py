@@ -24,9 +24,13 @@ def test_matches_are_pictures_of_their_points(what, heading):
     views = street(what, heading=heading)
     assert views.p_first is not None
     assert views.T_second_first is not None
-    np.testing.assert_allclose(project(views.p_first, np.eye(4), views.K_first), views.matches[:, :2], atol=1e-6)
     np.testing.assert_allclose(
-        project(views.p_first, views.T_second_first, views.K_second), views.matches[:, 2:], atol=1e-6
+        project(views.p_first, np.eye(4), views.K_first), views.matches[:, :2], atol=1e-6
+    )
+    np.testing.assert_allclose(
+        project(views.p_first, views.T_second_first, views.K_second),
+        views.matches[:, 2:],
+        atol=1e-6,
     )
     F = fundamental_from_cameras(views.K_first, views.K_second, views.T_second_first)
     assert np.abs(sampson_distances(F, views.clean[:, :2], views.clean[:, 2:])).max() < 1e-6
@@ -59,7 +63,10 @@ def test_pictures_agree_at_matches(what):
     first, second = views.images
     assert first is not None
     assert second is not None
-    (u, v), (s, t) = views.matches[:, :2].round().astype(int).T, views.matches[:, 2:].round().astype(int).T
+    (u, v), (s, t) = (
+        views.matches[:, :2].round().astype(int).T,
+        views.matches[:, 2:].round().astype(int).T,
+    )
     off = np.abs(first[v, u].astype(int) - second[t, s]).max(axis=1)
     assert np.median(off) == 0
     assert (off > 40).mean() < 0.05
@@ -69,7 +76,10 @@ def test_every_knob_has_its_matches():
     for baseline in (0.0, 2.0):
         for heading in (0.0, 90.0, 180.0):
             for what in get_args(What):
-                assert len(street(what, 500, baseline=baseline, heading=np.radians(heading)).matches) == 500
+                assert (
+                    len(street(what, 500, baseline=baseline, heading=np.radians(heading)).matches)
+                    == 500
+                )
     with pytest.raises(InputError, match="in common"):
         street(count=10**5)
 
@@ -88,7 +98,11 @@ def test_what_a_file_says_of_the_cameras_is_read(tmp_path):
     assert found.T_second_first is not None
     np.testing.assert_allclose(found.T_second_first[:3, 3], t)
     views = own_views(
-        written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], K1=K, K2=2 * K - np.diag([0, 0, 1.0])), None, None, None, 20
+        written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], K1=K, K2=2 * K - np.diag([0, 0, 1.0])),
+        None,
+        None,
+        None,
+        20,
     )
     assert len(views.matches) == 20
     assert views.K_second[0, 0] == 1000

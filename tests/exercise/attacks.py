@@ -36,7 +36,9 @@ READING = {
     "linecache": "import linecache; return len(linecache.getlines({secret!r}))",
     "a loader": "import importlib.machinery as m; return len(m.SourceFileLoader('x', {secret!r}).get_data({secret!r}))",
     "sqlite": "import sqlite3; sqlite3.connect({folder!r} + '/new.db').execute('create table t(x)'); return 1",
-    "the C library": ("import ctypes; c = ctypes.CDLL(None); return c.open({secret!r}.encode(), 0) >= 0"),
+    "the C library": (
+        "import ctypes; c = ctypes.CDLL(None); return c.open({secret!r}.encode(), 0) >= 0"
+    ),
     "a system call": SYSCALL
     + "return call(257, -100, {secret!r}.encode(), 0, 0) >= 0 or call(2, {secret!r}.encode(), 0) >= 0",
     "openat2": SYSCALL + "return call(437, -100, {secret!r}.encode(), bytes(24), 24) >= 0",
@@ -104,7 +106,8 @@ HARM = {
     "its marks": "open({results!r}, 'w').write('full'); return 1",
     "marks by appending": "open({results!r}, 'a').write('full'); return 1",
     "marks by bytes": "open({results!r}.encode(), 'r+b').write(b'full'); return 1",
-    "marks by a system call": SYSCALL + "f = call(257, -100, {results!r}.encode(), 1, 0); return f >= 0",
+    "marks by a system call": SYSCALL
+    + "f = call(257, -100, {results!r}.encode(), 1, 0); return f >= 0",
     "marks renamed": "import os; os.rename({results!r}, {results!r} + '2'); return 1",
     "marks removed": "import os; os.remove({results!r}); return 1",
     "marks truncated": "import os; os.truncate({results!r}, 0); return 1",
@@ -130,8 +133,12 @@ SHARED = {
     "a lease to write": NUMPY_S + "fcntl.fcntl(f, fcntl.F_SETLEASE, fcntl.F_WRLCK); return 1",
     "a lease to read": NUMPY_S + "fcntl.fcntl(f, fcntl.F_SETLEASE, fcntl.F_RDLCK); return 1",
     "a lease by a system call": NUMPY_S + SYSCALL + "return call(72, f.fileno(), 1024, 1) == 0",
-    "a lease by the C library": (NUMPY_S + "import ctypes; return ctypes.CDLL(None).fcntl64(f.fileno(), 1024, 0) == 0"),
-    "a lease of a command with high bits": NUMPY_S + SYSCALL + "return call(72, f.fileno(), 1024 + 2**40, 1) == 0",
+    "a lease by the C library": (
+        NUMPY_S + "import ctypes; return ctypes.CDLL(None).fcntl64(f.fileno(), 1024, 0) == 0"
+    ),
+    "a lease of a command with high bits": NUMPY_S
+    + SYSCALL
+    + "return call(72, f.fileno(), 1024 + 2**40, 1) == 0",
     "leases on all of numpy": (
         "import fcntl, glob, os; held = []\n"
         "for name in glob.glob(os.path.dirname(np.__file__) + '/**/*.py', recursive=True)[:40]:\n"
@@ -146,10 +153,14 @@ SHARED = {
     "a lock on a part": NUMPY_S + "fcntl.lockf(f, fcntl.LOCK_SH); return 1",
     "a lock of an open file": NUMPY_S
     + "import struct; fcntl.fcntl(f, 37, struct.pack('hhqqi', 0, 0, 0, 0, 0)); return 1",
-    "who holds a lock": NUMPY_S + "import struct; fcntl.fcntl(f, 5, struct.pack('hhqqi', 1, 0, 0, 0, 0)); return 1",
-    "a hint for all who write": NUMPY_S + "import struct; fcntl.fcntl(f, 1036, struct.pack('Q', 1)); return 1",
-    "pages dropped": NUMPY_S + "os.posix_fadvise(f.fileno(), 0, 0, os.POSIX_FADV_DONTNEED); return 1",
-    "pages put out": NUMPY_S + "import mmap; mmap.mmap(f.fileno(), 0, prot=1).madvise(21); return 1",
+    "who holds a lock": NUMPY_S
+    + "import struct; fcntl.fcntl(f, 5, struct.pack('hhqqi', 1, 0, 0, 0, 0)); return 1",
+    "a hint for all who write": NUMPY_S
+    + "import struct; fcntl.fcntl(f, 1036, struct.pack('Q', 1)); return 1",
+    "pages dropped": NUMPY_S
+    + "os.posix_fadvise(f.fileno(), 0, 0, os.POSIX_FADV_DONTNEED); return 1",
+    "pages put out": NUMPY_S
+    + "import mmap; mmap.mmap(f.fileno(), 0, prot=1).madvise(21); return 1",
     "pages counted": SYSCALL + "m = ctypes.create_string_buffer(9); a = ctypes.addressof(m); "
     "return call(27, a - a % 4096, 4096, bytes(1)) == 0",
     "pages merged": "import mmap; mmap.mmap(-1, 4096).madvise(12); return 1",
@@ -182,7 +193,8 @@ PROCESSES = {
         "return _posixsubprocess.fork_exec(*a) > 0"
     ),
     "exec": "import os, sys; os.execv(sys.executable, [sys.executable, '-c', ''])",
-    "execveat": SYSCALL + "import sys; return call(322, -100, sys.executable.encode(), None, None, 0) >= 0",
+    "execveat": SYSCALL
+    + "import sys; return call(322, -100, sys.executable.encode(), None, None, 0) >= 0",
     "a signal to the grader": "import os; os.kill({pid}, 0); return 1",
     "a signal to the parent": "import os; os.kill(os.getppid(), 9); return 1",
     "a signal to the group": "import os; os.killpg(os.getpgid(0), 0); return 1",
@@ -202,12 +214,17 @@ PROCESSES = {
         PIPE + "fcntl.fcntl(r, fcntl.F_SETOWN, os.getpid()); fcntl.fcntl(r, 10, 28); " + RAISE
     ),
     "a signal by a pipe, the other way": (
-        PIPE + "import struct; fcntl.fcntl(r, 15, struct.pack('ii', 1, {victim})); fcntl.fcntl(r, 10, 28); " + RAISE
+        PIPE
+        + "import struct; fcntl.fcntl(r, 15, struct.pack('ii', 1, {victim})); fcntl.fcntl(r, 10, 28); "
+        + RAISE
     ),
-    "a signal by a system call for the pipe": (PIPE + SYSCALL + "return call(72, r.fileno(), 8, {victim}) == 0"),
+    "a signal by a system call for the pipe": (
+        PIPE + SYSCALL + "return call(72, r.fileno(), 8, {victim}) == 0"
+    ),
     "a signal that a pipe would send": PIPE + "fcntl.fcntl(r, 10, 28); return 1",
     "a pipe that sends signals": PIPE + "fcntl.fcntl(r, 4, os.O_ASYNC); return 1",
-    "a pipe that sends signals, by ioctl": PIPE + "fcntl.ioctl(r, 0x5452, b'\\x01\\0\\0\\0'); return 1",
+    "a pipe that sends signals, by ioctl": PIPE
+    + "fcntl.ioctl(r, 0x5452, b'\\x01\\0\\0\\0'); return 1",
     "the owner of a pipe, by ioctl": PIPE
     + "import struct; fcntl.ioctl(r, 0x8901, struct.pack('i', {victim})); return 1",
     "the group of a pipe, by ioctl": PIPE
@@ -218,14 +235,16 @@ PROCESSES = {
     "another's turn": "import os; os.sched_setscheduler({victim}, os.SCHED_IDLE, os.sched_param(0)); return 1",
     "another's turn, its param": "import os; os.sched_setparam({victim}, os.sched_param(0)); return 1",
     "another's turn, all of it": (
-        SYSCALL + "import struct; return call(314, {victim}, struct.pack('IIQiIQQQ', 48, 5, 0, 0, 0, 0, 0, 0), 0) == 0"
+        SYSCALL
+        + "import struct; return call(314, {victim}, struct.pack('IIQiIQQQ', 48, 5, 0, 0, 0, 0, 0, 0), 0) == 0"
     ),
     "its own processor": "import os; os.sched_setaffinity(0, {{0}}); return 1",
     "another's nice value": "import os; os.setpriority(os.PRIO_PROCESS, {victim}, 5); return 1",
     "another's disk": SYSCALL + "return call(251, 1, {victim}, 3 << 13) == 0",
     "another's limits": "import resource; resource.prlimit({victim}, resource.RLIMIT_NOFILE); return 1",
     "another's pages": SYSCALL + "return call(279, {victim}, 0, None, None, None, 0) == 0",
-    "another's memory elsewhere": SYSCALL + "return call(256, {victim}, 64, bytes(8), bytes(8)) >= 0",
+    "another's memory elsewhere": SYSCALL
+    + "return call(256, {victim}, 64, bytes(8), bytes(8)) >= 0",
     "another's list of locks": SYSCALL + "return call(274, {victim}, bytes(8), bytes(8)) == 0",
     "another's thread as a lock's owner": SYSCALL
     + "import struct; lock = struct.pack('I', {victim}); import ctypes as c\n"
@@ -235,8 +254,10 @@ PROCESSES = {
     "compared with another": SYSCALL + "return call(312, {victim}, {pid}, 1, 0, 0) >= 0",
     "a descriptor for another": SYSCALL + "return call(434, {victim}, 0) >= 0",
     "another's memory given back": SYSCALL + "return call(448, call(434, {victim}, 0), 0) == 0",
-    "another's memory advised": SYSCALL + "return call(440, call(434, {victim}, 0), bytes(16), 1, 20, 0) >= 0",
-    "writing the grader": SYSCALL + "return call(311, {victim}, bytes(16), 1, bytes(16), 1, 0) >= 0",
+    "another's memory advised": SYSCALL
+    + "return call(440, call(434, {victim}, 0), bytes(16), 1, 20, 0) >= 0",
+    "writing the grader": SYSCALL
+    + "return call(311, {victim}, bytes(16), 1, bytes(16), 1, 0) >= 0",
     "ptrace": SYSCALL + "return call(101, 16, {pid}, 0, 0) == 0",
     "ptrace by its parent": SYSCALL + "return call(101, 0, 0, 0, 0) == 0",
     "reading the grader": SYSCALL + "return call(310, {pid}, bytes(16), 1, bytes(16), 1, 0) >= 0",
@@ -282,7 +303,8 @@ DOORS = {
     "a signal's descriptor": SYSCALL + "return call(289, -1, bytes(8), 8, 0) >= 0",
     "a larger pipe": PIPE + "fcntl.fcntl(r, 1031, 1 << 20); return 1",
     "pages into a pipe": PIPE + SYSCALL + "return call(278, w.fileno(), bytes(16), 0, 0) >= 0",
-    "a file into a pipe": PIPE + "f = open(np.__file__); return os.splice(f.fileno(), w.fileno(), 9) > 0",
+    "a file into a pipe": PIPE
+    + "f = open(np.__file__); return os.splice(f.fileno(), w.fileno(), 9) > 0",
     "keys of memory": SYSCALL + "return call(330, 0, 0) >= 0",
     "a filter of its own": SYSCALL + "return call(317, 2, 0, bytes(4)) == 0",
     "walls of its own": SYSCALL + "return call(444, None, 0, 1) > 0",
@@ -320,7 +342,9 @@ RESOURCES = {
     ),
     "printing for ever": "while True: print('x' * 10_000)",
     "printing past Python": "import os\nwhile True: os.write(1, b'x' * 10_000)",
-    "an error that cannot be told": ("class E(Exception):\n    def __str__(self): raise self\nraise E"),
+    "an error that cannot be told": (
+        "class E(Exception):\n    def __str__(self): raise self\nraise E"
+    ),
     "an error of a long name": "raise type('E' * 10**6, (Exception,), {{}})('x' * 10**7)",
     "a huge answer": "return np.zeros((10**7, 3))",
     "a deep answer": "x = []\nfor _ in range(10**5): x = [x]\nreturn x",

@@ -88,7 +88,10 @@ PRAIRIELEARN = {  # "External grading", "Grading results"
     },
 }
 
-UUID = {"type": "string", "pattern": "^[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}$"}
+UUID = {
+    "type": "string",
+    "pattern": "^[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}$",
+}
 
 QUESTION = {  # "Question configuration": of info.json, what a question with an external grader has
     "type": "object",
@@ -138,7 +141,11 @@ ASSESSMENT = {  # "Assessment configuration", "Access control": of infoAssessmen
             "items": {
                 "type": "object",
                 "additionalProperties": False,
-                "properties": {"startDate": MOMENT, "endDate": MOMENT, "credit": {"type": "integer"}},
+                "properties": {
+                    "startDate": MOMENT,
+                    "endDate": MOMENT,
+                    "credit": {"type": "integer"},
+                },
             },
         },
         "zones": {

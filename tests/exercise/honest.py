@@ -84,7 +84,9 @@ def minimising():
         optimize.minimize(lambda x: (x**2).sum(), np.ones(3), method=method)
     optimize.linear_sum_assignment(np.eye(9))
     optimize.linprog([1, 1], A_ub=[[-1, -1]], b_ub=[-1])
-    np.testing.assert_allclose(optimize.least_squares(lambda x: x - 1, np.zeros(3), loss="huber").x, 1.0)
+    np.testing.assert_allclose(
+        optimize.least_squares(lambda x: x - 1, np.zeros(3), loss="huber").x, 1.0
+    )
     integrate.quad(np.sin, 0, 1)
     interpolate.CubicSpline(range(9), range(9))
     stats.norm.fit(np.arange(9.0))

@@ -86,7 +86,9 @@ def _functions(module: ModuleType) -> dict[str, ast.FunctionDef]:
     tree = ast.parse(inspect.getsource(module))
     found = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
     return {
-        node.name: node for node in found if [ast.unparse(one) for one in node.decorator_list] in ([], ["alternative"])
+        node.name: node
+        for node in found
+        if [ast.unparse(one) for one in node.decorator_list] in ([], ["alternative"])
     }
 
 
@@ -101,10 +103,14 @@ def _used(parts: dict[str, ast.FunctionDef], name: str) -> list[str]:
     return found
 
 
-def _made(module: ModuleType, parts: dict[str, ast.FunctionDef], name: str, mutant: Mutant) -> Function | None:
+def _made(
+    module: ModuleType, parts: dict[str, ast.FunctionDef], name: str, mutant: Mutant
+) -> Function | None:
     """Return the function with the change; None where the change is no Python."""
     space = dict(vars(module)) | HELPERS
-    sources = {part: ast.unparse(parts[part]) for part in _used(parts, name)} | {mutant.function: mutant.source}
+    sources = {part: ast.unparse(parts[part]) for part in _used(parts, name)} | {
+        mutant.function: mutant.source
+    }
     try:
         with warnings.catch_warnings(action="ignore"):
             code = compile("\n".join(sources.values()), "mutant", "exec", dont_inherit=True)
@@ -208,7 +214,11 @@ def differs(one: Changed) -> tuple[Any, ...] | None:
 
 
 def _is_right(
-    function: Function, args: tuple[Any, ...], right: Any, exercise: Exercise, kind: type[np.float32] | None = None
+    function: Function,
+    args: tuple[Any, ...],
+    right: Any,
+    exercise: Exercise,
+    kind: type[np.float32] | None = None,
 ) -> bool:
     """Tell whether an answer is right as far as the digits of its kind go: no contract asks for double precision."""
     got = _answer(function, args)
@@ -224,7 +234,9 @@ def _alike(got: Any, right: Any, exercise: Exercise) -> bool:
 def _answer(function: Function, args: tuple[Any, ...]) -> Any:
     try:
         with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):
-            return function(*[np.array(arg) if isinstance(arg, np.ndarray) else arg for arg in args])
+            return function(
+                *[np.array(arg) if isinstance(arg, np.ndarray) else arg for arg in args]
+            )
     except Exception as error:
         return error
 
@@ -246,7 +258,8 @@ def agreed(exercise: Exercise) -> list[tuple[tuple[Any, ...], Any]]:
             _answer(limited(right), args) for right in exercise.alternatives
         )  # some never end on negative lengths
         if not isinstance(first, Exception) and all(
-            not isinstance(answer, Exception) and _alike(answer, first, exercise) for answer in answers
+            not isinstance(answer, Exception) and _alike(answer, first, exercise)
+            for answer in answers
         ):
             found.append((args, first))
     return found
@@ -265,7 +278,8 @@ def _variants(args: tuple[Any, ...], rng: np.random.Generator) -> Iterator[tuple
         order = rng.permutation(n)
         for some in (order, order[: n // 2], order[:1]):
             yield tuple(
-                arg[some] if isinstance(arg, np.ndarray) and arg.ndim and len(arg) == n else arg for arg in args
+                arg[some] if isinstance(arg, np.ndarray) and arg.ndim and len(arg) == n else arg
+                for arg in args
             )
     for k, arg in enumerate(args):
         if isinstance(arg, (int, float)) and not isinstance(arg, bool):
@@ -318,13 +332,27 @@ def main(arguments: list[str]) -> None:
     known, write = accepted(), sys.stdout.write
     most = int(arguments.pop(arguments.index("--sample") + 1)) if "--sample" in arguments else None
     wanted = [name for name in arguments if not name.startswith("-")] or list(exercises())
-    line = "| {:26} | {:>9} | {:>7} | {:>7} | {:>7} |\n" if "--markdown" in arguments else "{:26}{:>9}{:>7}{:>7}{:>7}\n"
+    line = (
+        "| {:26} | {:>9} | {:>7} | {:>7} | {:>7} |\n"
+        if "--markdown" in arguments
+        else "{:26}{:>9}{:>7}{:>7}{:>7}\n"
+    )
     write(line.format("exercise", "mutants", "lose", "equal", "alive"))
     write(line.format("---", "--:", "--:", "--:", "--:") if "--markdown" in arguments else "")
     total = np.zeros(4, dtype=int)
-    with multiprocessing.Pool(min(2, os.cpu_count() or 1)) as pool, contextlib.suppress(KeyboardInterrupt):
-        for found in pool.imap(functools.partial(row, table="--table" in arguments, most=most), wanted):
-            counted = [found.losing + found.equal + len(found.alive), found.losing, found.equal, len(found.alive)]
+    with (
+        multiprocessing.Pool(min(2, os.cpu_count() or 1)) as pool,
+        contextlib.suppress(KeyboardInterrupt),
+    ):
+        for found in pool.imap(
+            functools.partial(row, table="--table" in arguments, most=most), wanted
+        ):
+            counted = [
+                found.losing + found.equal + len(found.alive),
+                found.losing,
+                found.equal,
+                len(found.alive),
+            ]
             total += counted
             write(line.format(found.exercise, *counted))
             for survivor in found.alive:

@@ -15,7 +15,11 @@ OTHER_NAMES = (
     ("argmin", "argmax"), ("min", "max"), ("minimum", "maximum"), ("sin", "cos"), ("any", "all"), ("sum", "mean"),
     ("mean", "median"), ("floor", "ceil"), ("hstack", "vstack"), ("searchsorted", "digitize"), ("zeros", "ones"),
 )  # fmt: skip
-SWAPPED = dict(OTHER_NAMES) | {new: old for old, new in reversed(OTHER_NAMES)} | {"sum": "mean", "mean": "median"}
+SWAPPED = (
+    dict(OTHER_NAMES)
+    | {new: old for old, new in reversed(OTHER_NAMES)}
+    | {"sum": "mean", "mean": "median"}
+)
 DROPPED = {"sqrt", "abs", "square", "radians", "degrees", "exp", "log", "sort", "cumsum", "unique", "inv", "clip",
            "maximum", "minimum", "where", "cross", "sign", "asarray", "copy", "max", "min", "round", "ceil"}  # fmt: skip
 OTHER_OPERATORS: dict[type, tuple[type, ...]] = {
@@ -57,15 +61,21 @@ def mutants(function: ast.FunctionDef, *, arguments: bool) -> Iterator[Mutant]:
                 continue
             for k, node in list(enumerate(value if isinstance(value, list) else [value])):
                 if isinstance(node, ast.AST):
-                    yield from _at(function, parent, field, k if isinstance(value, list) else None, node)
-    for operator, line in _of_arguments([arg.arg for arg in function.args.args]) if arguments else ():
+                    yield from _at(
+                        function, parent, field, k if isinstance(value, list) else None, node
+                    )
+    for operator, line in (
+        _of_arguments([arg.arg for arg in function.args.args]) if arguments else ()
+    ):
         body = list(function.body)
         function.body[:0] = ast.parse(line).body
         yield Mutant(function.name, operator, line, ast.unparse(function))
         function.body = body
 
 
-def _at(function: ast.FunctionDef, parent: ast.AST, field: str, k: int | None, node: ast.AST) -> Iterator[Mutant]:
+def _at(
+    function: ast.FunctionDef, parent: ast.AST, field: str, k: int | None, node: ast.AST
+) -> Iterator[Mutant]:
     """Yield the function with each change of one node."""
     for operator, new in _changes(node):
         old = ast.unparse(node)
@@ -133,7 +143,13 @@ def _changes(node: ast.AST) -> Changed:
             yield "case", ast.Pass()
             if not orelse:
                 yield "case", ast.If(ast.Constant(True), body, [])
-        case ast.Assign([ast.Subscript()], _) | ast.AugAssign() | ast.Expr(ast.Call()) | ast.Continue() | ast.Break():
+        case (
+            ast.Assign([ast.Subscript()], _)
+            | ast.AugAssign()
+            | ast.Expr(ast.Call())
+            | ast.Continue()
+            | ast.Break()
+        ):
             yield "statement", ast.Pass()
         case ast.Return(ast.Tuple(values)):
             yield "order", ast.Return(ast.Tuple(values[::-1], ast.Load()))
@@ -165,15 +181,25 @@ def _calls(node: ast.Call) -> Changed:
     name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
     if name in SWAPPED:
         func = node.func
-        other = ast.Attribute(func.value, SWAPPED[name]) if isinstance(func, ast.Attribute) else ast.Name(SWAPPED[name])
+        other = (
+            ast.Attribute(func.value, SWAPPED[name])
+            if isinstance(func, ast.Attribute)
+            else ast.Name(SWAPPED[name])
+        )
         yield "function", ast.Call(other, node.args, node.keywords)
     if name in DROPPED and node.args:
         yield "function", node.args[-1 if name == "where" else 0]
     if name == "norm" and node.args:
         yield "function", ast.Call(ast.Name("_ones_of"), [node.args[0]], node.keywords)
     if len(node.args) > 1 and not any(isinstance(arg, ast.Starred) for arg in node.args):
-        yield "order", ast.Call(node.func, [node.args[1], node.args[0], *node.args[2:]], node.keywords)
+        yield (
+            "order",
+            ast.Call(node.func, [node.args[1], node.args[0], *node.args[2:]], node.keywords),
+        )
     for k, keyword in enumerate(node.keywords):
         rest = [*node.keywords[:k], *node.keywords[k + 1 :]]
         if keyword.arg:
-            yield ("axis" if keyword.arg == "axis" else "keyword"), ast.Call(node.func, node.args, rest)
+            yield (
+                ("axis" if keyword.arg == "axis" else "keyword"),
+                ast.Call(node.func, node.args, rest),
+            )

@@ -58,7 +58,9 @@ def rotation_from_axis_angle__complex_half_turn(axis, angle):
     if not np.any(axis):
         raise ValueError("zero axis")
     half = cmath.exp(0.5j * angle)
-    return Rotation.from_quat(np.append(half.imag * axis / np.linalg.norm(axis), half.real)).as_matrix()
+    return Rotation.from_quat(
+        np.append(half.imag * axis / np.linalg.norm(axis), half.real)
+    ).as_matrix()
 
 
 def shortest_distances__csgraph(edges, lengths, count, source):

@@ -77,17 +77,25 @@ def graded(exercise: Exercise) -> Iterator[Graded]:
     tree = ast.parse(source)
     names = [node.name for node in tree.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
     names += [
-        t.id for node in tree.body if isinstance(node, ast.Assign) for t in node.targets if isinstance(t, ast.Name)
+        t.id
+        for node in tree.body
+        if isinstance(node, ast.Assign)
+        for t in node.targets
+        if isinstance(t, ast.Name)
     ]
     named = {}
     for node in tree.body:
         if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "NAMED":
             named = ast.literal_eval(node.value)
-    with SandboxedFunction(Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0) as student:
+    with SandboxedFunction(
+        Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0
+    ) as student:
         for name in names:
             if name.startswith(("right_", "wrong_")):
                 handed = HandIn(student, name)
-                yield Graded(name, grade_function(handed, exercise, file=path.name), named.get(name))
+                yield Graded(
+                    name, grade_function(handed, exercise, file=path.name), named.get(name)
+                )
 
 
 def graded_strangers() -> Iterator[Graded]:
@@ -95,7 +103,9 @@ def graded_strangers() -> Iterator[Graded]:
     path = FOLDER.with_name("strangers.py")
     source = path.read_text(encoding="utf-8")
     known = exercises()
-    with SandboxedFunction(Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0) as student:
+    with SandboxedFunction(
+        Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0
+    ) as student:
         for node in ast.parse(source).body:
             if isinstance(node, ast.FunctionDef):
                 exercise, _, kind = node.name.partition("__")
@@ -133,11 +143,17 @@ def main(arguments: list[str]) -> None:
     total: Counter[str] = Counter()
     for exercise in exercises().values():
         wanted = [name for name in arguments if not name.startswith("-")]
-        if (wanted and exercise.name not in wanted) or not (FOLDER / f"{exercise.name}.py").exists():
+        if (wanted and exercise.name not in wanted) or not (
+            FOLDER / f"{exercise.name}.py"
+        ).exists():
             continue
         found = list(graded(exercise))
         total += counts(found)
-        write(f"{exercise.name:26}" + "".join(f"{counts(found)[column]:16}" for column in columns) + "\n")
+        write(
+            f"{exercise.name:26}"
+            + "".join(f"{counts(found)[column]:16}" for column in columns)
+            + "\n"
+        )
         for one in found if "--said" in arguments else ():
             write(f"\n{one.name}: {one.fate}\n{terminal(one.report)}\n")
         for line in complaints(found) if "--said" not in arguments else ():

@@ -23,7 +23,13 @@ def filled(value: Any, number: float) -> Any:
     if isinstance(value, (tuple, list)):
         return tuple(filled(part, number) for part in value)
     kind = np.asarray(value).dtype.kind
-    plain = bool(number) if kind == "b" else int(np.clip(number, -(2**62), 2**62)) if kind in "iu" else number
+    plain = (
+        bool(number)
+        if kind == "b"
+        else int(np.clip(number, -(2**62), 2**62))
+        if kind in "iu"
+        else number
+    )
     return np.full(np.shape(value), plain) if isinstance(value, np.ndarray) else plain
 
 
@@ -43,9 +49,12 @@ def its_own_input(args: tuple, right: Any) -> Any:
 
 @pytest.mark.parametrize("exercise", exercises().values(), ids=lambda exercise: exercise.name)
 def test_no_constant_and_no_input_returned_earns_over_a_quarter(exercise, monkeypatch):
-    monkeypatch.setattr(jaxtyping.config, "jaxtyping_disable", True)  # checked shapes raise what no contract names
+    monkeypatch.setattr(
+        jaxtyping.config, "jaxtyping_disable", True
+    )  # checked shapes raise what no contract names
     functions = {
-        str(number): answering(exercise, lambda _, right, number=number: filled(right, number)) for number in NUMBERS
+        str(number): answering(exercise, lambda _, right, number=number: filled(right, number))
+        for number in NUMBERS
     }
     functions["its input"] = answering(exercise, its_own_input)
     for what, function in functions.items():

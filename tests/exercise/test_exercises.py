@@ -43,8 +43,12 @@ def test_names_are_unique():
 
 @pytest.mark.parametrize("promise", OF_EXERCISES, ids=named)
 def test_it_keeps_its_promises(exercise, promise, monkeypatch):
-    monkeypatch.setattr(jaxtyping.config, "jaxtyping_disable", True)  # checked shapes raise what no contract names
-    wrong = [line for line in promise(Subject(catalog()[exercise.lesson]), exercise) if line is not None]
+    monkeypatch.setattr(
+        jaxtyping.config, "jaxtyping_disable", True
+    )  # checked shapes raise what no contract names
+    wrong = [
+        line for line in promise(Subject(catalog()[exercise.lesson]), exercise) if line is not None
+    ]
     assert not wrong, "\n".join(wrong)
 
 
@@ -63,7 +67,9 @@ def test_what_came_and_what_is_right_are_not_written_alike(exercise):
 
 def test_the_starter_imports_nothing_but_numpy(exercise):
     imports = [
-        node for node in ast.walk(ast.parse(starter(exercise))) if isinstance(node, (ast.Import, ast.ImportFrom))
+        node
+        for node in ast.walk(ast.parse(starter(exercise)))
+        if isinstance(node, (ast.Import, ast.ImportFrom))
     ]
     assert [ast.unparse(node) for node in imports] == ["import numpy as np"]
 
@@ -72,7 +78,12 @@ def test_the_sample_solution_imports_nothing_but_numpy_and_the_standard_library(
     """That it earns full marks by itself is promised above."""
     tree = ast.parse(sample(exercise))
     imported = [node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
-    imported += [alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names]
+    imported += [
+        alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Import)
+        for alias in node.names
+    ]
     assert {str(name).partition(".")[0] for name in imported} <= {"numpy", *sys.stdlib_module_names}
 
 
@@ -114,7 +125,9 @@ def half_a_degree_off(p_target, p_source):
     T = exercises()["align_rigid"].reference(p_target, p_source)
     c = p_target.mean(0)
     Q = small_turn(0.5)
-    return np.vstack([np.column_stack([Q @ T[:3, :3], c + Q @ (T[:3, 3] - c)]), [0.0, 0.0, 0.0, 1.0]])
+    return np.vstack(
+        [np.column_stack([Q @ T[:3, :3], c + Q @ (T[:3, 3] - c)]), [0.0, 0.0, 0.0, 1.0]]
+    )
 
 
 def test_half_a_degree_off_is_half_right():

@@ -20,7 +20,9 @@ from workbench.exercise.submission import Submission, submission
 from workbench.exercise.submissions import HandIn
 
 REFUSED = Path(__file__).with_name("refused.py")
-STRICT = replace(EXERCISE, contract=replace(EXERCISE.contract, forbid=("scipy.spatial", "numpy.average")))
+STRICT = replace(
+    EXERCISE, contract=replace(EXERCISE.contract, forbid=("scipy.spatial", "numpy.average"))
+)
 ANSWER = "def centroid(p):\n    return {}\n"
 USES = {
     "import scipy.spatial": ANSWER.format("p.mean(0)"),  # imported is used
@@ -55,7 +57,12 @@ ALLOWED = {
 def read(text: str, modules: dict[str, str] | None = None) -> Submission:
     with Reader() as reader:
         beside = (modules or {}).get
-        return submission("my_centroid.py", text.encode(), lambda file: (beside(file) or "").encode() or None, reader)
+        return submission(
+            "my_centroid.py",
+            text.encode(),
+            lambda file: (beside(file) or "").encode() or None,
+            reader,
+        )
 
 
 @pytest.mark.parametrize("head", USES)
@@ -104,7 +111,8 @@ def test_only_the_exercise_that_forbids_it_is_refused():
         report = grade_file(read(text), exercises()[name])
         assert report.is_full, terminal(report)
     report = grade_file(
-        read(text.replace("def match", "def tree(p): return cKDTree(p)\n\ndef match")), exercises()["match"]
+        read(text.replace("def match", "def tree(p): return cKDTree(p)\n\ndef match")),
+        exercises()["match"],
     )
     assert report.is_full  # a function that match does not call
     used = text.replace("return np.array([", "cKDTree(p_target); return np.array([")
@@ -121,14 +129,18 @@ HANDED = [
 @pytest.mark.parametrize("name", HANDED)
 def test_right_answers_by_one_call_are_refused(name):
     exercise = exercises()[name.partition("__")[0]]
-    report = grade_file(read(f"{REFUSED.read_text(encoding='utf-8')}\n\n{exercise.name} = {name}\n"), exercise)
+    report = grade_file(
+        read(f"{REFUSED.read_text(encoding='utf-8')}\n\n{exercise.name} = {name}\n"), exercise
+    )
     assert report.points == 0, terminal(report)
     assert f"is forbidden for {exercise.name}" in report.said_once
 
 
 def test_every_exercise_that_forbids_something_says_so_in_its_starter():
     strict = [exercise for exercise in exercises().values() if exercise.contract.forbid]
-    assert {"laplacian", "shortest_distances", "mahalanobis", "align_rigid"} <= {exercise.name for exercise in strict}
+    assert {"laplacian", "shortest_distances", "mahalanobis", "align_rigid"} <= {
+        exercise.name for exercise in strict
+    }
     for exercise in exercises().values():
         text = " ".join(starter(exercise).split())
         said = f"It may not use {' or '.join(exercise.contract.forbid)}, which solves the task"

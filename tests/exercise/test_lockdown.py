@@ -36,7 +36,9 @@ def answered(program: bytes, architecture: int, number: int, words: tuple[int, .
 
     Source: Linux, Documentation/userspace-api/seccomp_filter.rst; struct seccomp_data, include/uapi/linux/seccomp.h.
     """
-    asked = struct.pack("<IIQ12I", number & 0xFFFFFFFF, architecture, 0, *words, *[0] * (12 - len(words)))
+    asked = struct.pack(
+        "<IIQ12I", number & 0xFFFFFFFF, architecture, 0, *words, *[0] * (12 - len(words))
+    )
     lines = list(struct.iter_unpack("=HBBI", program))
     at = held = 0
     while True:
@@ -63,13 +65,17 @@ def test_what_is_on_the_list_is_allowed_and_nothing_else(syscalls, machine, writ
     free = syscalls.MAY | (syscalls.OPEN | syscalls.CHANGE if writes else {})
     numbers = {n[column] for n in free.values()}
     assert len(numbers - {None}) == len([n for n in free.values() if n[column] is not None])
-    bound = {n[column] for n, _ in syscalls.MAY_IF.values()} | {n[column] for n in syscalls.OPEN.values()}
+    bound = {n[column] for n, _ in syscalls.MAY_IF.values()} | {
+        n[column] for n in syscalls.OPEN.values()
+    }
     hostile = (0xDEADBEEF,) * 12
     for number in [*range(1000), 0x40000000, 0x40000001, 0xFFFFFFFF]:
         assert (answered(program, architecture, number, hostile) == ALLOWED) == (number in numbers)
         assert answered(program, 0x40000003, number) != ALLOWED  # the machine's older half, 32 bits
         if number not in numbers | bound:
-            assert answered(program, architecture, number) == (0x50000 | (38 if number >= 424 else 1))
+            assert answered(program, architecture, number) == (
+                0x50000 | (38 if number >= 424 else 1)
+            )
 
 
 CASES = [  # a call, its arguments, whether it is allowed
@@ -105,7 +111,16 @@ def test_where_it_has_no_folder_it_opens_to_read_alone(syscalls, machine):
     number = syscalls.OPEN["openat"][column]
     for writes in (True, False):
         program = syscalls.program(machine, writes=writes)
-        for flags, changing in ((0, 0), (0x80000, 0), (1, 1), (2, 1), (3, 1), (0x40, 1), (0x200, 1), (0x410002, 1)):
+        for flags, changing in (
+            (0, 0),
+            (0x80000, 0),
+            (1, 1),
+            (2, 1),
+            (3, 1),
+            (0x40, 1),
+            (0x200, 1),
+            (0x410002, 1),
+        ):
             got = answered(program, architecture, number, (0, 0, 0, 0, flags, 0))
             assert (got == ALLOWED) == (writes or not changing)
 
@@ -124,7 +139,12 @@ def test_the_numbers_are_the_kernel_s(syscalls, machine):
     known = dict(re.findall(r"#define __NR(?:3264)?_(\w+)\s+(\d+)", there[0].read_text()))
     known.setdefault("newfstatat", known.get("fstatat"))
     column = syscalls.MACHINES[machine][0]
-    ours = syscalls.MAY | syscalls.OPEN | syscalls.CHANGE | {name: n for name, (n, _) in syscalls.MAY_IF.items()}
+    ours = (
+        syscalls.MAY
+        | syscalls.OPEN
+        | syscalls.CHANGE
+        | {name: n for name, (n, _) in syscalls.MAY_IF.items()}
+    )
     for name, numbers in ours.items():
         assert known.get(name) == (None if numbers[column] is None else str(numbers[column])), name
 
@@ -149,7 +169,9 @@ def shut(tmp_path):
     def run(lines: str, *words: str) -> list[str]:
         command = [python.here().executable, "-I", "-S", "-B", "-c", head + textwrap.dedent(lines)]
         command += [str(python.CHILD_FILES), json.dumps(settings), *words]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, cwd="/")
+        done = subprocess.run(
+            command, capture_output=True, text=True, timeout=60, check=False, cwd="/"
+        )
         assert done.returncode == 0, done.stderr
         return done.stdout.split()
 

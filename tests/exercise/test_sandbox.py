@@ -49,7 +49,9 @@ def test_an_honest_function_gives_plain_values(student):
 def test_numbers_are_rounded_as_by_the_grader(student, monkeypatch):
     monkeypatch.setenv("OPENBLAS_CORETYPE", "Nehalem")
     monkeypatch.setenv("OPENBLAS_SECRET", "not for students")
-    function = student("import os; return ' '.join(sorted(k for k in os.environ if k.startswith('OPENBLAS')))")
+    function = student(
+        "import os; return ' '.join(sorted(k for k in os.environ if k.startswith('OPENBLAS')))"
+    )
     assert function(POINTS) == "OPENBLAS_CORETYPE OPENBLAS_NUM_THREADS"
 
 
@@ -108,7 +110,9 @@ def test_what_is_printed_can_be_read(student):
 
 
 def test_patching_numpy_in_the_child_changes_nothing_here(student):
-    function = student("np.allclose = lambda *a, **k: True\nnp.linalg.norm = lambda *a, **k: 0.0\nreturn p[0] + 99")
+    function = student(
+        "np.allclose = lambda *a, **k: True\nnp.linalg.norm = lambda *a, **k: 0.0\nreturn p[0] + 99"
+    )
     np.testing.assert_allclose(function(POINTS), POINTS[0] + 99)
     assert np.linalg.norm(np.ones(4)) == 2.0
 
@@ -123,7 +127,9 @@ def test_writing_to_the_pipe_is_noticed_or_is_an_answer_like_any_other(student):
 
 def test_the_child_knows_no_expected_answer_and_not_our_environment(student, monkeypatch):
     monkeypatch.setenv("SECRET_OF_THE_GRADER", "42")
-    function = student("import os\nreturn [len(os.listdir('.')), 'SECRET_OF_THE_GRADER' in os.environ]")
+    function = student(
+        "import os\nreturn [len(os.listdir('.')), 'SECRET_OF_THE_GRADER' in os.environ]"
+    )
     assert function(POINTS) == [0, False]
 
 
@@ -212,7 +218,10 @@ def test_a_cheat_earns_nothing(tmp_path, name):
 
 @pytest.mark.parametrize(
     ("body", "kind", "said"),
-    [("while True: pass", "timeout", "took too long"), ("import os; os._exit(1)", "died", "ended its process")],
+    [
+        ("while True: pass", "timeout", "took too long"),
+        ("import os; os._exit(1)", "died", "ended its process"),
+    ],
 )
 def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, said):
     given = written(tmp_path, body).submission
@@ -224,8 +233,12 @@ def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, said)
                 student(POINTS)
             errors.append(caught.value)
     assert {error.kind for error in errors} == {kind}
-    assert [f"not called: 3 calls already {said}" in str(error) for error in errors] == [False] * 3 + [True] * 17
-    assert time.monotonic() - began < 75  # 15 s of waiting, and starting three times; 100 s without a bound
+    assert [f"not called: 3 calls already {said}" in str(error) for error in errors] == [
+        False
+    ] * 3 + [True] * 17
+    assert (
+        time.monotonic() - began < 75
+    )  # 15 s of waiting, and starting three times; 100 s without a bound
 
 
 def test_one_late_call_takes_no_time_from_the_next(tmp_path):
@@ -234,7 +247,9 @@ def test_one_late_call_takes_no_time_from_the_next(tmp_path):
     given = written(tmp_path, body).submission
     with SandboxedFunction(given, "centroid", seconds=1.5, budget=CallBudget(1.5)) as student:
         for _ in range(2):
-            with pytest.raises(StudentError, match=r"took more than 1\.5 s, the limit, .* too slow"):
+            with pytest.raises(
+                StudentError, match=r"took more than 1\.5 s, the limit, .* too slow"
+            ):
                 student(1000 * POINTS)
             np.testing.assert_allclose(student(POINTS), [4.5, 5.5, 6.5])
 

@@ -26,7 +26,9 @@ FILES = {
 QUOTED = ("raises", "raises its own", "prints", "while it is read")
 """Those of which what they say is told."""
 
-pytestmark = pytest.mark.skipif(not best().holds, reason=f"nothing shuts submissions in here: {best().why}")
+pytestmark = pytest.mark.skipif(
+    not best().holds, reason=f"nothing shuts submissions in here: {best().why}"
+)
 
 
 @pytest.fixture
@@ -63,7 +65,9 @@ def test_names_of_files_and_folders_are_written_out_too(tmp_path, said):
     command = text.partition("goes wrong: ")[2].splitlines()[0]
     there = subprocess.run(["bash", "-c", f"printf %s {command.removeprefix('workbench replay ')}"], stdout=subprocess.PIPE,
                            check=True).stdout  # fmt: skip
-    assert there.decode() == str(tmp_path / odd / f"{odd}.rrd"), "and a shell reads the name that it was"
+    assert there.decode() == str(tmp_path / odd / f"{odd}.rrd"), (
+        "and a shell reads the name that it was"
+    )
     assert "\\x1b[2J" in said("check", tmp_path / f"{odd}.py")
 
 

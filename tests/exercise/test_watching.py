@@ -116,7 +116,9 @@ def test_after_an_error_is_mended_the_step_is_kept(watched):
         assert (known < 5) == (text is BROKEN)
 
 
-@pytest.mark.parametrize("function", [*SUMS.alternatives, SUMS.mistakes[0].function], ids=lambda one: one.__name__)
+@pytest.mark.parametrize(
+    "function", [*SUMS.alternatives, SUMS.mistakes[0].function], ids=lambda one: one.__name__
+)
 def test_rounding_that_decides_between_equal_costs_is_no_first_difference(function):
     lesson = catalog()[SUMS.lesson]
     timeline = Timeline(driven(lesson, SUMS, function), lesson.params())
@@ -132,7 +134,9 @@ def test_rounding_that_decides_between_equal_costs_is_no_first_difference(functi
 def opened(monkeypatch):
     """Carries out `show`, and returns the lesson, the params and the step that the page begins at."""
     seen = []
-    monkeypatch.setattr("workbench.viewer.serving.serve", lambda *place, **options: seen.append((place, options)))
+    monkeypatch.setattr(
+        "workbench.viewer.serving.serve", lambda *place, **options: seen.append((place, options))
+    )
 
     def carry_out(*words: object):
         assert main(["show", *map(str, words)]) == 0
@@ -173,7 +177,9 @@ def test_an_unknown_preset_is_refused_in_one_line(monkeypatch):
     lesson = catalog()["icp"]
     wrong = dataclasses.replace(exercises()["match"].contract, preset="hoem")
     monkeypatch.setattr("lessons.icp.exercises.match.match", wrong)
-    with pytest.raises(InputError, match=r"^exercise match: lesson icp has no preset 'hoem'; did you mean home"):
+    with pytest.raises(
+        InputError, match=r"^exercise match: lesson icp has no preset 'hoem'; did you mean home"
+    ):
         finding._exercises_in(lesson)
 
 
@@ -181,7 +187,10 @@ def test_a_run_that_does_not_call_the_function_says_so():
     exercise = exercises()["point_to_plane_step"]
     lesson = catalog()["icp"]
     paired = driven(lesson, exercise, exercise.reference)
-    idle, calling = Timeline(paired, lesson.params()), Timeline(paired, lesson.preset("plane").params)
+    idle, calling = (
+        Timeline(paired, lesson.params()),
+        Timeline(paired, lesson.preset("plane").params),
+    )
     idle.extend()
     assert calls_it(idle) is None  # nobody knows yet
     assert calls_it(idle.complete()) is False

@@ -6,9 +6,14 @@ import numpy as np
 
 
 @functools.lru_cache(maxsize=8)
-def measured_face_by_face(p_bytes: bytes, faces_bytes: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
+def measured_face_by_face(
+    p_bytes: bytes, faces_bytes: bytes
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
     """Return angle sums, mixed areas, which vertices lie on the border, and V - E + F, face by face."""
-    p, faces = np.frombuffer(p_bytes).reshape(-1, 3), np.frombuffer(faces_bytes, dtype=np.int64).reshape(-1, 3)
+    p, faces = (
+        np.frombuffer(p_bytes).reshape(-1, 3),
+        np.frombuffer(faces_bytes, dtype=np.int64).reshape(-1, 3),
+    )
     angles, areas = np.zeros(len(p)), np.zeros(len(p))
     a, b, c = p[faces].swapaxes(0, 1)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
@@ -24,7 +29,9 @@ def measured_face_by_face(p_bytes: bytes, faces_bytes: bytes) -> tuple[np.ndarra
             np.sum((one - here) ** 2, axis=1) / np.tan(corner[(k + 2) % 3]),
             np.sum((two - here) ** 2, axis=1) / np.tan(corner[(k + 1) % 3]),
         ]
-        share = np.where(obtuse, np.where(corner[k] > np.pi / 2, area / 2, area / 4), (across[0] + across[1]) / 8)
+        share = np.where(
+            obtuse, np.where(corner[k] > np.pi / 2, area / 2, area / 4), (across[0] + across[1]) / 8
+        )
         angles += np.bincount(faces[:, k], corner[k], len(p))
         areas += np.bincount(faces[:, k], share, len(p))
     ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)

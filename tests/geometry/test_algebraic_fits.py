@@ -66,7 +66,11 @@ def test_only_kasas_is_small_on_short_arcs():
 def test_scikit_images_circle_is_kasas():
     measure = pytest.importorskip("skimage.measure")
     p = arc_points(np.radians(90), 60) + 0.02 * np.random.default_rng(3).normal(size=(60, 2))
-    model = measure.CircleModel.from_estimate(p) if hasattr(measure.CircleModel, "from_estimate") else None
+    model = (
+        measure.CircleModel.from_estimate(p)
+        if hasattr(measure.CircleModel, "from_estimate")
+        else None
+    )
     if model is None:
         model = measure.CircleModel()
         model.estimate(p)

@@ -26,7 +26,10 @@ def camera(rng: np.random.Generator) -> np.ndarray:
 
 
 def pose(rng: np.random.Generator) -> np.ndarray:
-    return motion(exp_so3(rng.uniform(-0.6, 0.6, 3)), np.array([*rng.uniform(-0.1, 0.1, 2), rng.uniform(0.3, 1.0)]))
+    return motion(
+        exp_so3(rng.uniform(-0.6, 0.6, 3)),
+        np.array([*rng.uniform(-0.1, 0.1, 2), rng.uniform(0.3, 1.0)]),
+    )
 
 
 def homography(K: np.ndarray, T: np.ndarray, scale: float = 1.0) -> np.ndarray:
@@ -41,7 +44,9 @@ def test_rows_are_products_with_b_and_0_for_the_camera(seed):
     B = S + S.T
     b = B[[0, 0, 1, 0, 1, 2], [0, 1, 1, 2, 2, 2]]
     h1, h2 = H[:, 0], H[:, 1]
-    np.testing.assert_allclose(constraint_rows(H) @ b, [h1 @ B @ h2, h1 @ B @ h1 - h2 @ B @ h2], atol=1e-12)
+    np.testing.assert_allclose(
+        constraint_rows(H) @ b, [h1 @ B @ h2, h1 @ B @ h1 - h2 @ B @ h2], atol=1e-12
+    )
     K = camera(rng)
     rows = constraint_rows(homography(K, pose(rng)))
     B = np.linalg.inv(K @ K.T)

@@ -42,7 +42,9 @@ def any_motion(rng: np.random.Generator) -> np.ndarray:
 
 
 def seen_points(rng: np.random.Generator, T_camera_world: np.ndarray, n: int = 50) -> np.ndarray:
-    p_camera = rng.uniform([-0.5, -0.4, 1.0], [0.5, 0.4, 1.0], (n, 3)) * rng.uniform(0.5, 20, (n, 1))
+    p_camera = rng.uniform([-0.5, -0.4, 1.0], [0.5, 0.4, 1.0], (n, 3)) * rng.uniform(
+        0.5, 20, (n, 1)
+    )
     return apply(inverse(T_camera_world), p_camera)
 
 
@@ -148,7 +150,9 @@ def test_look_at_puts_the_target_on_the_axis_and_up_upwards():
 @pytest.mark.parametrize("direction", [[0, 0, 1], [0, 0, -1], [0, 0, -3], [1, 0, 0]])
 def test_look_at_straight_up_and_down_is_still_a_rigid_motion(direction):
     T_camera_world = look_at(np.zeros(3), np.array(direction, dtype=float))
-    np.testing.assert_allclose(T_camera_world[:3, :3] @ T_camera_world[:3, :3].T, np.eye(3), atol=1e-12)
+    np.testing.assert_allclose(
+        T_camera_world[:3, :3] @ T_camera_world[:3, :3].T, np.eye(3), atol=1e-12
+    )
     assert np.linalg.det(T_camera_world[:3, :3]) == pytest.approx(1.0)
 
 
@@ -160,7 +164,8 @@ def test_orthographic_is_the_limit_of_the_dolly_at_rate_one_over_factor():
     K_flat[:2, :2] /= depth
     flat = project_orthographic(p_world, T_camera_world, K_flat)
     gap = [
-        np.abs(project(p_world, *dolly(T_camera_world, K, depth, factor)) - flat).max() for factor in (1, 10, 100, 1000)
+        np.abs(project(p_world, *dolly(T_camera_world, K, depth, factor)) - flat).max()
+        for factor in (1, 10, 100, 1000)
     ]
     assert gap[0] > 20
     assert gap[3] < 0.1
@@ -194,7 +199,9 @@ def test_far_points_of_a_line_tend_to_its_vanishing_point(seed, lens):
 
 def test_lines_parallel_to_the_picture_have_no_vanishing_point():
     assert np.isnan(
-        vanishing_points(np.array([[1.0, 2.0, 0.0], [1.0, 2.0, 1e-15], [0.0, 0.0, 0.0]]), np.eye(4), K)
+        vanishing_points(
+            np.array([[1.0, 2.0, 0.0], [1.0, 2.0, 1e-15], [0.0, 0.0, 0.0]]), np.eye(4), K
+        )
     ).all()
 
 
@@ -209,7 +216,9 @@ def test_the_outline_of_a_sphere_is_where_rays_graze_it_and_is_an_ellipse(seed):
     np.testing.assert_allclose(np.linalg.norm(to_center, axis=1), radius, atol=1e-12)
     np.testing.assert_allclose(np.einsum("ni,ni->n", to_center, to_camera), 0.0, atol=1e-12)
     u, v = normalize(project(outline, T_camera_world, K), K).T
-    conic = np.linalg.lstsq(np.column_stack([u * u, u * v, v * v, u, v]), np.ones(len(u)), rcond=None)
+    conic = np.linalg.lstsq(
+        np.column_stack([u * u, u * v, v * v, u, v]), np.ones(len(u)), rcond=None
+    )
     a, b, c = conic[0][:3]
     assert np.abs(np.column_stack([u * u, u * v, v * v, u, v]) @ conic[0] - 1).max() < 1e-9
     axes = np.abs(np.linalg.eigvalsh(np.array([[a, b / 2], [b / 2, c]])))
@@ -223,7 +232,9 @@ def test_inside_a_sphere_there_is_no_outline():
 
 
 def test_opengl_axes_are_half_a_turn_about_x():
-    np.testing.assert_array_equal(apply(OPENGL_FROM_OPENCV, np.array([1.0, 2.0, 3.0])), [1.0, -2.0, -3.0])
+    np.testing.assert_array_equal(
+        apply(OPENGL_FROM_OPENCV, np.array([1.0, 2.0, 3.0])), [1.0, -2.0, -3.0]
+    )
     np.testing.assert_array_equal(OPENGL_FROM_OPENCV @ OPENGL_FROM_OPENCV, np.eye(4))
 
 
@@ -258,7 +269,9 @@ def test_agrees_with_opencv():
     p_world = seen_points(rng, T_camera_world, 20_000)
     rotation = cv2.Rodrigues(T_camera_world[:3, :3])[0]
     for lens in (NONE, LENS):
-        theirs = cv2.projectPoints(p_world, rotation, T_camera_world[:3, 3], K, np.array(lens))[0][:, 0]
+        theirs = cv2.projectPoints(p_world, rotation, T_camera_world[:3, 3], K, np.array(lens))[0][
+            :, 0
+        ]
         np.testing.assert_allclose(project(p_world, T_camera_world, K, lens), theirs, atol=1e-7)
 
 

@@ -24,9 +24,13 @@ def test_the_slopes_are_those_of_the_distances(seed):
     residuals, jacobian = linearise_cylinder(cylinder, p)
     np.testing.assert_allclose(residuals, distances("cylinder", cylinder, p), atol=1e-12)
     for k, e in enumerate(np.eye(5)):
-        ahead, behind = (distances("cylinder", retract_cylinder(cylinder, s * h * e), p) for s in (1, -1))
+        ahead, behind = (
+            distances("cylinder", retract_cylinder(cylinder, s * h * e), p) for s in (1, -1)
+        )
         np.testing.assert_allclose(
-            jacobian[:, k], (ahead - behind) / (2 * h), atol=1e-5 / np.abs(residuals + cylinder[6]).min()
+            jacobian[:, k],
+            (ahead - behind) / (2 * h),
+            atol=1e-5 / np.abs(residuals + cylinder[6]).min(),
         )
 
 
@@ -35,7 +39,9 @@ def test_the_slopes_are_those_of_the_distances(seed):
 def test_a_step_keeps_the_direction_a_unit_vector(seed):
     rng = np.random.default_rng(seed)
     moved = retract_cylinder(a_cylinder(rng), rng.normal(size=5))
-    assert np.linalg.norm(moved[3:6]) == np.float64(1.0) or abs(np.linalg.norm(moved[3:6]) - 1) < 1e-12
+    assert (
+        np.linalg.norm(moved[3:6]) == np.float64(1.0) or abs(np.linalg.norm(moved[3:6]) - 1) < 1e-12
+    )
 
 
 def test_many_at_once_are_each_alone():
@@ -56,7 +62,11 @@ def test_seven_numbers_have_two_that_change_nothing():
     cylinder, h = np.array([0.0, 0, 0, 0, 0, 1, 1]), 1e-6
     J = np.column_stack(
         [
-            (distances("cylinder", cylinder + h * e, p) - distances("cylinder", cylinder - h * e, p)) / (2 * h)
+            (
+                distances("cylinder", cylinder + h * e, p)
+                - distances("cylinder", cylinder - h * e, p)
+            )
+            / (2 * h)
             for e in np.eye(7)
         ]
     )

@@ -21,7 +21,10 @@ def pairs(seed: int, count: int = 40) -> list[np.ndarray]:
 def test_the_published_pair():
     n_j = np.array([[0.3, 0.1, 0.95]])
     found = pair_angles(
-        np.zeros((1, 3)), np.array([[0.0, 0, 1]]), np.array([[0.02, 0.01, 0.003]]), n_j / np.linalg.norm(n_j)
+        np.zeros((1, 3)),
+        np.array([[0.0, 0, 1]]),
+        np.array([[0.02, 0.01, 0.003]]),
+        n_j / np.linalg.norm(n_j),
     )
     np.testing.assert_allclose(found, [[0.3177, 0.0492, -0.4360]], atol=1e-4)
 
@@ -61,7 +64,9 @@ def plainly(p: np.ndarray, n: np.ndarray, radius: float) -> np.ndarray:
                 own[i, 11 * k + min(10, max(0, int(np.floor(11 * x))))] += 100 / len([*near[i]])
     found = own.copy()
     for i in range(len(p)):
-        around = np.sum([own[j] / np.sum((p[j] - p[i]) ** 2) for j in near[i]], axis=0).reshape(3, 11)
+        around = np.sum([own[j] / np.sum((p[j] - p[i]) ** 2) for j in near[i]], axis=0).reshape(
+            3, 11
+        )
         found[i] += (100 * around / around.sum(axis=1, keepdims=True)).ravel()
     return found
 

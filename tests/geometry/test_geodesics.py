@@ -25,7 +25,9 @@ def test_distances_are_networkx_s(seed):
     edges, lengths, count = some_graph(seed)
     graph = networkx.Graph()
     graph.add_nodes_from(range(count))
-    graph.add_weighted_edges_from((int(a), int(b), w) for (a, b), w in zip(edges, lengths, strict=True))
+    graph.add_weighted_edges_from(
+        (int(a), int(b), w) for (a, b), w in zip(edges, lengths, strict=True)
+    )
     theirs = networkx.single_source_dijkstra_path_length(graph, 3)
     expected = [theirs.get(node, np.inf) for node in range(count)]
     np.testing.assert_allclose(geodesics.shortest_distances(edges, lengths, count, 3), expected)
@@ -54,7 +56,9 @@ def test_no_path_leads_out_of_reach():
     edges, lengths = np.array([[0, 1]]), np.array([1.0])
     d = geodesics.shortest_distances(edges, lengths, 3, 0)
     assert len(geodesics.shortest_path(edges, lengths, d, 2)) == 0
-    assert geodesics.shortest_path(edges, lengths, np.array([0.0, 0.0, 1.0]), 2).tolist() == [2]  # wrong distances
+    assert geodesics.shortest_path(edges, lengths, np.array([0.0, 0.0, 1.0]), 2).tolist() == [
+        2
+    ]  # wrong distances
 
 
 @pytest.mark.parametrize(("neighbours", "worst"), [(4, 41.42), (8, 8.239), (16, 2.749)])
@@ -104,7 +108,10 @@ def test_points_on_edges_are_joined_within_faces_only():
     assert len(edges) == 3 * own + len(ball.faces) * (3 * 4 + 3 * 2)
     assert len(np.unique(np.sort(edges, axis=1), axis=0)) == len(edges)
     mesh_edges = meshes.edges(ball.faces)
-    assert lengths.max() <= np.linalg.norm(ball.p[mesh_edges[:, 0]] - ball.p[mesh_edges[:, 1]], axis=1).max() + 1e-12
+    assert (
+        lengths.max()
+        <= np.linalg.norm(ball.p[mesh_edges[:, 0]] - ball.p[mesh_edges[:, 1]], axis=1).max() + 1e-12
+    )
     tangle = nodes[edges].mean(axis=1)
     assert np.linalg.norm(tangle, axis=1).min() > 0.9  # on the faces, not through the ball
 
@@ -140,4 +147,12 @@ def test_segments_that_cross_the_wall():
         [[-0.1, 0.0], [0.1, 0.0]], [[-0.1, 0.29], [0.1, 0.29]], [[-0.1, 0.31], [0.1, 0.31]], [[-0.1, 0.2], [0.0, 0.3]],
         [[-0.1, 0.0], [-0.2, 0.0]], [[0.0, 0.3], [0.0, 0.4]], [[0.0, 0.1], [0.0, 0.2]],
     ])  # fmt: skip
-    assert geodesics.crosses_wall(segments, tip).tolist() == [True, True, False, False, False, False, True]
+    assert geodesics.crosses_wall(segments, tip).tolist() == [
+        True,
+        True,
+        False,
+        False,
+        False,
+        False,
+        True,
+    ]

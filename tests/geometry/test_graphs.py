@@ -82,7 +82,8 @@ def test_lengths_can_be_weights():
     named = graphs.directed_graph(rows, d).toarray()
     np.testing.assert_array_equal(named, [[0, 1, 0], [1, 0, 0], [0, 2, 0]])
     np.testing.assert_array_equal(
-        graphs.joined(graphs.directed_graph(rows, d), "union").toarray(), [[0, 1, 0], [1, 0, 2], [0, 2, 0]]
+        graphs.joined(graphs.directed_graph(rows, d), "union").toarray(),
+        [[0, 1, 0], [1, 0, 2], [0, 2, 0]],
     )
 
 
@@ -118,15 +119,23 @@ def test_hops():
         (of(networks.ring(20)), networks.ring(20).eigenvalues),
         (of(networks.ring(500)), networks.ring(500).eigenvalues[:9]),
         (of(networks.grid(12, 10)), networks.grid(12, 10).eigenvalues),
-        (graphs.graph_of(np.array([[0, k] for k in range(1, 6)]), 6), np.array([0, 1, 1, 1, 1, 6.0])),
-        (graphs.graph_of(np.argwhere(np.triu(np.ones((6, 6)), 1) > 0), 6), np.array([0, 6, 6, 6, 6, 6.0])),
+        (
+            graphs.graph_of(np.array([[0, k] for k in range(1, 6)]), 6),
+            np.array([0, 1, 1, 1, 1, 6.0]),
+        ),
+        (
+            graphs.graph_of(np.argwhere(np.triu(np.ones((6, 6)), 1) > 0), 6),
+            np.array([0, 6, 6, 6, 6, 6.0]),
+        ),
     ],
 )
 def test_spectra_in_closed_form(adjacency, values):
     found, functions = plain(adjacency).smallest(len(values))
     np.testing.assert_allclose(found, values, atol=1e-11)
     np.testing.assert_allclose(functions.T @ functions, np.eye(len(values)), atol=1e-9)
-    np.testing.assert_allclose(graphs.laplacian(adjacency) @ functions, functions * values, atol=1e-9)
+    np.testing.assert_allclose(
+        graphs.laplacian(adjacency) @ functions, functions * values, atol=1e-9
+    )
 
 
 @settings(deadline=None, max_examples=25)
@@ -148,7 +157,9 @@ def test_laws_of_the_laplacian(seed):
 
 @settings(deadline=None, max_examples=25)
 @given(st.integers(0, 10_000))
-def test_the_normalised_spectrum_ends_below_two_and_its_functions_are_orthonormal_in_the_degrees(seed):
+def test_the_normalised_spectrum_ends_below_two_and_its_functions_are_orthonormal_in_the_degrees(
+    seed,
+):
     adjacency = some_graph(seed, chance=0.3)
     d = graphs.degrees(adjacency)
     mass = np.where(d > 0, d, 1.0)
@@ -159,7 +170,9 @@ def test_the_normalised_spectrum_ends_below_two_and_its_functions_are_orthonorma
 
 
 def test_the_largest_eigenvalue_of_a_large_graph_bounds_steps():
-    assert plain(of(networks.grid(20, 20))).largest() == pytest.approx(networks.grid(20, 20).eigenvalues[-1], rel=1e-4)
+    assert plain(of(networks.grid(20, 20))).largest() == pytest.approx(
+        networks.grid(20, 20).eigenvalues[-1], rel=1e-4
+    )
 
 
 def test_what_has_no_eigenvectors_is_told():
@@ -214,7 +227,9 @@ def test_a_sweep_is_every_cut_one_by_one(seed):
         assert found[k] == pytest.approx(graphs.conductance(adjacency, side))
         a, b = graphs.edges_of(adjacency).T
         through = side[a] != side[b]
-        assert graphs.cut_weight(adjacency, side) == pytest.approx(np.asarray(adjacency[a, b]).ravel()[through].sum())
+        assert graphs.cut_weight(adjacency, side) == pytest.approx(
+            np.asarray(adjacency[a, b]).ravel()[through].sum()
+        )
 
 
 @settings(deadline=None, max_examples=25)

@@ -33,7 +33,9 @@ def cotangents_one_by_one(p, faces):
 @given(seeds)
 def test_laplacian_is_the_textbook_sum(seed):
     p, faces = random_closed(np.random.default_rng(seed), 25)
-    np.testing.assert_allclose(cotangent_laplacian(p, faces).toarray(), cotangents_one_by_one(p, faces), atol=1e-8)
+    np.testing.assert_allclose(
+        cotangent_laplacian(p, faces).toarray(), cotangents_one_by_one(p, faces), atol=1e-8
+    )
 
 
 @settings(max_examples=20, deadline=None)
@@ -119,7 +121,10 @@ def test_spectrum_of_the_sphere():
 
 def test_spectrum_agrees_with_a_dense_solver():
     ring = torus(400, jitter=0.2, rng=np.random.default_rng(1))
-    L, M = cotangent_laplacian(ring.p, ring.faces).toarray(), np.diag(mixed_areas(ring.p, ring.faces))
+    L, M = (
+        cotangent_laplacian(ring.p, ring.faces).toarray(),
+        np.diag(mixed_areas(ring.p, ring.faces)),
+    )
     true = scipy.linalg.eigh(L, M, eigvals_only=True)[:12]
     np.testing.assert_allclose(eigenpairs(ring.p, ring.faces, 12)[0], true, atol=1e-9)
 

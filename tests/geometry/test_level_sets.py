@@ -26,7 +26,9 @@ def test_crossings_of_linear_fields_are_exact_and_do_not_depend_on_the_order():
     cross = f_a * f_b < 0
     p = edge_crossings(a[cross], b[cross], f_a[cross], f_b[cross])
     np.testing.assert_allclose(p @ n, 0.1, atol=1e-12)
-    np.testing.assert_allclose(p, edge_crossings(b[cross], a[cross], f_b[cross], f_a[cross]), atol=1e-12)
+    np.testing.assert_allclose(
+        p, edge_crossings(b[cross], a[cross], f_b[cross], f_a[cross]), atol=1e-12
+    )
 
 
 def test_zero_at_both_ends_is_the_middle():
@@ -42,7 +44,9 @@ def test_a_closed_surface_comes_back_outwards_and_with_its_hole():
 
 
 def test_half_the_edge_is_a_quarter_of_the_error():
-    errors = [np.abs(torus_sdf(level_surface(*torus(n))[0], 0.6, 0.25)).mean() for n in (16, 32, 64)]
+    errors = [
+        np.abs(torus_sdf(level_surface(*torus(n))[0], 0.6, 0.25)).mean() for n in (16, 32, 64)
+    ]
     np.testing.assert_allclose(np.array(errors[:-1]) / errors[1:], 4, rtol=0.15)
 
 

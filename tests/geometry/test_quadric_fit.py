@@ -20,7 +20,9 @@ def errors(surface, **options):
 
 
 def test_jittered_torus_at_20k_and_convergence():
-    coarse, fine = (errors(torus(n, jitter=0.2, rng=np.random.default_rng(0))) for n in (2000, 20_000))
+    coarse, fine = (
+        errors(torus(n, jitter=0.2, rng=np.random.default_rng(0))) for n in (2000, 20_000)
+    )
     assert fine[0] < 0.01
     assert fine[1] < 0.01
     # Ten times the vertices: edges 3.2 times shorter, and the error falls at least as much.
@@ -59,7 +61,9 @@ def test_curvature_of_a_quadric_at_its_summit_is_exact(seed):
     assert K[middle] == pytest.approx(4 * a * c - b * b, abs=1e-9)
     assert H[middle] == pytest.approx(-(a + c), abs=1e-9)
     k1, k2 = fit.principal_curvatures()
-    np.testing.assert_allclose([k2[middle], k1[middle]], np.linalg.eigvalsh([[-2 * a, -b], [-b, -2 * c]]), atol=1e-7)
+    np.testing.assert_allclose(
+        [k2[middle], k1[middle]], np.linalg.eigvalsh([[-2 * a, -b], [-b, -2 * c]]), atol=1e-7
+    )
 
 
 def test_a_slope_in_the_frame_is_accounted_for():
@@ -108,7 +112,9 @@ def test_blocks_do_not_show():
     whole = fit_quadrics(ring.p, ring.faces).coefficients
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(quadric_fit, "BLOCK", 10**9)
-        np.testing.assert_allclose(fit_quadrics(ring.p, ring.faces).coefficients, whole, rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(
+            fit_quadrics(ring.p, ring.faces).coefficients, whole, rtol=1e-9, atol=1e-9
+        )
 
 
 def test_agrees_with_least_squares_one_by_one():
@@ -137,7 +143,9 @@ def test_too_few_neighbours_or_a_conic_give_nan():
     line = np.c_[np.linspace(0, 1, 8), np.zeros(8), np.zeros(8)]
     flat = np.vstack([line, line + np.array([0, 1, 0])])
     strip = np.array([[k, k + 1, k + 9] for k in range(7)] + [[k, k + 9, k + 8] for k in range(7)])
-    assert np.isnan(fit_quadrics(flat, strip, rings=3).coefficients).all()  # two parallel lines are a conic
+    assert np.isnan(
+        fit_quadrics(flat, strip, rings=3).coefficients
+    ).all()  # two parallel lines are a conic
 
 
 def test_no_ring_is_refused():

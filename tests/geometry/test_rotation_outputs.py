@@ -16,11 +16,18 @@ from workbench.geometry.motions.rotation_outputs import (
     rotation_from_six,
 )
 
-ALL = [*((name, one, 2) for name, one in IN_PLANE.items()), *((name, one, 3) for name, one in IN_SPACE.items())]
-every = pytest.mark.parametrize(("representation", "d"), [(one, d) for _, one, d in ALL], ids=[n for n, _, _ in ALL])
+ALL = [
+    *((name, one, 2) for name, one in IN_PLANE.items()),
+    *((name, one, 3) for name, one in IN_SPACE.items()),
+]
+every = pytest.mark.parametrize(
+    ("representation", "d"), [(one, d) for _, one, d in ALL], ids=[n for n, _, _ in ALL]
+)
 
 
-def differences(representation: Representation, y: np.ndarray, slope: np.ndarray, h: float = 1e-6) -> np.ndarray:
+def differences(
+    representation: Representation, y: np.ndarray, slope: np.ndarray, h: float = 1e-6
+) -> np.ndarray:
     """The gradient of sum(slope * decode(y)) by central differences."""
     found = np.empty_like(y)
     for k in range(y.shape[1]):
@@ -34,17 +41,27 @@ def differences(representation: Representation, y: np.ndarray, slope: np.ndarray
 def test_every_pullback_is_that_of_differences(representation, d):
     rng = np.random.default_rng(3)
     y = rng.normal(size=(40, len(representation.start)))
-    y[:4] = representation.start  # no turn, where a rotation vector is zero and a matrix has equal singular values
+    y[:4] = (
+        representation.start
+    )  # no turn, where a rotation vector is zero and a matrix has equal singular values
     slope = rng.normal(size=(40, d, d))
-    np.testing.assert_allclose(representation.pullback(y, slope), differences(representation, y, slope), atol=2e-7)
+    np.testing.assert_allclose(
+        representation.pullback(y, slope), differences(representation, y, slope), atol=2e-7
+    )
 
 
 def test_rotation_vectors_have_their_gradient_up_to_half_a_turn():
     vector, rng = IN_SPACE["axis-angle"], np.random.default_rng(4)
     axes = rng.normal(size=(7, 3))
-    y = axes / np.linalg.norm(axes, axis=1, keepdims=True) * np.array([[1e-9, 1e-5, 0.999e-3, 1.001e-3, 1, 3, np.pi]]).T
+    y = (
+        axes
+        / np.linalg.norm(axes, axis=1, keepdims=True)
+        * np.array([[1e-9, 1e-5, 0.999e-3, 1.001e-3, 1, 3, np.pi]]).T
+    )
     slope = rng.normal(size=(7, 3, 3))
-    np.testing.assert_allclose(vector.pullback(y, slope), differences(vector, y, slope), rtol=0, atol=2e-9)
+    np.testing.assert_allclose(
+        vector.pullback(y, slope), differences(vector, y, slope), rtol=0, atol=2e-9
+    )
 
 
 @every
@@ -56,7 +73,9 @@ def test_the_numbers_of_a_rotation_mean_it_and_start_means_no_turn(representatio
 
 @every
 def test_whatever_is_put_out_means_a_rotation(representation, d):
-    R = representation.decode(3 * np.random.default_rng(1).normal(size=(60, len(representation.start))))
+    R = representation.decode(
+        3 * np.random.default_rng(1).normal(size=(60, len(representation.start)))
+    )
     np.testing.assert_allclose(R @ R.swapaxes(1, 2), np.tile(np.eye(d), (60, 1, 1)), atol=1e-12)
     np.testing.assert_allclose(np.linalg.det(R), 1, atol=1e-12)
 
@@ -65,13 +84,19 @@ def test_they_mean_what_scipy_says():
     y = np.random.default_rng(2).normal(size=(30, 4))
     vectors = y[:, :3]
     np.testing.assert_allclose(
-        IN_SPACE["quaternion"].decode(y), Rotation.from_quat(y[:, [1, 2, 3, 0]]).as_matrix(), atol=1e-13
+        IN_SPACE["quaternion"].decode(y),
+        Rotation.from_quat(y[:, [1, 2, 3, 0]]).as_matrix(),
+        atol=1e-13,
     )
     np.testing.assert_allclose(
-        IN_SPACE["axis-angle"].decode(vectors), Rotation.from_rotvec(vectors).as_matrix(), atol=1e-13
+        IN_SPACE["axis-angle"].decode(vectors),
+        Rotation.from_rotvec(vectors).as_matrix(),
+        atol=1e-13,
     )
     np.testing.assert_allclose(
-        IN_SPACE["Euler"].decode(vectors), Rotation.from_euler("xyz", vectors).as_matrix(), atol=1e-13
+        IN_SPACE["Euler"].decode(vectors),
+        Rotation.from_euler("xyz", vectors).as_matrix(),
+        atol=1e-13,
     )
 
 
@@ -96,10 +121,15 @@ def test_vectors_that_span_no_plane_give_what_is_not_finite():
 def test_only_vectors_of_unit_length_columns_and_entries_are_continuous():
     """Two rotations a hundredth of a degree apart, to either side of half a turn: their numbers are near, or far."""
     near = np.radians(179.995)
-    flat = np.stack([np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]]) for a in (near, -near)])
+    flat = np.stack(
+        [np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]]) for a in (near, -near)]
+    )
     axes = np.eye(3)[2]
     solid = Rotation.from_rotvec([near * axes, -near * axes]).as_matrix()
-    jumps = {name: np.abs(np.diff(one.numbers(flat if d == 2 else solid), axis=0)).max() for name, one, d in ALL}
+    jumps = {
+        name: np.abs(np.diff(one.numbers(flat if d == 2 else solid), axis=0)).max()
+        for name, one, d in ALL
+    }
     assert {name for name, jump in jumps.items() if jump < 1e-3} == {"cosine and sine", "6D", "9D"}
     assert min(jump for jump in jumps.values() if jump > 1e-3) > 1.9
 

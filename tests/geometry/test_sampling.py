@@ -56,7 +56,9 @@ def test_the_sequence_of_sobol_is_scipys():
 def test_one_point_lies_in_each_of_so_many_boxes(draw, count):
     u = unit_points(count, 3, draw, np.random.default_rng(2))
     assert len(u) == count
-    cuts = {"stratified": [(4, 4, 4)], "Sobol": [(64, 1, 1), (1, 64, 1), (1, 1, 64), (8, 8, 1)]}[draw]
+    cuts = {"stratified": [(4, 4, 4)], "Sobol": [(64, 1, 1), (1, 64, 1), (1, 1, 64), (8, 8, 1)]}[
+        draw
+    ]
     for cut in cuts:  # Sobol: the first two coordinates are a (0, m, 2)-net
         assert len(np.unique(np.floor(np.array(cut) * u), axis=0)) == count
     assert u.min() >= 0
@@ -66,7 +68,9 @@ def test_one_point_lies_in_each_of_so_many_boxes(draw, count):
 def test_chance_has_the_binomial_error():
     right = 1.0
     rng, box_volume = np.random.default_rng(4), 4.0
-    found = np.array([volume_by_chance(rng.random(200) < right / box_volume, box_volume) for _ in range(2000)])
+    found = np.array(
+        [volume_by_chance(rng.random(200) < right / box_volume, box_volume) for _ in range(2000)]
+    )
     assert found[:, 0].mean() == pytest.approx(right, abs=0.02)
     assert found[:, 0].std() == pytest.approx(found[:, 1].mean(), rel=0.06)
     with pytest.raises(ValueError, match="no points"):
@@ -74,7 +78,9 @@ def test_chance_has_the_binomial_error():
 
 
 def test_the_ball_fills_less_and_less_of_its_cube():
-    np.testing.assert_allclose([ball_share(d) for d in (1, 2, 3, 4)], [1, np.pi / 4, np.pi / 6, np.pi**2 / 32])
+    np.testing.assert_allclose(
+        [ball_share(d) for d in (1, 2, 3, 4)], [1, np.pi / 4, np.pi / 6, np.pi**2 / 32]
+    )
     assert ball_share(20) == pytest.approx(2.46e-8, rel=1e-2)
 
 
@@ -86,7 +92,9 @@ def test_lines_are_isotropic_and_tell_the_area():
     counts = np.bincount(line, minlength=4000)
     assert (counts % 2 == 0).all()  # a closed mesh is left as often as it is entered
     area = 2 * np.pi * counts.mean()
-    assert area == pytest.approx(surface_area(p, faces), abs=4 * 2 * np.pi * counts.std() / np.sqrt(4000))
+    assert area == pytest.approx(
+        surface_area(p, faces), abs=4 * 2 * np.pi * counts.std() / np.sqrt(4000)
+    )
     o, d = ends[line, 0], ends[line, 1] - ends[line, 0]
     assert np.linalg.norm(np.cross(places - o, d), axis=1).max() < 1e-9
 

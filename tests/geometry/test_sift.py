@@ -23,7 +23,9 @@ def test_keypoints_turn_with_the_picture(still, quarter):
     assert len(i) > 100
     middle = (np.array(image.shape[::-1]) - 1) / 2
     c, s = np.cos(angle), np.sin(angle)
-    places = (still.uv[i] - middle) @ np.array([[c, s], [-s, c]]) + (middle[::-1] if quarter else middle)
+    places = (still.uv[i] - middle) @ np.array([[c, s], [-s, c]]) + (
+        middle[::-1] if quarter else middle
+    )
     assert np.mean(np.linalg.norm(places - found.uv[j], axis=1) < 1) > 0.9
     off = (found.angle[j] - still.angle[i] - angle + np.pi) % (2 * np.pi) - np.pi
     assert np.median(np.abs(off)) < np.radians(2)
@@ -70,8 +72,12 @@ def test_a_flat_picture_has_no_keypoints():
 def test_a_turned_patch_is_the_pixels_themselves_or_those_of_the_turned_picture():
     image = scipy.ndimage.gaussian_filter(np.random.default_rng(2).uniform(0, 255, (61, 61)), 3)
     middle = np.array([30.0, 30.0])
-    np.testing.assert_allclose(turned_patch(image, np.array([20.0, 32.0]), 0.0, 5.0, 11), image[27:38, 15:26])
+    np.testing.assert_allclose(
+        turned_patch(image, np.array([20.0, 32.0]), 0.0, 5.0, 11), image[27:38, 15:26]
+    )
     for angle in (0.0, 0.7, np.pi / 2, -2.0):
         np.testing.assert_allclose(
-            turned_patch(turned(image, angle), middle, angle, 8.0, 17), image[22:39, 22:39], atol=2.0
+            turned_patch(turned(image, angle), middle, angle, 8.0, 17),
+            image[22:39, 22:39],
+            atol=2.0,
         )

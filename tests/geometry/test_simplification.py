@@ -11,7 +11,9 @@ from workbench.geometry.meshes.simplification import clustered, halved
 
 
 @pytest.mark.parametrize(
-    "made", [surfaces.torus(60), surfaces.sphere(42), surfaces.cylinder(60)], ids=["torus", "sphere", "cylinder"]
+    "made",
+    [surfaces.torus(60), surfaces.sphere(42), surfaces.cylinder(60)],
+    ids=["torus", "sphere", "cylinder"],
 )
 def test_halved_edges_change_no_area_volume_or_topology(made):
     p, faces = halved(made.p, made.faces)

@@ -9,7 +9,18 @@ from workbench.run.timeline import Timeline
 from workbench.scene import Field, Mesh, Scene
 
 Kind = TypeVar("Kind")
-STAGES = ["mesh", "ring", "defect", "gaussian", "normal", "mean", "principal", "quadric", "total", "finer"]
+STAGES = [
+    "mesh",
+    "ring",
+    "defect",
+    "gaussian",
+    "normal",
+    "mean",
+    "principal",
+    "quadric",
+    "total",
+    "finer",
+]
 
 
 def timeline(params: Params) -> Timeline:

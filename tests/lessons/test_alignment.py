@@ -61,7 +61,9 @@ def made(params: Params, **slots: Any) -> list[Any]:
 def turns_of(params: Params) -> Turns:
     """The many turns alone."""
     scans = scans_of(params)
-    return many_turns(params, scans, canonical_signs(principal_axes(scans.p_target), scans.p_target))
+    return many_turns(
+        params, scans, canonical_signs(principal_axes(scans.p_target), scans.p_target)
+    )
 
 
 class TestAxes:
@@ -122,7 +124,10 @@ class TestAxes:
 
     def test_nearly_equal_sides_leave_the_axes_to_noise(self):
         def median(side: float) -> float:
-            found = [turns_of(Params(shape="box", fresh=True, side=side, seed=seed)).axes[:, 0] for seed in range(3)]
+            found = [
+                turns_of(Params(shape="box", fresh=True, side=side, seed=seed)).axes[:, 0]
+                for seed in range(3)
+            ]
             return float(np.median(np.concatenate(found)))
 
         at = {side: median(side) for side in (0.6, 0.9, 0.99, 1.0)}
@@ -161,7 +166,8 @@ class TestAxes:
 
 class TestPairs:
     @pytest.mark.parametrize(
-        ("flip", "rmse"), [("least", 0.290), ("middle", 0.401), ("largest", 0.547), ("whole", 0.737)]
+        ("flip", "rmse"),
+        [("least", 0.290), ("middle", 0.401), ("largest", 0.547), ("whole", 0.737)],
     )
     def test_which_direction_is_turned_round_decides_the_price(self, flip, rmse):
         found = states(replace(lesson.preset("mirrored").params, flip=flip))
@@ -177,7 +183,10 @@ class TestPairs:
         assert last.now.rmse == pytest.approx(0.01 * np.sqrt(6), rel=0.05)
 
     def test_a_plate_is_mirrored_by_noise_alone(self):
-        mirrored = [made(replace(lesson.preset("flat").params, seed=seed))[4].now.mirror for seed in range(40)]
+        mirrored = [
+            made(replace(lesson.preset("flat").params, seed=seed))[4].now.mirror
+            for seed in range(40)
+        ]
         assert mirrored[0]
         assert 10 < sum(mirrored) < 30
         last = preset("flat")[-1]
@@ -193,9 +202,15 @@ class TestPairs:
         assert clean.now.scale == pytest.approx(1.5, rel=0.01)
         assert clean.sizes == pytest.approx(1.519, abs=0.003)
         spread = np.mean(
-            np.sum((preset("pairs")[0].scans.p_source - preset("pairs")[0].scans.p_source.mean(0)) ** 2, axis=1)
+            np.sum(
+                (preset("pairs")[0].scans.p_source - preset("pairs")[0].scans.p_source.mean(0))
+                ** 2,
+                axis=1,
+            )
         )
-        assert last.now.scale == pytest.approx(1.5 * spread / (spread + 3 * 0.05**2), rel=0.01)  # in theory
+        assert last.now.scale == pytest.approx(
+            1.5 * spread / (spread + 3 * 0.05**2), rel=0.01
+        )  # in theory
 
     def test_libraries_scale_is_the_ratio_of_sizes(self):
         last = preset("scale")[-1]
@@ -257,7 +272,9 @@ class TestPicture:
         state, shown = states(HOME)[2], scene(HOME, 2)["ellipsoid"]
         off = shown.p - state.p_centre
         C = np.cov(state.scans.p_source.T, bias=True)
-        np.testing.assert_allclose(np.einsum("ni,ij,nj->n", off, np.linalg.inv(C), off), 4.0, rtol=1e-6)
+        np.testing.assert_allclose(
+            np.einsum("ni,ij,nj->n", off, np.linalg.inv(C), off), 4.0, rtol=1e-6
+        )
 
     def test_variance_by_direction_marks_its_extremum(self):
         for k in (3, 4, 5):
@@ -280,7 +297,9 @@ class TestPicture:
 
     def test_a_mirror_image_is_shown_as_one(self):
         params = lesson.preset("mirrored").params
-        assert [scene(params, k)["source"].color for k in range(7)] == ["source"] * 4 + ["wrong"] + ["source"] * 2
+        assert [scene(params, k)["source"].color for k in range(7)] == ["source"] * 4 + [
+            "wrong"
+        ] + ["source"] * 2
         bars = scene(params, 5)["singular"].y
         assert (np.sign(bars) == [1, 1, -1]).all()
 
@@ -296,7 +315,9 @@ class TestPicture:
         assert "34.4° in its y-z plane" in caption(HOME, 3)
         assert "as a share of the norm: 31 % → 15 %" in caption(HOME, 3)
         C = np.cov(states(HOME)[2].scans.p_source.T, bias=True)
-        share = np.linalg.norm(C - np.diag(np.diag(C))) / np.linalg.norm(C)  # of the sums of squares it is 10 %
+        share = np.linalg.norm(C - np.diag(np.diag(C))) / np.linalg.norm(
+            C
+        )  # of the sums of squares it is 10 %
         assert f"off the diagonal is {100 * share:.0f} % of the norm of all" in caption(HOME, 2)
         assert round(100 * share**2) == 10
         assert "nothing but rounding" in caption(HOME, 10)
@@ -342,7 +363,9 @@ def right(axes: np.ndarray) -> np.ndarray:
 
 def test_axes_of_both_scans_agree_up_to_their_signs_whatever_the_turn():
     for turn in (0.0, 45.0, 180.0):
-        state = next(state for state in made(replace(HOME, turn=turn, points=300)) if state.moment == "order")
+        state = next(
+            state for state in made(replace(HOME, turn=turn, points=300)) if state.moment == "order"
+        )
         R = state.scans.T_target_source[:3, :3]
         axes, axes_target = signed_axes(state)
         assert degrees_between_axes(R @ axes, axes_target).max() < 1e-6

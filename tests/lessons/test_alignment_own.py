@@ -71,7 +71,9 @@ def test_two_clouds_go_by_axes_and_nobody_knows_the_truth(tmp_path, shape):
     text = caption_of(draw(found[-1])).text
     assert found[-1].moment == "pose"
     assert "Nobody knows the truth" in text
-    assert metres(text.split("points lie ")[1].split(" (RMS)")[0]) == pytest.approx(to_nearest(found[-1]), rel=0.01)
+    assert metres(text.split("points lie ")[1].split(" (RMS)")[0]) == pytest.approx(
+        to_nearest(found[-1]), rel=0.01
+    )
     idle = caption_of(draw(steps(Params(**files, turn=10.0, noise=0.1))[0])).text
     assert "turn, noise have no effect" in idle
 
@@ -136,11 +138,15 @@ def test_real_scans_by_axes_are_not_where_they_belong(shared_data):
     assert state.outcome.gap < 0.1
 
 
-@pytest.mark.parametrize("name", ["shapes/teapot_npm.ply", "shapes/dragon_vrip_res4.ply.gz", "curvature/fertility.off"])
+@pytest.mark.parametrize(
+    "name", ["shapes/teapot_npm.ply", "shapes/dragon_vrip_res4.ply.gz", "curvature/fertility.off"]
+)
 def test_real_shapes_keep_their_frame_under_a_turn(shared_data, tmp_path, name):
     path = shared_data / name
     p = read_mesh(path)[0]
     found = steps(Params(**saved(tmp_path, source=p), points=3000, up="y"))
     assert found[-2].outcome.rotation < 1e-3
-    signs = steps(Params(**saved(tmp_path, source=p), points=3000, up="y", signs="largest-entry"))[-1].turns
+    signs = steps(Params(**saved(tmp_path, source=p), points=3000, up="y", signs="largest-entry"))[
+        -1
+    ].turns
     assert signs.home.mean() < 0.5

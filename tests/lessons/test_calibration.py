@@ -40,7 +40,9 @@ def sd_of(params: Params) -> float:
 
 
 def ending(params: Params, kind: str) -> tuple[State, Ending]:
-    found = next(state for state in states(params) if state.ending is not None and state.ending.kind == kind)
+    found = next(
+        state for state in states(params) if state.ending is not None and state.ending.kind == kind
+    )
     assert found.ending is not None
     return found, found.ending
 
@@ -63,7 +65,9 @@ def test_the_presets_end_where_they_should(name, f, sd, rms, worst):
     assert last.rms == pytest.approx(rms, rel=0.01)
     assert last.worst_in_picture == pytest.approx(worst, rel=0.02)
     assert last.now.K is not None
-    assert worst_ray(last.now.K, tuple(last.now.lens)) == pytest.approx(last.worst_in_picture, rel=1e-4)
+    assert worst_ray(last.now.K, tuple(last.now.lens)) == pytest.approx(
+        last.worst_in_picture, rel=1e-4
+    )
     np.testing.assert_allclose(rms_of(last), last.per_view, rtol=1e-9)
 
 
@@ -80,7 +84,9 @@ def test_the_closed_form_knows_no_lens():
     assert poses.rms == pytest.approx(4.88, abs=0.01)
     assert lens.rms == pytest.approx(4.58, abs=0.01)
     assert abs(lens.now.lens.k1) < 0.03
-    assert [state.rms for state in home[11:15]] == pytest.approx([1.13, 0.554, 0.318, 0.276], abs=0.01)
+    assert [state.rms for state in home[11:15]] == pytest.approx(
+        [1.13, 0.554, 0.318, 0.276], abs=0.01
+    )
     assert home[0].rms > 1.8 * SQRT2 * 0.2
 
 
@@ -93,7 +99,9 @@ def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
     assert found.stop is Stop.CONVERGED
     assert f_of(last) == pytest.approx(493.26, abs=0.05)
     assert last.rms == pytest.approx(0.27804, abs=1e-5)
-    p = np.column_stack([last.subject.p_board[:, :2], np.zeros(len(last.subject.p_board))]).astype(np.float32)
+    p = np.column_stack([last.subject.p_board[:, :2], np.zeros(len(last.subject.p_board))]).astype(
+        np.float32
+    )
     rms, K, *_ = cv2.calibrateCamera(
         [p] * len(last.subject.uv),
         [uv.astype(np.float32)[:, None] for uv in last.subject.uv],
@@ -108,7 +116,11 @@ def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
 
 
 def test_of_a_long_refinement_every_tenth_iteration_is_shown_and_the_last():
-    shown = [one.now.adjustment for one in states(presets.FLAT) if one.now.phase == "refine" and one.ending is None]
+    shown = [
+        one.now.adjustment
+        for one in states(presets.FLAT)
+        if one.now.phase == "refine" and one.ending is None
+    ]
     numbers = [one.iteration for one in shown if one is not None]
     assert numbers[:31] == [*range(1, 31), 40]
     assert all(number % 10 == 0 for number in numbers[30:-1])
@@ -120,7 +132,11 @@ def test_a_refinement_that_its_limit_ended_says_so_to_the_end():
     cut = list(run(Params(tilt=2.0, seed=2)))
     assert cut[-1].now.adjustment is not None
     assert cut[-1].now.adjustment.stop is Stop.MAX_ITERATIONS
-    for state in (cut[-4], cut[-2], cut[-1]):  # the last iteration, without the worst view, how well all is known
+    for state in (
+        cut[-4],
+        cut[-2],
+        cut[-1],
+    ):  # the last iteration, without the worst view, how well all is known
         assert "not at rest" in caption_of(lesson.draw(state)).text
 
 
@@ -129,7 +145,9 @@ def test_f_over_the_tilt(tilt, median, sd):
     """The rms says nothing of it: medians over seeds."""
     ends = [list(run(Params(tilt=float(tilt), seed=seed)))[-1] for seed in range(5)]
     assert np.median([abs(f_of(one) - 536) for one in ends]) == pytest.approx(median, rel=0.6)
-    assert np.median([one.now.adjustment.deviations[0] for one in ends]) == pytest.approx(sd, rel=0.3)  # type: ignore[union-attr]
+    assert np.median([one.now.adjustment.deviations[0] for one in ends]) == pytest.approx(
+        sd, rel=0.3
+    )  # type: ignore[union-attr]
     assert np.median([one.rms for one in ends]) == pytest.approx(0.275, abs=0.006)
 
 
@@ -172,7 +190,9 @@ def test_more_terms_fit_better_and_promise_nothing_outside():
     assert end(middle).rms <= few.rms
     assert few.worst_in_picture < 60
     _, known = ending(middle, "known")
-    unseen = np.isnan(known.deviation)  # the lens that was found folds there: no ray is seen at these pixels
+    unseen = np.isnan(
+        known.deviation
+    )  # the lens that was found folds there: no ray is seen at these pixels
     assert unseen[[0, 0, -1, -1], [0, -1, 0, -1]].all()
     assert 0.3 < unseen.mean() < 0.9
     assert not unseen[12, 16]
@@ -193,12 +213,15 @@ def test_four_things_are_called_the_error():
 
 
 @pytest.mark.parametrize(
-    ("name", "right"), [("flat-rms", 0), ("noise-rms", 0.276), ("views", 2), ("larger", 1), ("bent-error", 2)]
+    ("name", "right"),
+    [("flat-rms", 0), ("noise-rms", 0.276), ("views", 2), ("larger", 1), ("bent-error", 2)],
 )
 def test_the_answers(name, right):
     question = next(question for question in lesson.questions if question.name == name)
     assert question.answer(states(question.params)) == pytest.approx(right, abs=0.001)
-    assert abs(right - {"noise-rms": 0.2, "views": 3}.get(name, 9)) > question.tolerance  # the usual wrong answer
+    assert (
+        abs(right - {"noise-rms": 0.2, "views": 3}.get(name, 9)) > question.tolerance
+    )  # the usual wrong answer
 
 
 def test_two_views_determine_k_and_not_well():
@@ -229,7 +252,9 @@ def test_rows_drive_the_closed_form():
     ],
 )
 def test_poses_that_are_none_are_told(change, said):
-    told = captions(pose_from_homography=lambda K, H: change(calibration.pose_from_homography(K, H)))
+    told = captions(
+        pose_from_homography=lambda K, H: change(calibration.pose_from_homography(K, H))
+    )
     assert said in told[presets.POSES].text
     assert told[presets.POSES].tone == "wrong"
 

@@ -29,7 +29,13 @@ def end(params: Params) -> State:
 
 def test_the_left_camera(corners, shared_data):
     states = list(
-        run(Params(corners=corners, lens="k1 k2 p1 p2 k3", images=shared_data / "calibration" / "left01.jpg"))
+        run(
+            Params(
+                corners=corners,
+                lens="k1 k2 p1 p2 k3",
+                images=shared_data / "calibration" / "left01.jpg",
+            )
+        )
     )
     last = states[-1]
     assert last.rms == pytest.approx(0.40877, abs=1e-4)
@@ -60,7 +66,11 @@ def test_pictures_lie_below_the_corners_of_their_views(corners, tmp_path):
     shutil.make_archive(str(tmp_path / "all"), "zip", folder)
     for images in (folder, tmp_path / "all.zip"):
         states = list(run(Params(corners=corners, images=images)))
-        for state, name in ((states[0], "left01.jpg"), (states[13], "left14.jpg"), (states[-3], "left02.jpg")):
+        for state, name in (
+            (states[0], "left01.jpg"),
+            (states[13], "left14.jpg"),
+            (states[-3], "left02.jpg"),
+        ):
             picture = lesson.draw(state)["picture"]
             assert isinstance(picture, Picture)
             assert picture.title == f"View {state.shown}, {name}"
@@ -94,7 +104,9 @@ def test_corners_without_a_number_leave_the_same_camera(corners, tmp_path):
     assert 3 not in last.subject.views
     assert len(last.subject.views) == len(whole.subject.views) - 1
     assert abs(last.now.K[0, 0] - whole.now.K[0, 0]) < 2 * whole.now.adjustment.deviations[0]
-    fifth = next(step.state for step in timeline.known() if step.state.subject.views[step.state.shown] == 5)
+    fifth = next(
+        step.state for step in timeline.known() if step.state.subject.views[step.state.shown] == 5
+    )
     picture = lesson.draw(fifth)["picture"]
     assert isinstance(picture, Picture)
     assert picture.title == "View 5, left06.jpg"
@@ -107,7 +119,8 @@ def test_pictures_alone(corners, tmp_path):
         Image.new("L", (640, 480), level).save(tmp_path / f"a{k}.png")
     states = list(run(Params(images=tmp_path, lens="k1 k2 p1 p2 k3")))
     assert (
-        "No whole board was found in 4 pictures: a0.png, a1.png, a2.png …." in caption_of(lesson.draw(states[0])).text
+        "No whole board was found in 4 pictures: a0.png, a1.png, a2.png …."
+        in caption_of(lesson.draw(states[0])).text
     )
     last = states[-1]
     assert len(last.subject.views) == 13
@@ -123,7 +136,9 @@ def test_pictures_alone(corners, tmp_path):
     few.mkdir()
     for name in ("left01.jpg", "left03.jpg"):
         shutil.copyfile(tmp_path / name, few / name)
-    with pytest.raises(InputError, match="few: a whole board of 8 x 6 inner corners in 0 of 2 pictures"):
+    with pytest.raises(
+        InputError, match="few: a whole board of 8 x 6 inner corners in 0 of 2 pictures"
+    ):
         next(run(Params(images=few, board=(8, 6))))
     with pytest.raises(InputError, match="in 1 of 1 pictures"):
         next(run(Params(images=tmp_path / "left01.jpg")))
@@ -149,18 +164,28 @@ def test_pictures_without_names_shrunk_and_one_missing(corners, tmp_path):
     board, uv = arrays["object_points"], arrays["left"]
     np.savez(tmp_path / "sized.npz", board=board, uv=uv, size=[640, 480])
     np.savez(tmp_path / "plain.npz", board=board, uv=uv)
-    np.savez(tmp_path / "named.npz", board=board, uv=uv, names=[f"p{k}" for k in range(13)], size=[640, 480])
+    np.savez(
+        tmp_path / "named.npz",
+        board=board,
+        uv=uv,
+        names=[f"p{k}" for k in range(13)],
+        size=[640, 480],
+    )
     state = next(run(Params(corners=tmp_path / "sized.npz", images=small)))
     assert state.subject.size == (640, 480)
     picture = lesson.draw(state)["picture"]
     assert isinstance(picture, Picture)
     assert (picture.title, picture.size) == ("View 0, p0.png", (320, 240))
-    with pytest.raises(InputError, match="small: pictures of 320 x 240 pixels, and corners as far as"):
+    with pytest.raises(
+        InputError, match="small: pictures of 320 x 240 pixels, and corners as far as"
+    ):
         next(run(Params(corners=tmp_path / "plain.npz", images=small)))
     (small / "p0.png").unlink()
     with pytest.raises(InputError, match="small: 12 pictures for 13 views"):
         next(run(Params(corners=tmp_path / "sized.npz", images=small)))
-    picture = lesson.draw(next(run(Params(corners=tmp_path / "named.npz", images=small))))["picture"]
+    picture = lesson.draw(next(run(Params(corners=tmp_path / "named.npz", images=small))))[
+        "picture"
+    ]
     assert isinstance(picture, Picture)
     assert picture.title == "View 0, no picture"
     Image.new("L", (320, 320)).save(small / "p4.png")
@@ -168,7 +193,9 @@ def test_pictures_without_names_shrunk_and_one_missing(corners, tmp_path):
         next(run(Params(corners=tmp_path / "named.npz", images=small)))
     for path in small.iterdir():
         Image.new("L", (320, 320)).save(path)
-    with pytest.raises(InputError, match="small: pictures of 320 x 320 pixels, and corners of 640 x 480"):
+    with pytest.raises(
+        InputError, match="small: pictures of 320 x 320 pixels, and corners of 640 x 480"
+    ):
         next(run(Params(corners=tmp_path / "named.npz", images=small)))
     (small / "p4.png").write_text("no picture")
     with pytest.raises(InputError, match=r"p4.png: not readable"):
@@ -200,17 +227,23 @@ def test_the_right_camera_and_a_board_in_millimetres(corners, tmp_path):
     last = end(Params(corners=corners, camera="second", lens="k1 k2 p1 p2 k3"))
     assert last.rms == pytest.approx(0.4587, abs=1e-4)
     arrays = np.load(corners)
-    np.savez(tmp_path / "mm.npz", object_points=1000 * arrays["object_points"], corners=arrays["right"])
+    np.savez(
+        tmp_path / "mm.npz", object_points=1000 * arrays["object_points"], corners=arrays["right"]
+    )
     other = end(Params(corners=tmp_path / "mm.npz", unit="mm", lens="k1 k2 p1 p2 k3"))
     assert other.now.K is not None
     assert last.now.K is not None
     np.testing.assert_allclose(other.now.K, last.now.K, atol=1e-3)
     np.testing.assert_allclose(other.now.Ts_camera_board, last.now.Ts_camera_board, atol=1e-5)
-    wrong = lesson.draw(end(Params(corners=tmp_path / "mm.npz", lens="k1 k2 p1 p2 k3")))  # metres that are millimetres
+    wrong = lesson.draw(
+        end(Params(corners=tmp_path / "mm.npz", lens="k1 k2 p1 p2 k3"))
+    )  # metres that are millimetres
     right = lesson.draw(last)
     for path in ("boards/0", "camera"):
         assert isinstance(wrong[path], Segments | Camera)
-        np.testing.assert_allclose(wrong[path].T_world_object, right[path].T_world_object, atol=1e-5)  # type: ignore[union-attr]
+        np.testing.assert_allclose(
+            wrong[path].T_world_object, right[path].T_world_object, atol=1e-5
+        )  # type: ignore[union-attr]
 
 
 def test_another_board_shape_and_a_table_without_truth(tmp_path):

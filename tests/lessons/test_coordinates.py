@@ -49,7 +49,9 @@ def test_past_the_axis_one_coordinate_turns_half_round_within_two_steps():
         assert tone(name) == "good"
     steps = np.abs(np.diff(last("cartesian").c, axis=0))
     assert steps.max() == pytest.approx(0.075)
-    assert caption_of(lesson.draw(of("home")[20])).text.endswith("changed φ by 79.5°.")  # where the page sends a reader
+    assert caption_of(lesson.draw(of("home")[20])).text.endswith(
+        "changed φ by 79.5°."
+    )  # where the page sends a reader
 
 
 def test_a_mount_locks_at_the_zenith_as_the_page_says():
@@ -86,7 +88,10 @@ def test_one_triple_is_three_points():
     state = next(state for state in of("conventions") if type(state.now).__name__ == "Readings")
     p = state.now.p
     np.testing.assert_allclose(p["mathematics"], lesson.preset("conventions").params.point)
-    assert min(np.linalg.norm(p[a] - p[b]) for a, b in (("ISO", "mathematics"), ("ISO", "elevation"))) > 0.1
+    assert (
+        min(np.linalg.norm(p[a] - p[b]) for a, b in (("ISO", "mathematics"), ("ISO", "elevation")))
+        > 0.1
+    )
 
 
 def test_angles_drawn_evenly_are_not_even():
@@ -100,26 +105,43 @@ def test_the_mean_of_a_banana_is_short(sigma, short):
     now = last_of(replace(lesson.preset("banana").params, bearing_noise=sigma)).now
     assert 10 - now.mean[0] == pytest.approx(short, abs=0.06)
     assert np.linalg.norm(now.debiased - now.true) < 0.12
-    assert np.linalg.norm(now.expected - now.true) == pytest.approx(10 * (1 - np.exp(-(np.radians(sigma) ** 2) / 2)))
+    assert np.linalg.norm(now.expected - now.true) == pytest.approx(
+        10 * (1 - np.exp(-(np.radians(sigma) ** 2) / 2))
+    )
 
 
-@pytest.mark.parametrize(("name", "more"), [("great-circle", 11.9), ("anchorage", 33.6), ("equator", 0.0)])
+@pytest.mark.parametrize(
+    ("name", "more"), [("great-circle", 11.9), ("anchorage", 33.6), ("equator", 0.0)]
+)
 def test_straight_on_the_map_costs(name, more):
     now = of(name)[-2].now
     assert 100 * (now.straight_length / now.direct - 1) == pytest.approx(more, abs=0.06)
-    assert 100 * (straight_over_shortest(of(name)[0].subject.degrees) - 1) == pytest.approx(more, abs=0.06)
+    assert 100 * (straight_over_shortest(of(name)[0].subject.degrees) - 1) == pytest.approx(
+        more, abs=0.06
+    )
 
 
 def test_how_much_longer_is_said_with_digits_that_mean_something():
-    said = [caption_of(lesson.draw(of(name)[-2])).text for name in ("great-circle", "equator", "dateline")]
-    assert [text.rsplit(", ", 1)[1] for text in said] == ["11.9 % more.", "less than 0.01 % more.", "3,157 % more."]
+    said = [
+        caption_of(lesson.draw(of(name)[-2])).text
+        for name in ("great-circle", "equator", "dateline")
+    ]
+    assert [text.rsplit(", ", 1)[1] for text in said] == [
+        "11.9 % more.",
+        "less than 0.01 % more.",
+        "3,157 % more.",
+    ]
 
 
 def test_the_means_of_numbers():
     assert last("dateline").apart / 1e3 == pytest.approx(16_455, abs=1)
     assert last("great-circle").apart > 2e6
     assert last("equator").apart < 1e4
-    assert [tone(name) for name in ("dateline", "great-circle", "equator")] == ["wrong", "wrong", "good"]
+    assert [tone(name) for name in ("dateline", "great-circle", "equator")] == [
+        "wrong",
+        "wrong",
+        "good",
+    ]
     assert last("dateline").direct / 1e3 == pytest.approx(1150, abs=10)  # as the question says
 
 
@@ -129,15 +151,22 @@ def test_latitudes_differ_most_half_way():
     assert off.max() == pytest.approx(0.192, abs=1e-3)
     assert now.apart.max() / 1e3 == pytest.approx(21.4, abs=0.1)
     assert np.degrees(now.latitude[off.argmax()]) == pytest.approx(45)
-    assert np.degrees(np.max(last("saturn").latitude - last("saturn").geocentric)) == pytest.approx(5.9, abs=0.05)
+    assert np.degrees(np.max(last("saturn").latitude - last("saturn").geocentric)) == pytest.approx(
+        5.9, abs=0.05
+    )
 
 
 @pytest.mark.parametrize(
-    ("name", "miss", "rate"), [("zenith", 1.0, 3282), ("keyhole", 0.1, 32_828), ("wide", 30.0, 99.2)]
+    ("name", "miss", "rate"),
+    [("zenith", 1.0, 3282), ("keyhole", 0.1, 32_828), ("wide", 30.0, 99.2)],
 )
 def test_the_pan_axis_turns_without_bound(name, miss, rate):
     now = last(name)
-    assert np.degrees(now.pan_peak) == pytest.approx(rate, rel=1e-3) == pytest.approx(fastest(miss)[0], rel=1e-3)
+    assert (
+        np.degrees(now.pan_peak)
+        == pytest.approx(rate, rel=1e-3)
+        == pytest.approx(fastest(miss)[0], rel=1e-3)
+    )
     assert np.degrees(now.sight_peak) == pytest.approx(fastest(miss)[1])
     assert tone(name) == "good"
     assert len(of(name)) < 40
@@ -234,29 +263,44 @@ def test_wrong_angles_are_told_by_the_walk_and_by_the_camera():
 
 
 def test_wrong_meetings_are_told():
-    for wrong in (lambda a, b: a + b, lambda a, b: np.full((1, 3), np.nan), lambda a, b: np.zeros((1, 3))):
+    for wrong in (
+        lambda a, b: a + b,
+        lambda a, b: np.full((1, 3), np.nan),
+        lambda a, b: np.zeros((1, 3)),
+    ):
         state = last_of(Params(stage="projective"), meet=wrong)
         assert caption_of(lesson.draw(state)).tone == "wrong"
     by_w = lambda a, b: np.cross(a, b) / np.cross(a, b)[:, 2:]  # noqa: E731
     with np.errstate(all="ignore"):
-        found = [caption_of(lesson.draw(state)).tone for state in run(Params(stage="projective"), meet=by_w)]
+        found = [
+            caption_of(lesson.draw(state)).tone
+            for state in run(Params(stage="projective"), meet=by_w)
+        ]
     assert [k for k, tone in enumerate(found) if tone == "wrong"] == [11]
 
 
 def test_ways_are_as_long_as_they_are_measured():
     for value in (1e3, 0.0, np.nan):
         found: list[Any]
-        *found, _ = run(Params(stage="globe"), great_circle_distance=lambda a, b, radius, v=value: np.full(len(a), v))
+        *found, _ = run(
+            Params(stage="globe"),
+            great_circle_distance=lambda a, b, radius, v=value: np.full(len(a), v),
+        )
         np.testing.assert_equal(found[-1].now.circle_length, 192 * value)
         assert [caption_of(lesson.draw(state)).tone for state in found] == ["info"] + 16 * ["wrong"]
-    assert great_circle_distance(np.zeros((1, 2)), np.array([[0.0, 90.0]]))[0] == pytest.approx(EARTH * np.pi / 2)
+    assert great_circle_distance(np.zeros((1, 2)), np.array([[0.0, 90.0]]))[0] == pytest.approx(
+        EARTH * np.pi / 2
+    )
 
 
 # pictures -------------------------------------------------------------------------------------------------------------
 
 
 def test_what_leaves_the_picture_is_an_arrow():
-    shown = [("point" in lesson.draw(state), "arrow" in lesson.draw(state)) for state in of("weights")[:-1]]
+    shown = [
+        ("point" in lesson.draw(state), "arrow" in lesson.draw(state))
+        for state in of("weights")[:-1]
+    ]
     assert shown[0] == (True, False)
     assert shown[-1] == (False, True)
 

@@ -8,7 +8,15 @@ import pytest
 from lessons.curvature.lesson import lesson
 from lessons.curvature.presets import DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL, UNFOLDING
 from lessons.curvature.state import Params, at_stage
-from tests.lessons.curvature_runs import STAGES, at, preset, scene, study_in, surface_field, timeline
+from tests.lessons.curvature_runs import (
+    STAGES,
+    at,
+    preset,
+    scene,
+    study_in,
+    surface_field,
+    timeline,
+)
 from workbench.geometry.meshes import curvature
 from workbench.geometry.meshes.laplacian import mixed_areas
 from workbench.geometry.points.normals import surface_variation
@@ -151,7 +159,13 @@ def test_dents_do_not_change_the_sum(name, sum_over_pi):
 
 @pytest.mark.parametrize(
     ("name", "answer"),
-    [("which-rolled", 0), ("which-double", 2), ("which-sides", 1), ("which-finer", 2), ("which-sum", 4)],
+    [
+        ("which-rolled", 0),
+        ("which-double", 2),
+        ("which-sides", 1),
+        ("which-finer", 2),
+        ("which-sum", 4),
+    ],
 )
 def test_answers(name, answer):
     question = next(question for question in lesson.questions if question.name == name)
@@ -221,4 +235,6 @@ def test_a_borders_rows_of_a_students_function_may_hold_anything():
         return curvature.angle_defects(p, faces) / mixed_areas(p, faces)
 
     states = states_with(preset("border"), gaussian_curvature=everywhere)
-    assert at_stage(states, "gaussian").errors["K"] == pytest.approx(at(preset("border"), "gaussian").errors["K"])
+    assert at_stage(states, "gaussian").errors["K"] == pytest.approx(
+        at(preset("border"), "gaussian").errors["K"]
+    )

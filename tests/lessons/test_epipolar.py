@@ -37,7 +37,9 @@ def at(name: str, stage: str) -> Any:
 
 
 def end(name: str) -> Caption:
-    return caption_of(lesson.draw(of(name)[-1]))  # not as it is shown: what breaks on purpose is shown calmly
+    return caption_of(
+        lesson.draw(of(name)[-1])
+    )  # not as it is shown: what breaks on purpose is shown calmly
 
 
 def clean(state: Any) -> float:
@@ -129,7 +131,9 @@ def test_a_short_baseline_costs_direction_and_depth():
     assert sampson(short.now.F, short.views.matches) < 1.2 * sampson(home.now.F, home.views.matches)
     assert (errors(short) or (9, 9))[0] < 1
     assert (errors(short) or (0, 0))[1] > 5
-    sigmas = [depth_sigma(next(run(Params(heading=0.0, baseline=b)))) for b in (1.0, 0.5, 0.1, 0.02)]
+    sigmas = [
+        depth_sigma(next(run(Params(heading=0.0, baseline=b)))) for b in (1.0, 0.5, 0.1, 0.02)
+    ]
     assert sigmas == pytest.approx([0.11, 0.22, 1.07, 5.4], rel=0.03)
 
 
@@ -142,16 +146,29 @@ def test_far_away_there_is_a_rotation_and_hardly_more():
             ahead = (last.now.p_first[:, 2] > 0) & (
                 apply(last.now.T_second_first, last.now.p_first)[:, 2] > 0
             )  # before both cameras, after refinement
-            sigma = np.sqrt(2) * 0.5 * z / (420 * np.cos(np.radians(20)))  # of Z over Z, beside each other, 1 m apart
+            sigma = (
+                np.sqrt(2) * 0.5 * z / (420 * np.cos(np.radians(20)))
+            )  # of Z over Z, beside each other, 1 m apart
             line = sampson(last.now.F, last.views.matches)
-            ends.append((*(errors(last) or (9, 9)), ahead.mean(), np.median(sigma), line, last.parallax, z.min()))
+            ends.append(
+                (
+                    *(errors(last) or (9, 9)),
+                    ahead.mean(),
+                    np.median(sigma),
+                    line,
+                    last.parallax,
+                    z.min(),
+                )
+            )
     far, home = (np.median(found[name], axis=0) for name in ("far", "home"))
     assert far[0] < 1.3 * home[0] < 0.4  # degrees of rotation: as good
     assert far[1] > 45 > 20 * home[1]  # of direction
     assert far[2] < 0.8 < 1 == home[2]  # of the points in front
     assert 0.35 < far[3] < 0.7  # of its depth is the uncertainty of a point, by parallax alone
     assert far[4] < 1.1 * home[4]  # px from their lines
-    assert 1.2 < far[5] < 1.8 < 40 < home[5]  # px of parallax: little more than the noise of both pixels, 0.7
+    assert (
+        1.2 < far[5] < 1.8 < 40 < home[5]
+    )  # px of parallax: little more than the noise of both pixels, 0.7
     assert min(row[6] for row in found["far"]) > 180  # baselines
     points = of("far")[16]
     assert points.now.stage == "points"
@@ -163,14 +180,22 @@ def test_far_away_there_is_a_rotation_and_hardly_more():
 def test_what_is_far_is_drawn_as_a_model():
     state = of("far")[16]
     scene = lesson.draw(state)
-    seen = {name: scene[name] for name in ("true points", "points", "direction/camera", "direction/true camera")}
+    seen = {
+        name: scene[name]
+        for name in ("true points", "points", "direction/camera", "direction/true camera")
+    }
     true, estimated = seen["true points"], seen["points"]
     assert isinstance(true, Points)
     assert isinstance(estimated, Points)
     np.testing.assert_allclose(50 * true.p, state.views.p_first, rtol=1e-12)
-    nearest = np.linalg.norm(estimated.p[:, None] - state.length * state.now.p_first / 50, axis=2).min(axis=1)
+    nearest = np.linalg.norm(
+        estimated.p[:, None] - state.length * state.now.p_first / 50, axis=2
+    ).min(axis=1)
     assert nearest.max() < 1e-9
-    for path, T in (("direction/camera", state.T_second_first), ("direction/true camera", state.T_true)):
+    for path, T in (
+        ("direction/camera", state.T_second_first),
+        ("direction/true camera", state.T_true),
+    ):
         pointer = seen[path]
         assert isinstance(pointer, Segments)
         way = pointer.ends[0, 1] - pointer.ends[0, 0]
@@ -181,7 +206,10 @@ def test_what_is_far_is_drawn_as_a_model():
     marks = lesson.draw(of("far")[3])["marks"]
     assert isinstance(marks, Points)
     np.testing.assert_allclose(marks.p[:, 2], [3, 4, 6, 8])
-    assert [label for label in lesson.draw(of("far")[3]) if label.startswith("mark/")] == ["mark/150", "mark/300"]
+    assert [label for label in lesson.draw(of("far")[3]) if label.startswith("mark/")] == [
+        "mark/150",
+        "mark/300",
+    ]
 
 
 def test_ahead_the_epipole_is_in_the_picture_and_rows_cannot_be_had():
@@ -215,7 +243,8 @@ def test_a_wrong_focal_length_hides_in_the_motion():
     off = []
     for seed in range(8):
         wrong, fine = (
-            steps_of(run(replace(lesson.preset("wrong-f").params, f_error=e, seed=seed))) for e in (20.0, 0.0)
+            steps_of(run(replace(lesson.preset("wrong-f").params, f_error=e, seed=seed)))
+            for e in (20.0, 0.0)
         )
         np.testing.assert_array_equal(wrong[10].now.F, fine[10].now.F)
         off.append(((errors(wrong[-1]) or (0, 0))[0], (errors(fine[-1]) or (0, 0))[0]))
@@ -247,7 +276,12 @@ def test_every_run_ends_with_its_rectification():
 
 @pytest.mark.parametrize(
     ("name", "answer", "within"),
-    [("predict-four", 1, 0), ("predict-baseline", 21.6, 0.2), ("predict-plane", 2, 0), ("predict-f", 0, 0)],
+    [
+        ("predict-four", 1, 0),
+        ("predict-baseline", 21.6, 0.2),
+        ("predict-plane", 2, 0),
+        ("predict-f", 0, 0),
+    ],
 )
 def test_answers(name, answer, within):
     question = next(question for question in lesson.questions if question.name == name)
@@ -323,7 +357,11 @@ def test_rectified_lines_are_level():
 def test_ellipsoids_are_longer_the_shorter_the_baseline():
     lengths = []
     for baseline in (1.0, 0.1):
-        found = next(state for state in run(Params(baseline=baseline, noise=0.05)) if state.now.stage == "points")
+        found = next(
+            state
+            for state in run(Params(baseline=baseline, noise=0.05))
+            if state.now.stage == "points"
+        )
         shown = lesson.draw(found)["uncertainty"]
         assert isinstance(shown, Segments)
         lengths.append(np.linalg.norm(shown.ends[:, 0] - shown.ends[:, 1], axis=1).max())

@@ -18,7 +18,9 @@ def fountain(folder, tmp_path, **left_out: bool):
     good = np.abs(found["gt_sampson"]) < 1
     arrays = {name: found[name] for name in ("K1", "K2", "R_rel", "t_rel") if name not in left_out}
     np.savez(tmp_path / "fountain.npz", x1=found["x1"][good], x2=found["x2"][good], **arrays)
-    first, second = (folder / "ransac" / "fountain-P11" / f"{n}_third.jpg" for n in ("0004", "0005"))
+    first, second = (
+        folder / "ransac" / "fountain-P11" / f"{n}_third.jpg" for n in ("0004", "0005")
+    )
     return {"own_matches": tmp_path / "fountain.npz", "first_image": first, "second_image": second}
 
 
@@ -52,14 +54,18 @@ def test_without_a_true_motion_nobody_is_judged(shared_data, tmp_path):
     found: list[Any] = list(run(Params(**arrays, intrinsics=tmp_path / "k.txt")))
     assert found[0].now.stage == "equations"
     assert {caption_of(lesson.draw(state)).tone for state in found} == {"info"}
-    assert "made up" in caption_of(lesson.draw(next(s for s in found if s.now.stage == "points"))).text
+    assert (
+        "made up" in caption_of(lesson.draw(next(s for s in found if s.now.stage == "points"))).text
+    )
 
 
 def test_matches_alone_have_white_pictures(tmp_path):
     views = next(run(Params())).views
     np.savetxt(tmp_path / "m.txt", views.matches)
     (tmp_path / "k.txt").write_text("420 420 239.5 159.5")
-    found: list[Any] = list(run(Params(own_matches=tmp_path / "m.txt", intrinsics=tmp_path / "k.txt")))
+    found: list[Any] = list(
+        run(Params(own_matches=tmp_path / "m.txt", intrinsics=tmp_path / "k.txt"))
+    )
     T, true = found[-1].now.T_second_first, views.T_second_first
     assert true is not None
     np.testing.assert_allclose(T[:3, :3], true[:3, :3], atol=0.02)

@@ -12,7 +12,17 @@ from lessons.icp.draw import draw
 from lessons.icp.lesson import lesson, run
 from lessons.icp.presets import END, HOME, end, rmse_falls
 from lessons.icp.state import Params, State
-from tests.lessons.icp_runs import caption, preset, scene, states, timeline, tries, true, two_scans, until_stop
+from tests.lessons.icp_runs import (
+    caption,
+    preset,
+    scene,
+    states,
+    timeline,
+    tries,
+    true,
+    two_scans,
+    until_stop,
+)
 from workbench.algorithms.registration.icp import Stop, nearest
 from workbench.geometry.motions import apply
 from workbench.geometry.motions.alignment import align_rigid
@@ -47,7 +57,9 @@ class TestPresets:
 
     def test_the_sweep_has_starts_from_which_it_comes_home_and_others(self):
         (sweep,) = lesson.sweeps
-        assert [end(run(params)).home for params in lesson.swept(sweep)] == [angle < 100 for angle in sweep.values]
+        assert [end(run(params)).home for params in lesson.swept(sweep)] == [
+            angle < 100 for angle in sweep.values
+        ]
 
     def test_plane_takes_a_sixth_of_the_iterations(self):
         slow, fast = end(preset("home")).icp.iteration, end(preset("plane")).icp.iteration
@@ -83,7 +95,9 @@ class TestPresets:
         assert not scans.at_home(scans.error(shrunk))
 
     def test_overlap(self):
-        fixed, adaptive, tight = (end(preset(f"overlap-{name}")) for name in ("fixed", "adaptive", "tight"))
+        fixed, adaptive, tight = (
+            end(preset(f"overlap-{name}")) for name in ("fixed", "adaptive", "tight")
+        )
         assert fixed.error.rotation > 0.5
         assert adaptive.error.rotation == pytest.approx(0.064, abs=0.005)
         assert fixed.error.rotation == pytest.approx(0.634, abs=0.005)
@@ -99,7 +113,9 @@ class TestPresets:
         assert colors.ids.mean() == pytest.approx(0.3)
 
     def test_rings(self):
-        chance, voxel, spread = (end(preset(f"rings-{name}")) for name in ("chance", "voxel", "spread"))
+        chance, voxel, spread = (
+            end(preset(f"rings-{name}")) for name in ("chance", "voxel", "spread")
+        )
         assert chance.error.translation == pytest.approx(0.485, abs=0.005)
         assert voxel.error.translation == pytest.approx(0.0364, abs=0.0005)
         assert spread.error.translation == pytest.approx(0.0061, abs=0.0005)
@@ -156,13 +172,21 @@ class TestBasin:
             n = len(p_try.p)
             assert 290 < n <= 300
             assert p_try.name == f"end from another start, {n} points"
-            assert f"with {n} of the source's points{others}: from 180° away" in caption(params, -1).text
+            assert (
+                f"with {n} of the source's points{others}: from 180° away"
+                in caption(params, -1).text
+            )
             start = state.scans.T_start @ np.linalg.inv(true(state))
-            assert Rotation.from_matrix(start[:3, :3]).as_rotvec()[2] < 0  # the dial's angles are positive
+            assert (
+                Rotation.from_matrix(start[:3, :3]).as_rotvec()[2] < 0
+            )  # the dial's angles are positive
         assert "turned the other way" not in caption(Params(start_angle=0.0), -1).text
 
     def test_it_shows_where_the_last_try_ended(self):
-        state, shown = states(lesson.preset("far").params)[-1], scene(lesson.preset("far").params, -1)["try"]
+        state, shown = (
+            states(lesson.preset("far").params)[-1],
+            scene(lesson.preset("far").params, -1)["try"],
+        )
         attempt = state.tries[-1]
         placed = apply(shown.T_world_object, shown.p)
         home = apply(true(state), shown.p)
@@ -175,7 +199,9 @@ class TestBasin:
             dial = scene(params, -1)["dial"]
             np.testing.assert_array_equal(dial.color.ids[1::3] == 0, at_home)
             middles = dial.ends[1::3].mean(axis=1)
-            np.testing.assert_allclose(np.degrees(np.arctan2(middles[:, 1], middles[:, 0])), ANGLES, atol=1e-9)
+            np.testing.assert_allclose(
+                np.degrees(np.arctan2(middles[:, 1], middles[:, 0])), ANGLES, atol=1e-9
+            )
 
     def test_without_a_truth_or_with_ones_own_function_there_is_none(self, two_files):
         assert not any(s.tries for s in states(two_files))
@@ -190,14 +216,18 @@ class TestPicture:
         poses = [scene(HOME, k)["source"].T_world_object for k in (0, 1)]
         assert not np.array_equal(poses[0], poses[1])
         again = scene(replace(HOME, start_angle=40.0), 0)
-        assert again["target"].p is scene(HOME, 0)["target"].p  # a knob does not send the target anew
+        assert (
+            again["target"].p is scene(HOME, 0)["target"].p
+        )  # a knob does not send the target anew
 
     def test_matches_end_at_the_points_they_join(self):
         for k in range(4):
             now, shown = states(HOME)[k].icp, scene(HOME, k)
             ends, source = shown["matches"].ends, shown["source"]
             rows = slice(None, None, 2)  # 1,500 are too many to be drawn
-            np.testing.assert_allclose(ends[:, 0], apply(source.T_world_object, source.p[rows]), atol=1e-12)
+            np.testing.assert_allclose(
+                ends[:, 0], apply(source.T_world_object, source.p[rows]), atol=1e-12
+            )
             np.testing.assert_array_equal(ends[:, 1], shown["target"].p[now.indices[rows]])
             np.testing.assert_array_equal(shown["matches"].color.ids, ~now.kept[rows])
 
@@ -212,7 +242,9 @@ class TestPicture:
         charts = {p.name: p for p in scene(HOME, 0).values() if isinstance(p, Scalar)}
         assert charts["rotation error"].value == pytest.approx(35)
         assert charts["rotation error"].color == "truth"
-        assert {"RMSE of kept matches", "translation error", "kept", "right among them"} <= set(charts)
+        assert {"RMSE of kept matches", "translation error", "kept", "right among them"} <= set(
+            charts
+        )
 
     def test_captions_carry_their_numbers(self):
         match, fit = caption(HOME, 0).text, caption(HOME, 1).text
@@ -230,7 +262,10 @@ class TestQuestions:
             shown = states(question.params)[-1 if question.step is None else question.step]
             assert not shown.tries
             if question.name == "predict-matches":
-                assert f"{100 * states(question.params)[0].right:.0f} % of its matches" in caption_of(draw(shown)).text
+                assert (
+                    f"{100 * states(question.params)[0].right:.0f} % of its matches"
+                    in caption_of(draw(shown)).text
+                )
             else:
                 assert shown.icp.stop is not None
 
@@ -252,7 +287,10 @@ class TestQuestions:
     def test_what_is_known_to_be_wrong_is_not_right(self):
         """A half of the first matches, or as many iterations as without planes, were once near enough."""
         asked = {q.name: q for q in lesson.questions}
-        for name, wrong in (("predict-matches", (9, 20, 50, 100)), ("predict-plane", (2, 18, 30, 61))):
+        for name, wrong in (
+            ("predict-matches", (9, 20, 50, 100)),
+            ("predict-plane", (2, 18, 30, 61)),
+        ):
             truth = asked[name].answer(until_stop(asked[name].params))
             for given in wrong:
                 assert abs(given - truth) > asked[name].tolerance
@@ -281,7 +319,9 @@ class TestSlots:
 
         mine = list(run(HOME, align=align))
         assert calls == [1350] * end(mine).icp.iteration
-        np.testing.assert_array_equal(end(mine).icp.T_target_source, end(states(HOME)).icp.T_target_source)
+        np.testing.assert_array_equal(
+            end(mine).icp.T_target_source, end(states(HOME)).icp.T_target_source
+        )
 
     def test_a_transposed_rotation_does_not_come_home(self):
         def align(p_target, p_source):
@@ -292,6 +332,8 @@ class TestSlots:
         assert not end(run(HOME, align=align)).home
 
     def test_the_plane_step_is_a_slot_too(self):
-        still = tuple(run(Params(fit="point-to-plane"), step=lambda p_target, p_source, n_target: np.eye(4)))
+        still = tuple(
+            run(Params(fit="point-to-plane"), step=lambda p_target, p_source, n_target: np.eye(4))
+        )
         assert end(still).icp.iteration == 1
         assert end(still).error.rotation == pytest.approx(35)

@@ -35,7 +35,9 @@ class TestOwnScans:
         gap = np.linalg.norm(apply(source.T_world_object, source.p) - p[state.icp.indices], axis=1)
         np.testing.assert_allclose(gap, state.scans.frame.scale * state.icp.distances, atol=1e-9)
 
-    @pytest.mark.parametrize(("up", "axis"), [("z", [0, 0, 1]), ("y", [0, 1, 0]), ("-y", [0, -1, 0]), ("x", [1, 0, 0])])
+    @pytest.mark.parametrize(
+        ("up", "axis"), [("z", [0, 0, 1]), ("y", [0, 1, 0]), ("-y", [0, -1, 0]), ("x", [1, 0, 0])]
+    )
     def test_they_stand_upright(self, two_files, up, axis):
         params = replace(two_files, up=up)
         scans, shown = states(params)[0].scans, scene(params, 0)
@@ -46,25 +48,36 @@ class TestOwnScans:
         assert p[above, 2] - p[:, 2].mean() == pytest.approx(scans.frame.scale * height)
         for k in (0, -1):
             state, source = states(params)[k], scene(params, k)["source"]
-            gap = np.linalg.norm(apply(source.T_world_object, source.p) - p[state.icp.indices], axis=1)
+            gap = np.linalg.norm(
+                apply(source.T_world_object, source.p) - p[state.icp.indices], axis=1
+            )
             np.testing.assert_allclose(gap, scans.frame.scale * state.icp.distances, atol=1e-9)
         assert "of the scans" in shown["size"].text
 
     def test_the_handle_turns_about_the_middle_of_the_picture(self, two_files):
         guess = (0.1, 0.0, 0.0, 0.0, 0.0, 1.0)
         T = scene(replace(two_files, up="y", guess=guess), 0)["source"].T_world_object
-        np.testing.assert_allclose(T, motion(exp_so3(np.array([0.0, 0.0, 1.0])), np.array([0.1, 0.0, 0.0])), atol=1e-9)
+        np.testing.assert_allclose(
+            T, motion(exp_so3(np.array([0.0, 0.0, 1.0])), np.array([0.1, 0.0, 0.0])), atol=1e-9
+        )
 
     def test_a_known_pose_is_the_truth(self, two_files, tmp_path):
         shift = np.eye(4)
         shift[:3, 3] = 5000
-        T = shift @ np.diag([1000, 1000, 1000, 1]) @ true(states(HOME)[0]) @ np.diag([0.001, 0.001, 0.001, 1])
+        T = (
+            shift
+            @ np.diag([1000, 1000, 1000, 1])
+            @ true(states(HOME)[0])
+            @ np.diag([0.001, 0.001, 0.001, 1])
+        )
         T = T @ np.linalg.inv(shift)
         np.savetxt(tmp_path / "pose.txt", T)
         found = states(replace(two_files, truth=tmp_path / "pose.txt"))
         assert found[0].error.rotation == pytest.approx(35)
         assert end(found).home
-        first = found[-1].tries[0]  # started at the truth, so its end as seen from the truth is no motion at all
+        first = found[-1].tries[
+            0
+        ]  # started at the truth, so its end as seen from the truth is no motion at all
         np.testing.assert_allclose(first.T_target_truth[:3, :3], np.eye(3), atol=0.02)
         off = apply(first.T_target_truth, found[0].scans.frame.centre) - found[0].scans.frame.centre
         assert np.linalg.norm(off) < 10  # of about 1000
@@ -92,7 +105,9 @@ class TestOwnScans:
 class TestAwkwardScans:
     """Own files as people have them: in other units, far from the origin, doubled, tiny, or not overlapping at all."""
 
-    def files(self, folder: Path, p_target: np.ndarray, p_source: np.ndarray, **values: Any) -> Params:
+    def files(
+        self, folder: Path, p_target: np.ndarray, p_source: np.ndarray, **values: Any
+    ) -> Params:
         for name, p in (("t.npy", p_target), ("s.npy", p_source)):
             np.save(folder / name, p)
         return Params(target=folder / "t.npy", source=folder / "s.npy", **values)
@@ -108,7 +123,9 @@ class TestAwkwardScans:
         metres = next(run(self.files(tmp_path, p_target, p_source, **gate)))
         there = tmp_path / unit
         there.mkdir()
-        first = next(run(self.files(there, per_metre * p_target, per_metre * p_source, unit=unit, **gate)))
+        first = next(
+            run(self.files(there, per_metre * p_target, per_metre * p_source, unit=unit, **gate))
+        )
         assert 0.1 < metres.icp.overlap < 0.9
         assert first.icp.overlap == metres.icp.overlap
         factor = 1.0 if unit != "m" else 1000.0
@@ -119,7 +136,9 @@ class TestAwkwardScans:
         p_target, p_source = self.rabbits()
         T = true(states(replace(HOME, start_shift=0.2))[0])
         np.savetxt(tmp_path / "T.txt", np.array([[1, 1, 1, 1000]] * 3 + [[1, 1, 1, 1]]) * T)
-        params = self.files(tmp_path, 1000 * p_target, 1000 * p_source, unit="mm", truth=tmp_path / "T.txt")
+        params = self.files(
+            tmp_path, 1000 * p_target, 1000 * p_source, unit="mm", truth=tmp_path / "T.txt"
+        )
         np.testing.assert_allclose(true(next(run(params))), T, atol=1e-9)
 
     def test_far_from_the_origin_nothing_changes(self, tmp_path):
@@ -156,7 +175,13 @@ class TestAwkwardScans:
         p_target, p_source = self.rabbits()
         first = next(run(self.files(tmp_path, p_target, p_source + np.array([800.0, 0.0, 0.0]))))
         assert "The scans start 799 m apart, and the target is" in caption_of(draw(first)).text
-        none = next(run(self.files(tmp_path, p_target, p_source + np.array([800.0, 0.0, 0.0]), gate="max-distance")))
+        none = next(
+            run(
+                self.files(
+                    tmp_path, p_target, p_source + np.array([800.0, 0.0, 0.0]), gate="max-distance"
+                )
+            )
+        )
         assert "0 of 1,500 are kept" in caption_of(draw(none)).text
         assert "nan" not in caption_of(draw(none)).text
         near = next(run(self.files(tmp_path, p_target, p_source)))
@@ -171,7 +196,10 @@ class TestAwkwardScans:
         timeline = Timeline(lesson, params)
         timeline.extend()
         missing = int(np.isnan(holed).any(axis=1).sum())
-        assert f"{missing} of {len(holed):,} points left out: NaN or infinite." in timeline[0].caption.text
+        assert (
+            f"{missing} of {len(holed):,} points left out: NaN or infinite."
+            in timeline[0].caption.text
+        )
 
     def test_the_grid_is_in_metres_of_the_scans(self, tmp_path):
         p_target, p_source = self.rabbits()
@@ -188,7 +216,10 @@ class TestAwkwardScans:
         p_target, p_source = self.rabbits()
         params = self.files(tmp_path, p_target, p_source)
         words = "Your own scans are open: shape, start angle have no effect on them."
-        assert words in caption_of(draw(next(run(replace(params, shape="vase", start_angle=90.0))))).text
+        assert (
+            words
+            in caption_of(draw(next(run(replace(params, shape="vase", start_angle=90.0))))).text
+        )
         assert "no effect" not in caption_of(draw(next(run(params)))).text
 
 
@@ -198,10 +229,19 @@ def yard(rng: np.random.Generator) -> Street:
     walls = [[s * half[0], 0, 3, 0.5, half[1], 3, 0] for s in (-1, 1)]
     walls += [[0, s * half[1], 3, half[0], 0.5, 3, 0] for s in (-1, 1)]
     crates = [
-        [*rng.uniform([-0.7, 0.2], [0.7, 0.7]) * half * [1, s], 0.6, *rng.uniform(0.3, 1, 2), 0.6, rng.uniform(-1, 1)]
+        [
+            *rng.uniform([-0.7, 0.2], [0.7, 0.7]) * half * [1, s],
+            0.6,
+            *rng.uniform(0.3, 1, 2),
+            0.6,
+            rng.uniform(-1, 1),
+        ]
         for s in rng.choice([-1, 1], 8)
     ]
-    poles = [[*rng.uniform([-0.8, 0.3], [0.8, 0.8]) * half * [1, s], 0.15] for s in rng.choice([-1, 1], 8)]
+    poles = [
+        [*rng.uniform([-0.8, 0.3], [0.8, 0.8]) * half * [1, s], 0.15]
+        for s in rng.choice([-1, 1], 8)
+    ]
     return Street(np.array(walls + crates, float), np.array(poles, float))
 
 
@@ -210,13 +250,22 @@ class TestRings:
 
     def motion(self, rng: np.random.Generator) -> np.ndarray:
         axis, way = rng.normal(size=3) * [0.2, 0.2, 1.0], rng.normal(size=3) * [1.0, 1.0, 0.1]
-        return motion(exp_so3(np.radians(0.7) * axis / np.linalg.norm(axis)), 0.5 * way / np.linalg.norm(way))
+        return motion(
+            exp_so3(np.radians(0.7) * axis / np.linalg.norm(axis)), 0.5 * way / np.linalg.norm(way)
+        )
 
-    def pair(self, scene: Street, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        T, sensor = self.motion(rng), motion(exp_so3(np.array([0, 0, 0.2])), np.array([0.0, 0.0, 1.73]))
+    def pair(
+        self, scene: Street, rng: np.random.Generator
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        T, sensor = (
+            self.motion(rng),
+            motion(exp_so3(np.array([0, 0, 0.2])), np.array([0.0, 0.0, 1.73])),
+        )
         return lidar_scan(scene, sensor, rng), lidar_scan(scene, sensor @ T, rng), T
 
-    @pytest.mark.parametrize(("place", "kind"), [(street, "ply"), (yard, "csv"), (street, "pcd"), (yard, "npy")])
+    @pytest.mark.parametrize(
+        ("place", "kind"), [(street, "ply"), (yard, "csv"), (street, "pcd"), (yard, "npy")]
+    )
     def test_two_scans_of_rings_meet(self, tmp_path, place, kind):
         rng = np.random.default_rng(["ply", "csv", "pcd", "npy"].index(kind))
         p_target, p_source, T = self.pair(place(rng), rng)
@@ -232,7 +281,9 @@ class TestRings:
         assert last.home
 
     def test_three_ways_to_thin(self):
-        chance, voxel, spread = (end(preset(f"rings-{name}")) for name in ("chance", "voxel", "spread"))
+        chance, voxel, spread = (
+            end(preset(f"rings-{name}")) for name in ("chance", "voxel", "spread")
+        )
         assert chance.error.translation > 0.4
         assert not chance.home
         assert voxel.error.displacement < 0.1
@@ -247,9 +298,7 @@ class TestRings:
 
 def write(path: Path, p: np.ndarray) -> None:
     """Write a cloud of 32-bit floats in the format that the name says."""
-    head = (
-        f"# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {len(p)}\nHEIGHT 1\nPOINTS {len(p)}\n"
-    )
+    head = f"# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {len(p)}\nHEIGHT 1\nPOINTS {len(p)}\n"
     ply = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(p)}\n"
     match path.suffix:
         case ".npy":
@@ -260,7 +309,8 @@ def write(path: Path, p: np.ndarray) -> None:
             path.write_bytes((head + "DATA binary\n").encode() + p.tobytes())
         case ".ply":
             path.write_bytes(
-                (ply + "".join(f"property float {c}\n" for c in "xyz") + "end_header\n").encode() + p.tobytes()
+                (ply + "".join(f"property float {c}\n" for c in "xyz") + "end_header\n").encode()
+                + p.tobytes()
             )
 
 
@@ -275,7 +325,9 @@ class TestRealScans:
     )
     def test_the_defaults_come_home(self, shared_data, target, source, truth, most_metres, fit):
         folder = shared_data / "icp"
-        params = Params(target=folder / target, source=folder / source, truth=folder / truth, fit=fit)
+        params = Params(
+            target=folder / target, source=folder / source, truth=folder / truth, fit=fit
+        )
         state = end(run(params))
         assert state.error.rotation < 0.3
         assert state.error.translation < most_metres

@@ -64,13 +64,18 @@ def test_half_the_angle_is_cut_as_well_and_a_loss_that_knows_turns_only_moves_th
 
 
 def test_more_updates_make_the_cut_narrower_not_lower():
-    few, many = wrong_by(end("cut")), wrong_by(last_of(replace(lesson.preset("cut").params, updates=1200)))
+    few, many = (
+        wrong_by(end("cut")),
+        wrong_by(last_of(replace(lesson.preset("cut").params, updates=1200))),
+    )
     assert (many > 20).mean() < (few > 20).mean()
     assert many.max() > 150
 
 
 def test_rotations_by_six_and_nine_numbers_have_no_cut():
-    six, nine, four, three = (wrong_by(end(name)) for name in ("rotation", "nine", "quaternion", "euler"))
+    six, nine, four, three = (
+        wrong_by(end(name)) for name in ("rotation", "nine", "quaternion", "euler")
+    )
     assert six.mean() == pytest.approx(1.25, abs=0.005)
     assert six.max() == pytest.approx(3.6, abs=0.05)
     assert nine.mean() == pytest.approx(1.05, abs=0.005)
@@ -90,7 +95,11 @@ def test_quaternions_are_cut_where_their_sign_is_asked_for():
 
 def test_quaternions_are_not_worse_where_turns_stay_small():
     small = [
-        wrong_by(last_of(Params(task="rotation", rotation=rotation, loss="matrix", largest=90.0, updates=400)))
+        wrong_by(
+            last_of(
+                Params(task="rotation", rotation=rotation, loss="matrix", largest=90.0, updates=400)
+            )
+        )
         for rotation in ("quaternion", "6D")
     ]
     assert small[0].max() < 1.5 * small[1].max()
@@ -129,13 +138,18 @@ def test_the_true_surface_stands_beside_the_fitted_mesh():
 
 
 def test_a_laplacian_of_a_hundred_is_too_much():
-    assert last_of(Params(task="mesh", laplacian=100.0)).now.to_truth > 1.3 * end("smooth").now.to_truth
+    assert (
+        last_of(Params(task="mesh", laplacian=100.0)).now.to_truth
+        > 1.3 * end("smooth").now.to_truth
+    )
 
 
 def test_a_pooled_network_does_not_know_the_order_of_points():
     state = end("pooled")
     plain, changed = (state.now.scores[name] for name in ("plain", "changed"))
-    rounding = 100 * np.finfo(np.float32).eps * np.abs(plain).max()  # a product's last rows are summed in another order
+    rounding = (
+        100 * np.finfo(np.float32).eps * np.abs(plain).max()
+    )  # a product's last rows are summed in another order
     np.testing.assert_allclose(changed, plain, rtol=0, atol=rounding)
     assert named(state, "plain") > 0.9
     listed = end("listed")
@@ -146,9 +160,13 @@ def test_a_pooled_network_does_not_know_the_order_of_points():
 def test_critical_points_alone_give_the_same_answer():
     state = end("pooled")
     network = state.now.network
-    for cloud, kept in zip(state.about.plain[:10], network.critical(state.about.plain[:10]), strict=True):
+    for cloud, kept in zip(
+        state.about.plain[:10], network.critical(state.about.plain[:10]), strict=True
+    ):
         assert len(kept) < len(cloud)
-        np.testing.assert_array_equal(network(cloud[kept][None]).argmax(), network(cloud[None]).argmax())
+        np.testing.assert_array_equal(
+            network(cloud[kept][None]).argmax(), network(cloud[None]).argmax()
+        )
 
 
 def test_one_stray_point_ruins_the_maximum_and_hardly_the_mean():
@@ -208,7 +226,10 @@ def test_a_reversed_gradient_drives_the_points_away():
     away = last_of(params, chamfer_gradient=lambda p, q: -chamfer_gradient(p, q))
     assert radii(away).mean() > radii(last_of(params)).mean() + 0.1
     mesh = replace(lesson.preset("spikes").params, updates=8)
-    assert last_of(mesh, chamfer_gradient=lambda p, q: -chamfer_gradient(p, q)).now.loss > last_of(mesh).now.loss
+    assert (
+        last_of(mesh, chamfer_gradient=lambda p, q: -chamfer_gradient(p, q)).now.loss
+        > last_of(mesh).now.loss
+    )
 
 
 def test_weights_that_hide_nothing_spoil_the_field():
@@ -219,7 +240,10 @@ def test_weights_that_hide_nothing_spoil_the_field():
 
 def test_whatever_is_clicked_on_is_looked_at():
     knob = next(field.knob for field in fields_of(Params) if field.name == "picked")
-    counts = [len(lesson.draw(next(run(Params(task=task))))["inputs"].p) for task in ("angle", "rotation", "field")]  # type: ignore[union-attr]
+    counts = [
+        len(lesson.draw(next(run(Params(task=task))))["inputs"].p)
+        for task in ("angle", "rotation", "field")
+    ]  # type: ignore[union-attr]
     assert knob.high == max(counts) - 1
     for task, count in zip(("angle", "rotation"), counts, strict=False):
         scene = lesson.draw(next(run(Params(task=task, picked=count - 1))))

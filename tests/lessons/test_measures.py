@@ -125,7 +125,10 @@ def test_the_volume_of_voxels_converges_and_the_area_does_not():
     shares = np.array(now.areas) / state.subject.area
     np.testing.assert_allclose(shares[3:], 1.5, atol=0.02)
     np.testing.assert_allclose(np.array(now.marched)[4:] / state.subject.area, 1.087, atol=0.01)
-    off = [[s.volume_error for s in states(replace(state.params, seed=seed, cells=16))][-1] for seed in range(6)]
+    off = [
+        [s.volume_error for s in states(replace(state.params, seed=seed, cells=16))][-1]
+        for seed in range(6)
+    ]
     assert np.sqrt(np.mean(np.square(off))) < 0.01
 
 
@@ -159,7 +162,9 @@ def test_intervals_hold_the_truth_about_as_often_as_they_say():
     held = []
     for seed in range(60):
         last = last_of(Params(method="chance", shape="sphere", seed=seed))
-        held.append(abs(last.volume_error * last.subject.volume) <= 1.96 * last.now.estimates.errors[-1])
+        held.append(
+            abs(last.volume_error * last.subject.volume) <= 1.96 * last.now.estimates.errors[-1]
+        )
     assert 0.87 <= np.mean(held) <= 1.0
 
 
@@ -176,7 +181,10 @@ def test_who_looks_at_every_step_sees_the_truth_outside_in_most_runs():
     now, at_any_step = of("throws")[-1].peeked
     assert now == pytest.approx(0.05, abs=0.01)
     assert at_any_step == pytest.approx(ever / 120, abs=0.05)
-    assert "56 % missed it at one or more of the 33 looks" in finished("measures", params)[-1].caption.text
+    assert (
+        "56 % missed it at one or more of the 33 looks"
+        in finished("measures", params)[-1].caption.text
+    )
     assert of("sobol")[-1].peeked is None
 
 
@@ -227,7 +235,11 @@ def test_faces_alike_pull_the_mean_to_the_small_faces():
     ],
 )
 def test_quarters_of_a_triangle(place, shares):
-    found = [state for state in run(Params(method="samples", place=place, throws=100)) if state.in_triangle]
+    found = [
+        state
+        for state in run(Params(method="samples", place=place, throws=100))
+        if state.in_triangle
+    ]
     np.testing.assert_allclose(found[-1].quarters, shares, atol=0.025)
 
 
@@ -271,7 +283,11 @@ def test_answers_are_read_off_the_run():
 
 def test_three_middles_are_three_points():
     rabbit = built_in("rabbit", 0, 4, 4)
-    middles = rabbit.p.mean(axis=0), area_centroid(rabbit.p, rabbit.faces), volume_centroid(rabbit.p, rabbit.faces)
+    middles = (
+        rabbit.p.mean(axis=0),
+        area_centroid(rabbit.p, rabbit.faces),
+        volume_centroid(rabbit.p, rabbit.faces),
+    )
     gaps = [np.linalg.norm(middles[k] - middles[k - 1]) / rabbit.diagonal for k in range(3)]
     assert min(gaps) > 0.002
     assert max(gaps) > 0.03
@@ -301,7 +317,9 @@ def test_slots_drive_the_run():
     assert caption_of(lesson.draw(last)).tone == "wrong"
     last = last_of(Params(method="chance"), volume_by_chance=lambda inside, box: (2.0, 0.5))
     assert (last.now.estimates.values[-1], last.now.estimates.errors[-1]) == (2.0, 0.5)
-    first, *_ = run(Params(method="samples"), points_on_faces=lambda p, faces, u: np.tile(p[0], (len(u), 1)))
+    first, *_ = run(
+        Params(method="samples"), points_on_faces=lambda p, faces, u: np.tile(p[0], (len(u), 1))
+    )
     np.testing.assert_allclose(first.quarters, [1, 0, 0, 0], atol=1e-9)
 
 

@@ -77,7 +77,12 @@ def test_faces_that_disagree_are_told(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "hull"), [("curvature/bunny.off", 1.66), ("curvature/fertility.off", None), ("shapes/bunny_npm.ply", None)]
+    ("name", "hull"),
+    [
+        ("curvature/bunny.off", 1.66),
+        ("curvature/fertility.off", None),
+        ("shapes/bunny_npm.ply", None),
+    ],
 )
 def test_scans_are_what_trimesh_says(shared_data, name, hull):
     path = shared_data / name
@@ -125,7 +130,9 @@ def organ(tmp_path_factory) -> Path:
 
 
 def test_one_label_is_measured_with_its_spacing(organ):
-    last = last_of(Params(voxels=organ, spacing=(1.0, 1.0, 2.0), label=3, unit="mm", method="voxels"))
+    last = last_of(
+        Params(voxels=organ, spacing=(1.0, 1.0, 2.0), label=3, unit="mm", method="voxels")
+    )
     labels = read_voxels(organ)
     assert last.subject.volume == pytest.approx(2.0 * (labels == 3).sum())
     assert last.now.volumes[-1] == last.subject.volume
@@ -155,7 +162,11 @@ def test_all_labels_together(organ):
         ({"labels": np.ones((3, 3, 3), np.uint8)}, 9, "no voxel has the label 9; there are 1"),
         ({"labels": np.zeros((3, 3, 3), bool)}, 0, "none but 0"),
         ({"labels": np.ones((3, 3))}, 0, "no array of three axes"),
-        ({"a": np.ones((3, 3, 3), bool), "b": np.ones((2, 2, 2), bool)}, 0, "2 arrays of three axes"),
+        (
+            {"a": np.ones((3, 3, 3), bool), "b": np.ones((2, 2, 2), bool)},
+            0,
+            "2 arrays of three axes",
+        ),
         ({"labels": np.ones((3, 3, 3))}, 0, "no array of three axes"),
     ],
 )

@@ -128,5 +128,7 @@ def test_rays_of_the_division_start_in_the_camera():
     timeline = Timeline(lesson, Params()).complete()
     rays = timeline[DIVIDE].scene["rays"]
     assert isinstance(rays, Segments)
-    np.testing.assert_allclose(rays.ends[:, 0], np.tile(Params().camera, (len(rays.ends), 1)), atol=1e-9)
+    np.testing.assert_allclose(
+        rays.ends[:, 0], np.tile(Params().camera, (len(rays.ends), 1)), atol=1e-9
+    )
     assert len(rays.ends) == 83

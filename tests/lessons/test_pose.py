@@ -74,7 +74,9 @@ def test_four_cameras_see_one_picture():
     ]
     assert min(apart) > 1
     drawn = lesson.draw(state)
-    assert sum(isinstance(one, Camera) for one in drawn.values()) == 5  # with the true one, on which one of them stands
+    assert (
+        sum(isinstance(one, Camera) for one in drawn.values()) == 5
+    )  # with the true one, on which one of them stands
 
 
 def test_on_the_danger_cylinder_noise_moves_the_answer_far():
@@ -90,7 +92,9 @@ def test_a_marker_has_two_poses_and_perspective_tells_them_apart():
     assert degrees_between(*both.now.candidates) == pytest.approx(80, abs=8)
     assert max(errors_of(both)) > 4 * min(errors_of(both))
     assert others(of("marker")).swapped == 0
-    assert 0.1 * both.subject.K[0, 0] / both.params.distance == pytest.approx(80)  # px, as its line says
+    assert 0.1 * both.subject.K[0, 0] / both.params.distance == pytest.approx(
+        80
+    )  # px, as its line says
 
 
 @pytest.mark.parametrize(("tilt", "low", "high"), [(40.0, 0.25, 0.6), (60.0, 0.25, 0.6)])
@@ -147,13 +151,16 @@ def test_the_street_is_known_by_its_map_and_seen_by_a_camera_in_it():
     assert share_near(others(found), subject) == 1
     photograph = lesson.draw(found[0])["picture"]
     assert isinstance(photograph, Picture)
-    assert len(np.unique(np.asarray(photograph.image).reshape(-1, 3), axis=0)) > 50  # the street, not a blank
+    assert (
+        len(np.unique(np.asarray(photograph.image).reshape(-1, 3), axis=0)) > 50
+    )  # the street, not a blank
     assert lesson.view_of(street()) != lesson.view
 
 
 def test_points_of_the_map_stay_while_the_camera_moves():
     here, there = (
-        set(map(tuple, subject_of(street(camera=at)).p_shown)) for at in ((0.0, -4.0, 2.0), (0.3, -4.0, 2.2))
+        set(map(tuple, subject_of(street(camera=at)).p_shown))
+        for at in ((0.0, -4.0, 2.0), (0.3, -4.0, 2.2))
     )
     assert len(here & there) > 15
     near, far = (subject_of(street(points=60, origin=at)).p_shown for at in (0.0, 100.0))
@@ -174,7 +181,10 @@ def test_the_street_has_its_points_wherever_the_camera_is():
 
 
 def test_knobs_of_the_method_find_the_street_photographed():
-    assert subject_of(street(method="SQPnP", refine=False)).photograph is subject_of(street()).photograph
+    assert (
+        subject_of(street(method="SQPnP", refine=False)).photograph
+        is subject_of(street()).photograph
+    )
 
 
 def test_epnp_on_four_points_may_end_in_a_wrong_mix():
@@ -224,7 +234,9 @@ def test_what_the_questions_answer():
     assert answer("predict-solutions") == 1  # two
     assert answer("predict-wrong") == pytest.approx(40, abs=12)
     assert answer("predict-samples") == 293
-    assert answer("predict-few") == 1  # also by OpenCV's EPnP, which is over 5° off in twice as many
+    assert (
+        answer("predict-few") == 1
+    )  # also by OpenCV's EPnP, which is over 5° off in twice as many
     assert states(FEW)[-1].now.far[0] == pytest.approx(0.13, abs=0.04)
     assert answer("predict-plane") == 2
     assert needed(states(HALF), 3) == 35  # as the question says
@@ -244,11 +256,15 @@ def test_two_is_the_commonest_count():
 
 def last_but(params: Params, **slots: Any) -> Any:
     found = list(run(params, **slots))
-    return next((s for s in found if isinstance(s.now, Searched) and s.now.phase == "stop"), found[-1])
+    return next(
+        (s for s in found if isinstance(s.now, Searched) and s.now.phase == "stop"), found[-1]
+    )
 
 
 def test_a_wrong_pose_from_distances_is_seen():
-    found = list(run(Params(), pose_from_distances=lambda p, rays, d: np.diag([1.0, 1.0, 1.0, 1.0])))
+    found = list(
+        run(Params(), pose_from_distances=lambda p, rays, d: np.diag([1.0, 1.0, 1.0, 1.0]))
+    )
     text = caption_of(lesson.draw(phase(tuple(found), "root"))).text
     assert "from where they were seen" in text
     assert "exactly" not in text
@@ -277,7 +293,9 @@ def test_a_wrong_step_is_seen():
 def test_residuals_are_drawn_from_where_points_were_seen():
     state = phase(states(Params()), "stop")
     scene = lesson.draw(state)
-    picture, seen, calculated, ends = (scene[f"picture{path}"] for path in ("", "/seen", "/calculated", "/residuals"))
+    picture, seen, calculated, ends = (
+        scene[f"picture{path}"] for path in ("", "/seen", "/calculated", "/residuals")
+    )
     assert isinstance(picture, Picture)
     assert isinstance(seen, Points)
     assert isinstance(calculated, Points)

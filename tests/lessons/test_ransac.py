@@ -52,9 +52,15 @@ def test_how_many_inliers_the_distances_of_the_page_keep(model):
 
 def test_the_inlier_distances_that_are_set_keep_95_percent_of_the_inliers():
     assert Params().inlier_distance / Params().noise == pytest.approx(1.96, abs=0.05)
-    assert Params().inlier_pixels / Params().noise_pixels == pytest.approx(3.46, abs=0.05)  # of a homography
-    assert presets.PROSAC.inlier_pixels / presets.PROSAC.noise_pixels == pytest.approx(3.46, abs=0.05)
-    assert presets.MATCHES.inlier_pixels / presets.MATCHES.noise_pixels == pytest.approx(1.96, abs=0.05)
+    assert Params().inlier_pixels / Params().noise_pixels == pytest.approx(
+        3.46, abs=0.05
+    )  # of a homography
+    assert presets.PROSAC.inlier_pixels / presets.PROSAC.noise_pixels == pytest.approx(
+        3.46, abs=0.05
+    )
+    assert presets.MATCHES.inlier_pixels / presets.MATCHES.noise_pixels == pytest.approx(
+        1.96, abs=0.05
+    )
     for words in ("$t = 1.96\\,\\sigma$", "3.46\\,\\sigma$, and only 78 % within $2.45\\,\\sigma$"):
         assert words in page()
 
@@ -88,7 +94,11 @@ def test_the_default_run_does_what_the_page_says():
     assert last.best_error < 0.001
     assert rivals(last)["least squares"] == pytest.approx(0.25, abs=0.005)
     assert [state.now.phase for state in states[:3]] == ["sample", "model", "inliers"]
-    scores = [best(state).score for state in states if state.now.best and state.now.phase not in ("refit", "stop")]
+    scores = [
+        best(state).score
+        for state in states
+        if state.now.best and state.now.phase not in ("refit", "stop")
+    ]
     assert scores == sorted(scores)
     needed = [state.now.needed for state in states]
     assert needed == sorted(needed, reverse=True)
@@ -126,7 +136,9 @@ def test_an_inlier_distance_too_large():
     assert best(last).inliers[~members(last.subject)].mean() > 0.3
     assert not is_right(last)
     assert part(lesson.draw(last), "caption", Caption).tone == "wrong"
-    assert Timeline(lesson, presets.LOOSE).complete()[-1].caption.tone == "info"  # it is meant to be
+    assert (
+        Timeline(lesson, presets.LOOSE).complete()[-1].caption.tone == "info"
+    )  # it is meant to be
 
 
 def test_msac_keeps_a_sample_nearer_to_the_truth():
@@ -155,7 +167,9 @@ def test_the_picked_wire_is_degenerate_and_counts():
     assert states[2].now.iteration == 2
     assert not states[2].chosen
     assert is_right(end(states))
-    assert len([s for s in states if s.now.phase == "degenerate"]) > 1  # chance meets the wire again
+    assert (
+        len([s for s in states if s.now.phase == "degenerate"]) > 1
+    )  # chance meets the wire again
 
 
 def test_three_near_inliers_make_a_bad_plane():
@@ -178,7 +192,9 @@ def test_huber_lies_between_and_ransac_below():
 
 
 def test_the_local_refit_ends_sooner():
-    with_it, without = (end(states_of(replace(presets.LOCAL, local_refit=local))) for local in (True, False))
+    with_it, without = (
+        end(states_of(replace(presets.LOCAL, local_refit=local))) for local in (True, False)
+    )
     assert with_it.now.iteration < 0.75 * without.now.iteration
     assert is_right(with_it)
 
@@ -187,7 +203,9 @@ def test_the_local_refit_ends_sooner():
 def test_prosac_stops_after_a_tenth_of_the_draws_and_is_right(seed):
     """It once stopped by the share of all matches, as chance does, after some 300 samples."""
     params = replace(presets.PROSAC, seed=seed)
-    trusting, by_chance = (end(states_of(replace(params, sampler=how))) for how in ("PROSAC", "uniform"))
+    trusting, by_chance = (
+        end(states_of(replace(params, sampler=how))) for how in ("PROSAC", "uniform")
+    )
     assert trusting.now.stop is Stop.ENOUGH
     assert trusting.now.iteration < 25
     assert by_chance.now.iteration > 300
@@ -195,7 +213,9 @@ def test_prosac_stops_after_a_tenth_of_the_draws_and_is_right(seed):
     assert trusting.best_error == pytest.approx(by_chance.best_error, abs=0.05)
 
 
-@pytest.mark.parametrize("params", [presets.PROSAC, replace(presets.PROSAC, seed=3), Params(sampler="PROSAC")])
+@pytest.mark.parametrize(
+    "params", [presets.PROSAC, replace(presets.PROSAC, seed=3), Params(sampler="PROSAC")]
+)
 def test_prosac_asks_for_the_share_among_the_most_trusted(params):
     for state in states_of(params):
         if state.now.phase == "best":
@@ -212,9 +232,15 @@ def test_a_vote_is_never_called_inlier():
         for state in states_of(params):
             scene = lesson.draw(state)
             legend = [getattr(one, "name", "") for one in scene.values()]
-            legend += [word for one in scene.values() for word in getattr(getattr(one, "color", None), "names", ())]
+            legend += [
+                word
+                for one in scene.values()
+                for word in getattr(getattr(one, "color", None), "names", ())
+            ]
             assert not [word for word in legend if "lier" in word]
-            said = part(scene, "caption", Caption).text.replace("If that is the share of inliers", "")
+            said = part(scene, "caption", Caption).text.replace(
+                "If that is the share of inliers", ""
+            )
             said = said.replace("free of outliers", "")
             assert not re.findall(r"\w+lier\w*(?! in truth)\b(?! in truth)", said), said
 
@@ -225,7 +251,10 @@ def test_what_is_quoted_is_at_rest_or_says_that_it_is_not():
         if last.now.stop is not Stop.ENOUGH:
             assert params == presets.TIGHT
             assert "500 samples do not suffice" in lesson.preset("tight").line
-            assert "maximum number of samples is reached" in part(lesson.draw(last), "caption", Caption).text
+            assert (
+                "maximum number of samples is reached"
+                in part(lesson.draw(last), "caption", Caption).text
+            )
 
 
 def test_known_wrong_answers_are_answered():

@@ -39,7 +39,12 @@ def test_the_student_functions_drive_the_run():
 
     ours = list(run(Params(steps="every part")))
     theirs = list(
-        run(Params(steps="every part"), plane_from_points=plane, count_inliers=count, iterations_needed=needed)
+        run(
+            Params(steps="every part"),
+            plane_from_points=plane,
+            count_inliers=count,
+            iterations_needed=needed,
+        )
     )
     assert len(ours) == len(theirs)
     np.testing.assert_array_equal(best(end(ours)).estimate, best(end(theirs)).estimate)
@@ -49,10 +54,15 @@ def test_the_student_functions_drive_the_run():
 
 
 def test_wrong_functions_have_the_effect_they_deserve():
-    horizontal = list(run(Params(), plane_from_points=lambda p: np.array([0.0, 0.0, 1.0, -p[0, 2]])))
+    horizontal = list(
+        run(Params(), plane_from_points=lambda p: np.array([0.0, 0.0, 1.0, -p[0, 2]]))
+    )
     assert best([s for s in horizontal if s.now.phase == "best"][-1]).estimate[2] == 1.0
     turned_round = list(
-        run(Params(), count_inliers=lambda plane, p, t: int(np.sum(np.abs(p @ plane[:3] + plane[3]) > t)))
+        run(
+            Params(),
+            count_inliers=lambda plane, p, t: int(np.sum(np.abs(p @ plane[:3] + plane[3]) > t)),
+        )
     )
     assert [s for s in turned_round if s.now.phase == "best"][-1].best_error > 0.2
     hasty = end(run(Params(seed=3), iterations_needed=lambda w, m, p: 1))
@@ -87,19 +97,29 @@ def test_every_model_asks_how_many_samples(model):
 
 
 def test_the_wire_shows_what_a_plane_does_with_points_on_a_line():
-    exercise = next(exercise for exercise in exercises_of(lesson) if exercise.name == "plane_from_points")
+    exercise = next(
+        exercise for exercise in exercises_of(lesson) if exercise.name == "plane_from_points"
+    )
     assert "'Three points on one line'" in exercise.task
-    assert "Three points on one line" in [preset.title for preset in lesson.presets if preset.params == presets.WIRE]
-    careless = next(mistake.function for mistake in exercise.mistakes if mistake.name == "line not seen")
+    assert "Three points on one line" in [
+        preset.title for preset in lesson.presets if preset.params == presets.WIRE
+    ]
+    careless = next(
+        mistake.function for mistake in exercise.mistakes if mistake.name == "line not seen"
+    )
     for plane, phase in ((exercise.reference, "degenerate"), (careless, "model")):
         states = run(presets.WIRE, plane_from_points=plane)
         assert [next(states).now.phase for _ in range(2)] == ["sample", phase]
 
 
-RIGHT = [(exercise, function) for exercise in exercises_of(lesson) for function in exercise.alternatives]
+RIGHT = [
+    (exercise, function) for exercise in exercises_of(lesson) for function in exercise.alternatives
+]
 
 
-@pytest.mark.parametrize(("exercise", "function"), RIGHT, ids=lambda value: getattr(value, "__name__", value.__class__))
+@pytest.mark.parametrize(
+    ("exercise", "function"), RIGHT, ids=lambda value: getattr(value, "__name__", value.__class__)
+)
 def test_another_right_function_draws_the_same_pictures(exercise, function):
     """Whatever side its normals are on, and however it rounds."""
     for params in (Params(), presets.WIRE):
@@ -117,7 +137,9 @@ def test_a_function_that_returns_no_plane_is_told_so():
 @pytest.mark.parametrize("model", list(MODELS))
 @pytest.mark.parametrize("score", ["count", "MSAC", "MLESAC"])
 def test_every_model_with_every_score_is_right(model, score):
-    params = Params(model=model, score=score, outliers=0.3, points=200, inlier_pixels=3.0, steps="improvements")
+    params = Params(
+        model=model, score=score, outliers=0.3, points=200, inlier_pixels=3.0, steps="improvements"
+    )
     last = end(states_of(params))
     assert is_right(last)
     assert last.best_error < 0.2 * rivals(last)["least squares"]
@@ -149,13 +171,22 @@ def test_the_picture_has_its_parts(model):
                 part(scene, "sample", Points).p[: len(state.now.sample)], points.p[state.now.sample]
             )
         for path, primitive in scene.items():
-            if isinstance(primitive, Points | Segments) and path not in ("frame", "slab"):  # which labels name
+            if isinstance(primitive, Points | Segments) and path not in (
+                "frame",
+                "slab",
+            ):  # which labels name
                 assert primitive.name, path
         if state.now.best and model in ("line", "plane", "circle"):
-            tested = state.now.estimate if state.now.phase in ("model", "inliers") else state.now.best.estimate
+            tested = (
+                state.now.estimate
+                if state.now.phase in ("model", "inliers")
+                else state.now.best.estimate
+            )
             rows = part(scene, "slab", Segments).ends.reshape(-1, 3)
             rows = rows if model == "plane" else rows[:, [0, 2]] - [0.0, 0.7]
-            np.testing.assert_allclose(state.subject.model.distances(tested, rows), state.inlier_distance, atol=1e-9)
+            np.testing.assert_allclose(
+                state.subject.model.distances(tested, rows), state.inlier_distance, atol=1e-9
+            )
     truth = part(timeline[-1].scene, "truth", Segments)
     assert len(truth.ends) > 0
     low, high = truth.ends.reshape(-1, 3).min(0), truth.ends.reshape(-1, 3).max(0)

@@ -48,11 +48,17 @@ def slope(state: State, first: int = 0) -> float:
 
 def test_the_volume_of_bits_converges_and_area_and_normals_do_not():
     found = surfaces_of(of("binary"))
-    areas, volumes, tilts = (np.array([getattr(s, name) for s in found]) for name in ("area", "volume", "tilt"))
+    areas, volumes, tilts = (
+        np.array([getattr(s, name) for s in found]) for name in ("area", "volume", "tilt")
+    )
     np.testing.assert_allclose(areas[[2, 4, 6]], [1.099, 1.083, 1.086], atol=0.002)
     assert abs(volumes[-1] - 1) < 0.01
     assert (tilts > 15).all()
-    walls = [state.now.walls / state.subject.area for state in of("binary")[:-1] if isinstance(state.now, Cells)]
+    walls = [
+        state.now.walls / state.subject.area
+        for state in of("binary")[:-1]
+        if isinstance(state.now, Cells)
+    ]
     assert walls[-1] == pytest.approx(1.45, abs=0.03)
 
 
@@ -147,7 +153,10 @@ def test_searches_look_at_few_points_until_there_are_many_dimensions():
     assert share[3] < 0.01
     assert 0.08 < share[10] < 0.35
     assert share[20] > 0.9
-    ends = {name: [s.now for s in of(name) if isinstance(s.now, Searched)][-1] for name in ("search", "twenty")}
+    ends = {
+        name: [s.now for s in of(name) if isinstance(s.now, Searched)][-1]
+        for name in ("search", "twenty")
+    }
     assert ends["search"].visits[-1].looked < 60
     assert ends["twenty"].visits[-1].looked > 3600
     assert all(end.done for end in ends.values())
@@ -157,7 +166,9 @@ def test_weights_make_the_torus_and_cubics_miss_it():
     cubic, rational = of("cubic")[-1], of("rational")[-1]
     assert cubic.surface.worst == pytest.approx(2.8e-4, abs=1e-5)
     assert rational.surface.worst < 1e-14
-    assert (cubic.surface.mean, of("cloud")[-1].errors[-1]) == pytest.approx((6e-5, 4e-3), rel=0.06)  # as the page says
+    assert (cubic.surface.mean, of("cloud")[-1].errors[-1]) == pytest.approx(
+        (6e-5, 4e-3), rel=0.06
+    )  # as the page says
     assert isinstance(cubic.now, Patches)
     assert (len(cubic.now.net), cubic.bytes) == (144, 1728)
     assert (len(rational.now.net), rational.bytes) == (64, 1024)
@@ -190,7 +201,13 @@ def test_without_waves_it_stays_behind_and_the_clamp_can_kill_it():
 
 @pytest.mark.parametrize(
     ("name", "answer"),
-    [("predict-half", 1), ("predict-area", 1), ("predict-looked", 2), ("predict-middle", 1), ("predict-weights", 0)],
+    [
+        ("predict-half", 1),
+        ("predict-area", 1),
+        ("predict-looked", 2),
+        ("predict-middle", 1),
+        ("predict-weights", 0),
+    ],
 )
 def test_answers(name, answer):
     question = next(question for question in lesson.questions if question.name == name)
@@ -201,7 +218,9 @@ def test_answers_are_read_off_the_run():
     asked = {question.name: question for question in lesson.questions}
     assert asked["predict-weights"].answer(of("cubic")) == 1
     assert asked["predict-area"].answer(states(Params())) == 0
-    moved = tuple(run(Params(shape="two boxes", resolution=8), box_sdf=lambda p, half: box_sdf(p, half) - 0.2))
+    moved = tuple(
+        run(Params(shape="two boxes", resolution=8), box_sdf=lambda p, half: box_sdf(p, half) - 0.2)
+    )
     assert asked["predict-middle"].answer(moved) == 0
 
 

@@ -100,7 +100,9 @@ def test_own_points_are_stored_as_points(tmp_path):
     *_, found, last = ends(form="k-d tree", points=300, dimensions=9)
     tree, query = found.now.tree, found.now.query
     assert tree.p.shape == (300, 3)
-    assert found.now.visits[-1].distance == pytest.approx(np.linalg.norm(tree.p - query, axis=1).min())
+    assert found.now.visits[-1].distance == pytest.approx(
+        np.linalg.norm(tree.p - query, axis=1).min()
+    )
     assert last.growth is not None
 
 
@@ -112,7 +114,10 @@ def test_points_are_no_solid(tmp_path):
     with pytest.raises(InputError, match="both given"):
         next(run(Params(cloud=tmp_path / "few.xyz", mesh=tmp_path / "few.ply", form="cloud")))
     for form in ("cloud", "neighbours", "k-d tree"):
-        assert all(caption_of(lesson.draw(state)).text for state in run(Params(cloud=tmp_path / "few.xyz", form=form)))
+        assert all(
+            caption_of(lesson.draw(state)).text
+            for state in run(Params(cloud=tmp_path / "few.xyz", form=form))
+        )
 
 
 # real meshes ----------------------------------------------------------------------------------------------------------

@@ -23,7 +23,15 @@ from workbench.lesson import Lesson, Preset, Question, catalog
 LIMITS = {"MAX_ITERATIONS", "MAX_STEPS", "MOST_STEPS", "MAX_SWEEPS", "SAMPLES_USED_UP"}
 """A run that ended so would go on if it were let."""
 RESTS = {"CONVERGED", "CIRCLING", "ENOUGH", "ARRIVED", "SETTLED", "NOT_LOWER", "STUCK"}
-FAILURES = {"TOO_FEW_MATCHES", "NOT_FINITE", "NO_MODEL", "SINGULAR", "DIVERGED", "BEHIND", "NO_POSE"}
+FAILURES = {
+    "TOO_FEW_MATCHES",
+    "NOT_FINITE",
+    "NO_MODEL",
+    "SINGULAR",
+    "DIVERGED",
+    "BEHIND",
+    "NO_POSE",
+}
 
 COUNTED = "steps?|updates?|iterations?|samples?|sweeps?|rounds?|layers?|times"
 SAYS_WHEN = re.compile(
@@ -116,7 +124,9 @@ def untold(lesson: Lesson) -> list[str]:
             texts = [f"{one.text} {told}" if stepped else told]
         else:
             texts = [one.line, *page_sentences(lesson, one.name)]
-        found += [f"{lesson.name}, {one.name}: {text}" for text in texts if unsaid(text, ends, given)]
+        found += [
+            f"{lesson.name}, {one.name}: {text}" for text in texts if unsaid(text, ends, given)
+        ]
     return found
 
 

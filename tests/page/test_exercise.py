@@ -35,14 +35,19 @@ def test_a_lesson_without_exercises_has_no_such_section():
     assert 'id="exercise"' not in page
 
 
-@pytest.mark.parametrize("exercise", exercises_of(catalog()["icp"]), ids=lambda exercise: exercise.name)
+@pytest.mark.parametrize(
+    "exercise", exercises_of(catalog()["icp"]), ids=lambda exercise: exercise.name
+)
 def test_what_the_checks_found_is_said_in_the_words_of_the_terminal(exercise):
     for function in (exercise.mistakes[0].function, exercise.alternatives[0]):
         report = grade_function(function, exercise, hidden=False, file="mine.py")
         data, said = report_data(report), terminal(report)
         assert data["said"] == counted(report)
         for check in data["checks"]:
-            assert f"{check['mark']} {check['word']:<7} {check['points']:>5}  {check['promise']}" in said
+            assert (
+                f"{check['mark']} {check['word']:<7} {check['points']:>5}  {check['promise']}"
+                in said
+            )
             assert check["message"] in said
         assert data["mistake"] in said
         assert bool(data["mistake"]) == (report.mistake is not None)
@@ -57,7 +62,11 @@ def test_a_watched_file_is_told_of_the_run_that_calls_it(name):
     assert "drives this lesson" not in idle
     assert page.count(" hidden>") == 2  # neither is said before the run is known
     run = exercise.contract.preset or "default"
-    title = "Point-to-plane, from 35° away" if name == "point_to_plane_step" else "The run this lesson opens with"
+    title = (
+        "Point-to-plane, from 35° away"
+        if name == "point_to_plane_step"
+        else "The run this lesson opens with"
+    )
     assert f'<a class="run" href="?run={run}" data-run="{run}">' in idle
     assert title in idle
 
@@ -77,4 +86,7 @@ def test_what_a_student_wrote_cannot_end_up_as_html():
     page = watched_html(evil, "<img src=x>.py", catalog()["icp"], lambda run: f"?{run}")
     assert "<script>" not in page
     assert "<img" not in page
-    assert report_data("the file is being checked") == {"said": "the file is being checked", "ran": ""}
+    assert report_data("the file is being checked") == {
+        "said": "the file is being checked",
+        "ran": "",
+    }

@@ -12,7 +12,9 @@ from workbench.lesson import View, catalog
 from workbench.page.thumbnail import picture_of, thumbnail
 from workbench.scene import PALETTE, Points, Segments
 
-VIEW = View(eye=(0.0, -4.0, 0.0), target=(0.0, 0.0, 0.0), fov_degrees=53.130102)  # at 4 m it sees 4 m of height
+VIEW = View(
+    eye=(0.0, -4.0, 0.0), target=(0.0, 0.0, 0.0), fov_degrees=53.130102
+)  # at 4 m it sees 4 m of height
 
 
 def pixels(data: bytes) -> np.ndarray:
@@ -27,7 +29,9 @@ def middle_of(picture: np.ndarray, role: str) -> tuple[float, float]:
 
 
 def test_what_is_right_is_right_and_what_is_up_is_up():
-    frame = np.array([[[-3.2, 0, -2.0], [3.2, 0, -2.0]], [[-3.2, 0, 2.0], [3.2, 0, 2.0]]])  # the whole picture
+    frame = np.array(
+        [[[-3.2, 0, -2.0], [3.2, 0, -2.0]], [[-3.2, 0, 2.0], [3.2, 0, 2.0]]]
+    )  # the whole picture
     T_world_moved = np.eye(4)
     T_world_moved[:3, 3] = (-1.6, 0.0, -1.0)
     scene = {
@@ -52,7 +56,9 @@ def test_the_nearer_hides_the_farther_and_what_is_behind_the_eye_is_left_out():
     assert np.abs(picture[100, 160, :3] - PALETTE["source"]).max() < 20
 
 
-@pytest.mark.parametrize("lesson", [fake.lesson, *catalog().values()], ids=lambda lesson: lesson.name)
+@pytest.mark.parametrize(
+    "lesson", [fake.lesson, *catalog().values()], ids=lambda lesson: lesson.name
+)
 def test_every_lesson_has_a_picture_that_is_small_and_shows_something(lesson):
     timeline = None if lesson is fake.lesson else finished(lesson.name, lesson.params())
     data = thumbnail(lesson, timeline)

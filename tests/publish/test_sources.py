@@ -94,12 +94,19 @@ def test_a_lesson_depends_on_what_runs_draws_records_and_renders_it(name):
         "workbench/wire/packing.py",
     } <= found
     others = tuple(f"lessons/{other}/" for other in catalog() if other != name)
-    beside = ("workbench/cli.py", "workbench/exercise/", "workbench/viewer/server.py", "workbench/publish/site.py")
+    beside = (
+        "workbench/cli.py",
+        "workbench/exercise/",
+        "workbench/viewer/server.py",
+        "workbench/publish/site.py",
+    )
     assert not [file for file in found if file.startswith((*others, *beside))]
 
 
 def test_a_lesson_depends_on_its_own_algorithms_only():
-    icp, ransac = ({file.name for file in sources_of(catalog()[name])} for name in ("icp", "ransac"))
+    icp, ransac = (
+        {file.name for file in sources_of(catalog()[name])} for name in ("icp", "ransac")
+    )
     assert "semiglobal.py" not in icp | ransac
     assert {"icp.py"} <= icp - ransac
     assert {"samplers.py", "scores.py"} <= ransac - icp

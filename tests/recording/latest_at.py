@@ -16,12 +16,18 @@ def rows(path: Path) -> list[tuple[int, bytes, str, dict[str, Any]]]:
         ids = columns.pop("rerun.controls.RowId")
         steps = columns.pop("step", [-1] * len(ids))
         for i, (row_id, step) in enumerate(zip(ids, steps, strict=True)):
-            components = {name: column[i] for name, column in columns.items() if column[i] is not None}
+            components = {
+                name: column[i] for name, column in columns.items() if column[i] is not None
+            }
             found.append((step, bytes(row_id), chunk.entity_path, components))
     return sorted(found, key=lambda row: row[:3])
 
 
-def shown_at(path: Path, step: int, below: tuple[str, ...] = ("/world", "/pictures", "/charts", "/tables", "/legend")):
+def shown_at(
+    path: Path,
+    step: int,
+    below: tuple[str, ...] = ("/world", "/pictures", "/charts", "/tables", "/legend"),
+):
     """Return what is shown at a step, by entity and component, class ids by their name and colour."""
     shown: Shown = {}
     table: dict[int, Any] = {}

@@ -39,7 +39,9 @@ class Window:
     def open(self, file: Path) -> None:
         """Open one more recording, which is then the one that is shown."""
         self.page.route(f"**/{file.name}", lambda route: route.fulfill(path=file))
-        self.page.evaluate("name => viewer.add_receiver(new URL(name, location.href).href)", f"/{file.name}")
+        self.page.evaluate(
+            "name => viewer.add_receiver(new URL(name, location.href).href)", f"/{file.name}"
+        )
 
     def picture(self) -> np.ndarray:
         return np.asarray(Image.open(io.BytesIO(self.page.screenshot())).convert("RGB")).astype(int)
@@ -50,7 +52,9 @@ class Window:
         for look in range(LOOKS):
             if holds(picture):
                 return picture
-            self.page.mouse.move(WIDTH - 60, HEIGHT - 14 + look % 2)  # the viewer sleeps until something happens
+            self.page.mouse.move(
+                WIDTH - 60, HEIGHT - 14 + look % 2
+            )  # the viewer sleeps until something happens
             self.page.wait_for_timeout(250)
             picture = self.picture()
         last = self.folder / "last.png"

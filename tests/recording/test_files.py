@@ -60,7 +60,11 @@ def test_the_fingerprint_sees_every_value():
     values = {"a": np.array([1.0, np.nan]), "b": np.array([2.0])}
     assert digest("{}", ["x"], values) == digest("{}", ["x"], dict(values))
     changed = {"a": np.array([1.0, np.nan]), "b": np.array([2.0000001])}
-    others = [digest("{1}", ["x"], values), digest("{}", ["y"], values), digest("{}", ["x"], changed)]
+    others = [
+        digest("{1}", ["x"], values),
+        digest("{}", ["y"], values),
+        digest("{}", ["x"], changed),
+    ]
     assert len({digest("{}", ["x"], values), *others}) == 4
 
 
@@ -98,7 +102,9 @@ def test_two_recordings_in_one_file_are_refused(fake_file, tmp_path):
 
     other = record(fake.lesson, tmp_path / "b.rrd", fake.Params(steps=2))
     both = tmp_path / "both.rrd"
-    subprocess.run([str(binary()), "rrd", "merge", str(fake_file), str(other), "-o", str(both)], check=True)
+    subprocess.run(
+        [str(binary()), "rrd", "merge", str(fake_file), str(other), "-o", str(both)], check=True
+    )
     assert "2 recordings" in refuse(both)
 
 
@@ -116,7 +122,8 @@ def test_a_failing_run_leaves_what_was_there(tmp_path):
     path = tmp_path / "a.rrd"
     path.write_bytes(b"precious")
     with pytest.raises(
-        InputError, match=r"fake.py, line \d+: RuntimeError: a bug .*\(at step 2\); nothing was written"
+        InputError,
+        match=r"fake.py, line \d+: RuntimeError: a bug .*\(at step 2\); nothing was written",
     ):
         record(fake.lesson, path, fake.Params(trouble="crash"), force=True)
     assert os.listdir(tmp_path) == ["a.rrd"]
@@ -139,10 +146,14 @@ def test_what_a_killed_record_left_is_removed_by_the_next(tmp_path):
         "atomic.os.fsync = lambda file: os.kill(os.getpid(), signal.SIGKILL);"
         "atomic.write_atomic(Path(sys.argv[1]), b'half')"
     )
-    killed = subprocess.run([sys.executable, "-c", code, str(tmp_path / "other.rrd")], cwd=ROOT, check=False)
+    killed = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path / "other.rrd")], cwd=ROOT, check=False
+    )
     assert killed.returncode == -signal.SIGKILL
     (left,) = os.listdir(tmp_path)
-    ours = left.replace(f"-{re.findall('-([0-9]+)-', left)[0]}-", f"-{os.getpid()}-")  # of a process that lives
+    ours = left.replace(
+        f"-{re.findall('-([0-9]+)-', left)[0]}-", f"-{os.getpid()}-"
+    )  # of a process that lives
     for name in (ours, ".mine.part", "a.rrd.part"):
         (tmp_path / name).touch()
     record(fake.lesson, tmp_path / "a.rrd")

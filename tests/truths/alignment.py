@@ -12,7 +12,11 @@ HOME = 10.0  # degrees
 def degrees(R: np.ndarray, other: np.ndarray) -> float:
     """The angle between the rotations nearest to two matrices."""
     return float(
-        np.degrees((Rotation.from_matrix(unscaled(R)) * Rotation.from_matrix(unscaled(other)).inv()).magnitude())
+        np.degrees(
+            (
+                Rotation.from_matrix(unscaled(R)) * Rotation.from_matrix(unscaled(other)).inv()
+            ).magnitude()
+        )
     )
 
 
@@ -36,7 +40,9 @@ def turn_left(state: State) -> float:
 
 
 def to_nearest(state: State) -> float:
-    return float(np.sqrt(np.mean(np.asarray(KDTree(state.scans.p_target).query(moved(state))[0]) ** 2)))
+    return float(
+        np.sqrt(np.mean(np.asarray(KDTree(state.scans.p_target).query(moved(state))[0]) ** 2))
+    )
 
 
 def of_pairs(state: PairsState) -> float:

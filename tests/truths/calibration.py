@@ -16,7 +16,10 @@ def bent(xy: np.ndarray, k1: float, k2: float, p1: float, p2: float, k3: float) 
     r2 = x**2 + y**2
     radial = 1 + k1 * r2 + k2 * r2**2 + k3 * r2**3
     return np.stack(
-        [x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x**2), y * radial + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y],
+        [
+            x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x**2),
+            y * radial + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y,
+        ],
         axis=-1,
     )
 
@@ -43,7 +46,9 @@ def rays() -> tuple[np.ndarray, np.ndarray]:
 def worst_ray(K_found: np.ndarray, lens: tuple[float, ...]) -> float:
     """How far off the farthest ray of the grid is, pixels."""
     uv, xy = rays()
-    return float(np.linalg.norm(bent(xy, *lens) @ K_found[:2, :2].T + K_found[:2, 2] - uv, axis=1).max())
+    return float(
+        np.linalg.norm(bent(xy, *lens) @ K_found[:2, :2].T + K_found[:2, 2] - uv, axis=1).max()
+    )
 
 
 def rms_of(state: State) -> np.ndarray:
@@ -75,7 +80,9 @@ def deviation_of_f(state: State) -> float:
         return (seen(camera, tuple(s[4:]), Ts, p) - uv).reshape(len(uv), -1)
 
     sizes = np.array([*[1e-3 if i < 4 else 1e-6 for i in free], *([1e-6] * 6)])
-    slopes = np.stack([(residuals(h) - residuals(-h)) / (2 * h.sum()) for h in np.diag(sizes)], axis=2)
+    slopes = np.stack(
+        [(residuals(h) - residuals(-h)) / (2 * h.sum()) for h in np.diag(sizes)], axis=2
+    )
     unknowns, r = len(free) + 6 * len(uv), residuals(0 * sizes)
     J = np.zeros((*r.shape, unknowns))
     J[:, :, : len(free)] = slopes[:, :, : len(free)]
@@ -88,4 +95,6 @@ def deviation_of_f(state: State) -> float:
     w = np.repeat(w, 2)
     scale = 1 / np.sqrt((J**2 * w[:, None]).sum(axis=0))
     N = (J * scale).T @ (w[:, None] * (J * scale))
-    return float(scale[0] * np.sqrt((w * r**2).sum() / (len(r) - unknowns) * np.linalg.inv(N)[0, 0]))
+    return float(
+        scale[0] * np.sqrt((w * r**2).sum() / (len(r) - unknowns) * np.linalg.inv(N)[0, 0])
+    )

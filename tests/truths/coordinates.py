@@ -71,9 +71,18 @@ def is_right(state: Any) -> bool | None:
     if isinstance(now, Travelled) and now.means is not None:
         return between_means(state.subject.degrees) < 1e4
     if isinstance(now, Followed) and now.time >= 1.5999:
-        n = np.array([np.cos(now.tilt) * np.cos(now.pan), np.cos(now.tilt) * np.sin(now.pan), np.sin(now.tilt)])
+        n = np.array(
+            [
+                np.cos(now.tilt) * np.cos(now.pan),
+                np.cos(now.tilt) * np.sin(now.pan),
+                np.sin(now.tilt),
+            ]
+        )
         return bool(np.linalg.norm(n - now.p / np.linalg.norm(now.p)) < 1e-6)
     if isinstance(now, Met) and now.H[2, 0] == 0.4:
         x = np.cross(*now.lines)
-        return bool(np.linalg.norm(np.cross(x, now.x_h)) < 1e-9 * np.linalg.norm(x) * np.linalg.norm(now.x_h))
+        return bool(
+            np.linalg.norm(np.cross(x, now.x_h))
+            < 1e-9 * np.linalg.norm(x) * np.linalg.norm(now.x_h)
+        )
     return None

@@ -15,7 +15,9 @@ CHOSEN, CHECKED = -6, -5  # from the end: the last map before the check, and the
 def off(state, disparity: np.ndarray | None = None) -> np.ndarray:
     """Return how far the pixels that both cameras see are off, pixels; NaN where a disparity is unknown."""
     pair = state.setup.pair
-    return np.abs((state.disparity if disparity is None else disparity) - pair.disparity)[pair.visible]
+    return np.abs((state.disparity if disparity is None else disparity) - pair.disparity)[
+        pair.visible
+    ]
 
 
 def wrong(state) -> float:
@@ -103,7 +105,11 @@ def found_at(run: Run, step: int) -> dict[float, float]:
     state = run.states[step]
     true = np.round(true_depth(state.setup), 6)
     return {
-        z: float(np.median(state.depth[(true == z) & state.setup.pair.visible & np.isfinite(state.depth)]))
+        z: float(
+            np.median(
+                state.depth[(true == z) & state.setup.pair.visible & np.isfinite(state.depth)]
+            )
+        )
         for z in (1.0, 5.0, 20.0)
     }
 

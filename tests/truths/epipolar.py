@@ -12,7 +12,9 @@ F_STREET = 420.0  # focal length of the made pictures, pixels
 
 def apart(R: np.ndarray, other: np.ndarray) -> float:
     """The angle between two rotations, degrees, by scipy."""
-    return float(np.degrees((Rotation.from_matrix(R) * Rotation.from_matrix(other).inv()).magnitude()))
+    return float(
+        np.degrees((Rotation.from_matrix(R) * Rotation.from_matrix(other).inv()).magnitude())
+    )
 
 
 def directions_apart(t: np.ndarray, other: np.ndarray) -> float:
@@ -27,7 +29,9 @@ def errors(state: Any) -> tuple[float, float] | None:
     if T is None or true is None:
         return None
     moved = np.linalg.norm(true[:3, 3]) > 0
-    return apart(T[:3, :3], true[:3, :3]), directions_apart(T[:3, 3], true[:3, 3]) if moved else float("nan")
+    return apart(T[:3, :3], true[:3, :3]), directions_apart(
+        T[:3, 3], true[:3, 3]
+    ) if moved else float("nan")
 
 
 def sampson(F: np.ndarray, matches: np.ndarray) -> float:

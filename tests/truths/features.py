@@ -21,7 +21,13 @@ def off(now: Scanned) -> float:
     assert now.T_target_source is not None
     assert now.scans.T_truth is not None
     p = now.scans.p_source
-    return float(np.sqrt(np.mean(np.sum((moved(now.T_target_source, p) - moved(now.scans.T_truth, p)) ** 2, axis=1))))
+    return float(
+        np.sqrt(
+            np.mean(
+                np.sum((moved(now.T_target_source, p) - moved(now.scans.T_truth, p)) ** 2, axis=1)
+            )
+        )
+    )
 
 
 def home(now: Scanned) -> bool:

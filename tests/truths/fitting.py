@@ -15,7 +15,11 @@ def distances(name: str, unknown: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Signed distances of points from a circle, sphere or cylinder."""
     if name != "cylinder":
         return np.linalg.norm(p - unknown[:-1], axis=1) - unknown[-1]
-    return np.linalg.norm(np.cross(p - unknown[:3], unknown[3:6]), axis=1) / np.linalg.norm(unknown[3:6]) - unknown[6]
+    return (
+        np.linalg.norm(np.cross(p - unknown[:3], unknown[3:6]), axis=1)
+        / np.linalg.norm(unknown[3:6])
+        - unknown[6]
+    )
 
 
 def least(state: Any) -> float:
@@ -28,8 +32,12 @@ def least(state: Any) -> float:
 @functools.lru_cache(maxsize=64)
 def _least(name: str, points: bytes, columns: int, starts: tuple[tuple[float, ...], ...]) -> float:
     p = np.frombuffer(points).reshape(-1, columns)
-    solve = functools.partial(scipy.optimize.least_squares, x_scale="jac", xtol=1e-10, ftol=1e-10, gtol=1e-10)
-    return min(2 * solve(lambda unknown: distances(name, unknown, p), start).cost for start in starts)
+    solve = functools.partial(
+        scipy.optimize.least_squares, x_scale="jac", xtol=1e-10, ftol=1e-10, gtol=1e-10
+    )
+    return min(
+        2 * solve(lambda unknown: distances(name, unknown, p), start).cost for start in starts
+    )
 
 
 def straight(p: np.ndarray) -> float:

@@ -13,7 +13,13 @@ from tests.verdicts import Run
 
 
 def degrees(T: np.ndarray, truth: np.ndarray) -> float:
-    return float(np.degrees((Rotation.from_matrix(T[:3, :3]) * Rotation.from_matrix(truth[:3, :3]).inv()).magnitude()))
+    return float(
+        np.degrees(
+            (
+                Rotation.from_matrix(T[:3, :3]) * Rotation.from_matrix(truth[:3, :3]).inv()
+            ).magnitude()
+        )
+    )
 
 
 def moved(T: np.ndarray, p: np.ndarray) -> np.ndarray:
@@ -37,7 +43,11 @@ def off_by(state: State, T: np.ndarray) -> tuple[float, float, float]:
     p = state.scans.p_source[~state.scans.is_outlier]
     off = moved(T, p) - moved(state.scans.T_truth, p)
     middle = moved(T, p.mean(axis=0)[None]) - moved(state.scans.T_truth, p.mean(axis=0)[None])
-    return degrees(T, state.scans.T_truth), float(np.linalg.norm(middle)), float(np.sqrt((off**2).sum(axis=1).mean()))
+    return (
+        degrees(T, state.scans.T_truth),
+        float(np.linalg.norm(middle)),
+        float(np.sqrt((off**2).sum(axis=1).mean())),
+    )
 
 
 def home(state: State, T: np.ndarray) -> bool:

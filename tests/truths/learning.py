@@ -30,7 +30,9 @@ def radii(state: Any) -> np.ndarray:
 @functools.lru_cache(maxsize=64)
 def _folds(p: bytes, faces: bytes) -> float:
     mesh = trimesh.Trimesh(
-        np.frombuffer(p).reshape(-1, 3), np.frombuffer(faces, np.int64).reshape(-1, 3), process=False
+        np.frombuffer(p).reshape(-1, 3),
+        np.frombuffer(faces, np.int64).reshape(-1, 3),
+        process=False,
     )
     return float((mesh.face_adjacency_angles > np.pi / 2).mean())
 

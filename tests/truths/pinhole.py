@@ -56,7 +56,12 @@ def bent(params: Any, xy: np.ndarray) -> np.ndarray:
     (x, y), (p1, p2) = xy.T, (params.p1, params.p2)
     s = x * x + y * y
     g = 1 + params.k1 * s + params.k2 * s * s
-    out = np.array([x * g + 2 * p1 * x * y + p2 * (s + 2 * x * x), y * g + p1 * (s + 2 * y * y) + 2 * p2 * x * y]).T
+    out = np.array(
+        [
+            x * g + 2 * p1 * x * y + p2 * (s + 2 * x * x),
+            y * g + p1 * (s + 2 * y * y) + 2 * p2 * x * y,
+        ]
+    ).T
     if not (p1 or p2):
         out[np.sqrt(s) > fold(params)] = np.nan
     return out

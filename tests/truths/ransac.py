@@ -80,7 +80,8 @@ def most_trusted(state) -> tuple[int, float]:
     for n in range(20, len(votes) + 1):
         votes_here = sum(votes[:n])
         tail = sum(
-            math.comb(n - m, i - m) * 0.05 ** (i - m) * 0.95 ** (n - i) for i in range(max(votes_here, m), n + 1)
+            math.comb(n - m, i - m) * 0.05 ** (i - m) * 0.95 ** (n - i)
+            for i in range(max(votes_here, m), n + 1)
         )
         if votes_here > m and tail < 0.05 and votes_here / n >= found[1]:
             found = (n, votes_here / n)
@@ -91,7 +92,9 @@ def share_for_stop(state) -> float:
     """Return the share of inliers that the run takes for the truth: of the most trusted in PROSAC, otherwise of all."""
     best = state.now.best
     trusting = state.params.sampler == "PROSAC"
-    return most_trusted(state)[1] if trusting else np.count_nonzero(best.inliers) / len(best.inliers)
+    return (
+        most_trusted(state)[1] if trusting else np.count_nonzero(best.inliers) / len(best.inliers)
+    )
 
 
 @functools.lru_cache(maxsize=4)

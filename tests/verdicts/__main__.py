@@ -28,7 +28,11 @@ Text = tuple[str, Callable[[Run], str], Sequence[Claim]]
 def main() -> int:
     """Audit the lessons that are named, or all; return 1 where something is not true."""
     names = [word for word in sys.argv[1:] if word != "--whole"]
-    found = [line for name in names or catalog() for line in audit(catalog()[name], whole="--whole" in sys.argv)]
+    found = [
+        line
+        for name in names or catalog()
+        for line in audit(catalog()[name], whole="--whole" in sys.argv)
+    ]
     print("\n".join(found))
     return 1 if found else 0
 
@@ -61,7 +65,11 @@ def experiments(lesson: Lesson, judge: Any) -> Iterator[tuple[Any, list[Text]]]:
         )
     for question in lesson.questions:
         texts.setdefault(question.params, []).append(
-            (question.name, lambda run, q=question: q.why(run.states), judge.WHYS.get(question.name, ()))
+            (
+                question.name,
+                lambda run, q=question: q.why(run.states),
+                judge.WHYS.get(question.name, ()),
+            )
         )
     yield from texts.items()
 
@@ -75,7 +83,9 @@ def seeded(params: Any, seeds: Sequence[int]) -> Iterator[Any]:
 
 def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Iterator[str]:
     """Return what is not true of one run: in its captions, in their tone, and in what is said of it."""
-    caption: Callable[[Any], Caption] = getattr(judge, "caption", lambda state: caption_of(lesson.draw(state)))
+    caption: Callable[[Any], Caption] = getattr(
+        judge, "caption", lambda state: caption_of(lesson.draw(state))
+    )
     for k, state in enumerate(run.states):
         said = caption(state)
         yield from (f"step {k}: {what}" for what in untrue(said.text, judge.CAPTIONS, run, k))
@@ -83,7 +93,9 @@ def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Itera
         if said.tone != "info" and right is not None and right is not (said.tone == "good"):
             yield f"step {k}: the tone is {said.tone}, the truth {right}: {said.text}"
     for name, text, claims in texts:
-        yield from (f"{name}: {what}" for what in untrue(text(run), claims, run, len(run.states) - 1))
+        yield from (
+            f"{name}: {what}" for what in untrue(text(run), claims, run, len(run.states) - 1)
+        )
 
 
 def wordless(run: Run, texts: Sequence[Text]) -> list[str]:

@@ -17,7 +17,11 @@ ANGLE = rf"(less than 0\.001|{NUMBER})°"
 
 
 def angle_close(said: str, true: float) -> bool:
-    return true < 0.0011 if said.startswith("less") else near(said, true) or abs(number(said) - true) < 1e-6
+    return (
+        true < 0.0011
+        if said.startswith("less")
+        else near(said, true) or abs(number(said) - true) < 1e-6
+    )
 
 
 def length_close(said: str, true: float) -> bool:
@@ -34,7 +38,11 @@ def scale_off(state: PairsState) -> float:
 def right(run: Run, k: int) -> bool | None:
     state = run.states[k]
     if isinstance(state, AxesState):
-        return None if state.moment != "pose" or state.scans.T_target_source is None else turn_left(state) < HOME
+        return (
+            None
+            if state.moment != "pose" or state.scans.T_target_source is None
+            else turn_left(state) < HOME
+        )
     if state.now.stage != "scale" or not np.isfinite(turn_left(state)):
         return None
     return turn_left(state) < HOME and scale_off(state) < 0.02
@@ -53,7 +61,9 @@ def laid(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def came_home(run: Run, k: int, m: re.Match[str]) -> bool:
     ended = many(run.states[k])
-    return bool(abs(float(m[1]) - 100 * np.mean(ended < HOME)) <= 0.51) and angle_close(m[2], float(np.median(ended)))
+    return bool(abs(float(m[1]) - 100 * np.mean(ended < HOME)) <= 0.51) and angle_close(
+        m[2], float(np.median(ended))
+    )
 
 
 def scaled(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -74,7 +84,9 @@ CAPTIONS = (
         laid,
     ),
     Claim(rf"(\d+) % come home, within 10°\. The median rotation error is {ANGLE}", came_home),
-    Claim(rf"the turn is {ANGLE} off, RMSE ({LENGTH})\. (It has come home\.|It is wrong\.)", scaled),
+    Claim(
+        rf"the turn is {ANGLE} off, RMSE ({LENGTH})\. (It has come home\.|It is wrong\.)", scaled
+    ),
 )
 
 
@@ -90,7 +102,9 @@ def dearer(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[5]
     p, q = (one - one.mean(axis=0) for one in (state.scans.p_target, state.scans.p_source))
     D = np.linalg.svd(p.T @ q / len(p))[1]
-    least = np.sqrt((p**2).sum(axis=1).mean() + (q**2).sum(axis=1).mean() - 2 * (D[0] + D[1] - D[2]))
+    least = np.sqrt(
+        (p**2).sum(axis=1).mean() + (q**2).sum(axis=1).mean() - 2 * (D[0] + D[1] - D[2])
+    )
     return of_pairs(state) > 1.5 * least
 
 
@@ -100,7 +114,9 @@ LINES = {
     "stray": (
         Claim(
             r"Axis 1 moves by 2° only",
-            lambda run, k, m: run.params.seed != 0 or near("2", float(run.states[-2].outcome.axes[0]), 1),
+            lambda run, k, m: (
+                run.params.seed != 0 or near("2", float(run.states[-2].outcome.axes[0]), 1)
+            ),
         ),
     ),
     "scale-clean": (
@@ -109,7 +125,11 @@ LINES = {
             lambda run, k, m: run.params.seed != 0 or scale_off(run.states[-1]) < 0.005 / 1.5,
         ),
     ),
-    "scale": (Claim(r"comes out too small", lambda run, k, m: float(run.states[-1].now.scale) < 0.97 * 1.5),),
+    "scale": (
+        Claim(
+            r"comes out too small", lambda run, k, m: float(run.states[-1].now.scale) < 0.97 * 1.5
+        ),
+    ),
 }
 
 
@@ -121,15 +141,25 @@ def half_of_the_choices(run: Run, k: int, m: re.Match[str]) -> bool:
 
 WHYS = {
     "predict-rotations": (
-        Claim(r"^(\d+) rotations", lambda run, k, m: sum(s.moment == "rotation" for s in run.states) == int(m[1])),
-    ),
-    "predict-frames": (Claim(r"^(\d): each line has two ends, and of the eight choices half", half_of_the_choices),),
-    "predict-signs": (
         Claim(
-            r"^(\d+) %", lambda run, k, m: bool(abs(float(m[1]) - 100 * np.mean(many(run.states[-1]) < HOME)) <= 0.51)
+            r"^(\d+) rotations",
+            lambda run, k, m: sum(s.moment == "rotation" for s in run.states) == int(m[1]),
         ),
     ),
-    "predict-negated": (Claim(rf"^({LENGTH})\.", lambda run, k, m: length_close(m[1], of_pairs(run.states[5]))),),
+    "predict-frames": (
+        Claim(r"^(\d): each line has two ends, and of the eight choices half", half_of_the_choices),
+    ),
+    "predict-signs": (
+        Claim(
+            r"^(\d+) %",
+            lambda run, k, m: bool(
+                abs(float(m[1]) - 100 * np.mean(many(run.states[-1]) < HOME)) <= 0.51
+            ),
+        ),
+    ),
+    "predict-negated": (
+        Claim(rf"^({LENGTH})\.", lambda run, k, m: length_close(m[1], of_pairs(run.states[5]))),
+    ),
     "predict-product": (
         Claim(
             rf"^({NUMBER}) there and ({NUMBER}) back",

@@ -29,11 +29,19 @@ def _measured(p_bytes: bytes, target_bytes: bytes) -> tuple[float, float, float,
     copies = np.lcm(*D.shape)
     many = D.repeat(copies // D.shape[0], axis=0).repeat(copies // D.shape[1], axis=1)
     moved = many[scipy.optimize.linear_sum_assignment(many)]
-    return float((D.min(axis=1) ** 2).mean()), float((D.min(axis=0) ** 2).mean()), float(moved.mean()), moved
+    return (
+        float((D.min(axis=1) ** 2).mean()),
+        float((D.min(axis=0) ** 2).mean()),
+        float(moved.mean()),
+        moved,
+    )
 
 
 def measured(p: np.ndarray, run: Run) -> tuple[float, float, float, np.ndarray]:
-    return _measured(np.ascontiguousarray(p).tobytes(), np.ascontiguousarray(run.states[0].clouds.p_target).tobytes())
+    return _measured(
+        np.ascontiguousarray(p).tobytes(),
+        np.ascontiguousarray(run.states[0].clouds.p_target).tobytes(),
+    )
 
 
 def moving(run: Run, k: int, side: str) -> np.ndarray:
@@ -42,9 +50,11 @@ def moving(run: Run, k: int, side: str) -> np.ndarray:
 
 def lowered(run: Run, k: int) -> float:
     to_target, to_source, _, _ = measured(moving(run, k, "left"), run)
-    return {"both sides": to_target + to_source, "source to target": to_target, "target to source": to_source}[
-        run.params.lowers
-    ]
+    return {
+        "both sides": to_target + to_source,
+        "source to target": to_target,
+        "target to source": to_source,
+    }[run.params.lowers]
 
 
 def emd(run: Run, k: int, side: str = "right") -> float:
@@ -66,21 +76,29 @@ def chamfer(p: np.ndarray, run: Run) -> float:
 
 def ranks_differ(run: Run) -> bool:
     p, other = moving(run, 0, "left"), larger(run)
-    return (chamfer(p, run) < chamfer(other, run)) != (measured(p, run)[2] < measured(other, run)[2])
+    return (chamfer(p, run) < chamfer(other, run)) != (
+        measured(p, run)[2] < measured(other, run)[2]
+    )
 
 
 def index_mse(run: Run) -> float:
     p, target = moving(run, 0, "left"), run.states[0].clouds.p_target
-    return float(np.mean(np.sum((p - target) ** 2, axis=1))) if len(p) == len(target) else float("nan")
+    return (
+        float(np.mean(np.sum((p - target) ** 2, axis=1))) if len(p) == len(target) else float("nan")
+    )
 
 
 def blind(run: Run) -> bool:
     """Whether some number of the start says "equal" or "closer" of clouds that are not."""
     p = moving(run, 0, "left")
     to_target, to_source, moved, _ = measured(p, run)
-    one_way = {"source to target": to_target, "target to source": to_source}.get(run.params.lowers, 1.0)
+    one_way = {"source to target": to_target, "target to source": to_source}.get(
+        run.params.lowers, 1.0
+    )
     return (
-        ranks_differ(run) or (to_target + to_source == 0 and (moved > 0 or index_mse(run) > 0)) or one_way == 0 < moved
+        ranks_differ(run)
+        or (to_target + to_source == 0 and (moved > 0 or index_mse(run) > 0))
+        or one_way == 0 < moved
     )
 
 
@@ -104,9 +122,7 @@ def settled(run: Run, k: int, side: str) -> bool:
     p, target = moving(run, k, side), run.states[0].clouds.p_target
     value = lowered(run, k) if side == "left" else emd(run, k)
     if side == "right":
-        return (
-            True  # a kink: subgradients, tried by `flow` itself; that the value no longer falls is claimed by its steps
-        )
+        return True  # a kink: subgradients, tried by `flow` itself; that the value no longer falls is claimed by its steps
     D = scipy.spatial.distance.cdist(p, target)
     pull = np.zeros_like(p)
     if run.params.lowers != "target to source":
@@ -117,7 +133,11 @@ def settled(run: Run, k: int, side: str) -> bool:
     for metres in (1e-2, 1e-3, 1e-4):
         D = scipy.spatial.distance.cdist(p + metres / max(steepness, 1e-12) * pull, target)
         to_target, to_source = (D.min(axis=1) ** 2).mean(), (D.min(axis=0) ** 2).mean()
-        now = {"both sides": to_target + to_source, "source to target": to_target, "target to source": to_source}
+        now = {
+            "both sides": to_target + to_source,
+            "source to target": to_target,
+            "target to source": to_source,
+        }
         if now[run.params.lowers] < 0.995 * value - 1e-9:
             return False
     return True
@@ -132,11 +152,19 @@ def _larger(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _left(run: Run, k: int, m: re.Match[str]) -> bool:
-    return near(m[1], lowered(run, k - 1)) and near(m[2], lowered(run, k)) and says(m[3], 100 * astray(run, k, "left"))
+    return (
+        near(m[1], lowered(run, k - 1))
+        and near(m[2], lowered(run, k))
+        and says(m[3], 100 * astray(run, k, "left"))
+    )
 
 
 def _right(run: Run, k: int, m: re.Match[str]) -> bool:
-    return near(m[1], emd(run, k - 1)) and near(m[2], emd(run, k)) and says(m[3], 100 * astray(run, k, "right"))
+    return (
+        near(m[1], emd(run, k - 1))
+        and near(m[2], emd(run, k))
+        and says(m[3], 100 * astray(run, k, "right"))
+    )
 
 
 def _why(side: str):
@@ -145,8 +173,11 @@ def _why(side: str):
         value = lowered(run, k) if side == "left" else emd(run, k)
         return {
             "arrived": stop is Stop.ARRIVED and value < 1e-9,
-            "settled where no step lowers it": stop is Stop.SETTLED and value > 1e-9 and settled(run, k, side),
-            "used up its steps": stop is Stop.MAX_STEPS and getattr(run.states[k], side).flow.step == run.params.steps,
+            "settled where no step lowers it": stop is Stop.SETTLED
+            and value > 1e-9
+            and settled(run, k, side),
+            "used up its steps": stop is Stop.MAX_STEPS
+            and getattr(run.states[k], side).flow.step == run.params.steps,
         }[m[1]]
 
     return holds
@@ -335,7 +366,9 @@ LINES = {
 def _spread(run: Run, k: int, m: re.Match[str]) -> bool:
     left, other = (float(np.mean(moving(run, -1, side)[:, 0] < 0)) for side in ("left", "right"))
     few = np.unique(
-        scipy.spatial.distance.cdist(moving(run, -1, "left"), run.states[0].clouds.p_target).argmin(axis=0)[far(run)]
+        scipy.spatial.distance.cdist(moving(run, -1, "left"), run.states[0].clouds.p_target).argmin(
+            axis=0
+        )[far(run)]
     )
     return (
         says(m[1], 100 * left)
@@ -353,7 +386,9 @@ def far(run: Run) -> np.ndarray:
 
 def _missing(run: Run, k: int, m: re.Match[str]) -> bool:
     to_target, to_source, _, _ = measured(start(run), run)
-    return says(m[1], 100 * to_source / (to_target + to_source)) and near(m[2], to_target + to_source)
+    return says(m[1], 100 * to_source / (to_target + to_source)) and near(
+        m[2], to_target + to_source
+    )
 
 
 # fmt: off

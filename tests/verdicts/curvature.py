@@ -117,7 +117,11 @@ def _pointing(run: Run, k: int, m: re.Match[str]) -> bool:
     factor = 2.0 if state.params.mistake == "H without the half" else 1.0
     outward = total @ state.now.normals[v] > 0
     agrees = surface.mean[v] == 0 or (surface.mean[v] > 0) == outward or state.params.noise > 0
-    return near(m[1], factor * float(np.linalg.norm(total))) and (m[2] == "outward") == outward and bool(agrees)
+    return (
+        near(m[1], factor * float(np.linalg.norm(total)))
+        and (m[2] == "outward") == outward
+        and bool(agrees)
+    )
 
 
 def _principal(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -133,7 +137,10 @@ def _principal(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _bends(run: Run, k: int, m: re.Match[str]) -> bool:
-    k1, k2 = run.states[k].now.k1[run.states[k].now.vertex], run.states[k].now.k2[run.states[k].now.vertex]
+    k1, k2 = (
+        run.states[k].now.k1[run.states[k].now.vertex],
+        run.states[k].now.k2[run.states[k].now.vertex],
+    )
     signs = {np.sign(x) for x in (k1, k2) if abs(x) > 1e-5}
     return {
         "to both sides, as on a saddle": signs == {-1.0, 1.0},

@@ -26,7 +26,11 @@ def right(run: Run, k: int) -> bool | None:
         off = _off(run, k)
         if len(now.asymmetry) and len(off) and off.mean() <= 0.02:
             return None  # right, but a step that asks whether it is a metric
-        return (True if off.mean() <= 0.02 else False if off.mean() > 0.06 else None) if len(off) else False
+        return (
+            (True if off.mean() <= 0.02 else False if off.mean() > 0.06 else None)
+            if len(off)
+            else False
+        )
     if isinstance(now, Trials):
         return False if now.broken or run.params.metric == "cosine" else None
     if isinstance(now, Scatter) and now.phase == "told" and now.outlier.any():
@@ -64,7 +68,10 @@ def _mean_and_worst(run: Run, k: int, m: re.Match[str]) -> bool:
     sense = (worst > 0) == (m["sense"] == "long") or abs(worst) < 1e-12
     median = m["median"] is None or says_percent(m["median"], np.median(np.abs(found)))
     return bool(
-        median and says_percent(m["mean"], np.abs(found).mean()) and says_percent(m["worst"], abs(worst)) and sense
+        median
+        and says_percent(m["mean"], np.abs(found).mean())
+        and says_percent(m["worst"], abs(worst))
+        and sense
     )
 
 
@@ -82,7 +89,9 @@ def _accepted(run: Run, k: int, m: re.Match[str]) -> bool:
     assert isinstance(now, Front)
     end = next(s.now.d for s in run.states if isinstance(s.now, Found))
     same = np.array_equal(end[now.accepted], now.d[now.accepted])
-    return same and number(m["n"]) == now.accepted.sum() == np.sum(end <= now.reach * (1 + 1e-9) + 1e-12)
+    return same and number(m["n"]) == now.accepted.sum() == np.sum(
+        end <= now.reach * (1 + 1e-9) + 1e-12
+    )
 
 
 def _balls(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -127,7 +136,10 @@ def _share_broken(run: Run, k: int, m: re.Match[str]) -> bool:
         return (np.abs(one - other) ** a.p).sum(axis=1) ** (1 / a.p if a.metric == "p" else 1)
 
     expected = (d(p[0], p[2]) > d(p[0], p[1]) + d(p[1], p[2]) + 1e-9).mean()
-    return abs(expected - now.broken / now.tried) < 4.5 * np.sqrt(expected * (1 - expected) / now.tried) + 0.01
+    return (
+        abs(expected - now.broken / now.tried)
+        < 4.5 * np.sqrt(expected * (1 - expected) / now.tried) + 0.01
+    )
 
 
 def _flagged(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -160,7 +172,10 @@ def _landmark(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _shares(run: Run, k: int, m: re.Match[str]) -> bool:
     """Near what the chi-squared distribution says."""
-    return all(abs(number(m[name]) / 100 - scipy.stats.chi2.cdf(4, d)) < 0.02 for name, d in (("one", 1), ("ten", 10)))
+    return all(
+        abs(number(m[name]) / 100 - scipy.stats.chi2.cdf(4, d)) < 0.02
+        for name, d in (("one", 1), ("ten", 10))
+    )
 
 
 def _wrong(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -174,7 +189,10 @@ def _good(run: Run, k: int, m: re.Match[str]) -> bool:
 def _weakest(run: Run, k: int, m: re.Match[str]) -> bool:
     now = run.states[k].now
     assert isinstance(now, HeatState)
-    return abs(number(m["far"]) - np.log10(np.sort(np.abs(now.u))[len(now.u) // 2] / now.u.max())) < 0.51
+    return (
+        abs(number(m["far"]) - np.log10(np.sort(np.abs(now.u))[len(now.u) // 2] / now.u.max()))
+        < 0.51
+    )
 
 
 @functools.lru_cache(maxsize=2)
@@ -186,19 +204,25 @@ def _as_a_metric(state: State) -> tuple[float, float, float]:
     D = by_heat(s.p, s.faces, some, 10.0**state.params.time * s.h**2)[some]
     np.fill_diagonal(D, 0.0)
     back = (np.abs(D - D.T) / np.maximum(np.maximum(D, D.T), 1e-300))[np.triu_indices(len(some), 1)]
-    triples = [(a, b, c) for a in range(len(some)) for b in range(len(some)) for c in range(len(some))]
+    triples = [
+        (a, b, c) for a in range(len(some)) for b in range(len(some)) for c in range(len(some))
+    ]
     a, b, c = np.array([one for one in triples if len(set(one)) == 3]).T
-    return float(back.max()), float(np.median(back)), float((D[a, c] > D[a, b] + D[b, c] + 1e-9).mean())
+    return (
+        float(back.max()),
+        float(np.median(back)),
+        float((D[a, c] > D[a, b] + D[b, c] + 1e-9).mean()),
+    )
 
 
 def _heat_as_a_metric(run: Run, k: int, m: re.Match[str]) -> bool:
-    if (
-        run.params.delaunay
-    ):  # by_heat knows the mesh as it stands only: on the same sphere a regular one is held against it
+    if run.params.delaunay:  # by_heat knows the mesh as it stands only: on the same sphere a regular one is held against it
         return number(m["back"].split()[0]) < 10 and number(m["median"].split()[0]) < 1
     back, median, shorter = _as_a_metric(run.states[k])
     near_ones = (m["back"], back, 0.15), (m["shorter"], shorter, 0.15), (m["median"], median, 0.25)
-    return all(abs(number(one.split()[0]) / 100 - true) < share * true for one, true, share in near_ones)
+    return all(
+        abs(number(one.split()[0]) / 100 - true) < share * true for one, true, share in near_ones
+    )
 
 
 def _eight_beside(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -206,7 +230,9 @@ def _eight_beside(run: Run, k: int, m: re.Match[str]) -> bool:
     off = _errors(run.states[k])
     worst = np.abs(off).max()
     eight = 1 / np.cos(np.pi / 8) - 1
-    return says_percent(m["eight"], eight) and (m["said"] == "nearer to the truth") == bool(eight < worst)
+    return says_percent(m["eight"], eight) and (m["said"] == "nearer to the truth") == bool(
+        eight < worst
+    )
 
 
 def _negative(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -250,10 +276,15 @@ CAPTIONS = [
     Claim(r"No metric\.", _wrong),
     Claim(r"none breaks the triangle inequality", lambda run, k, m: run.states[k].now.broken == 0),
     Claim(rf"Beyond 2\.45 lie (?P<share>{PERCENT}) of the scatter", _flagged),
-    Claim(rf"(?P<n>[\d,]+) of [\d,]+ of the second cluster, at (?P<mean>{NUMBER}) on average", _second),
+    Claim(
+        rf"(?P<n>[\d,]+) of [\d,]+ of the second cluster, at (?P<mean>{NUMBER}) on average", _second
+    ),
     Claim(r"It is found\.", _good),
     Claim(r"It hides itself", lambda run, k, m: right(run, k) is not True),
-    Claim(rf"is the right one for (?P<near>{PERCENT}), by Mahalanobis' for (?P<told>{PERCENT})", _landmark),
+    Claim(
+        rf"is the right one for (?P<near>{PERCENT}), by Mahalanobis' for (?P<told>{PERCENT})",
+        _landmark,
+    ),
     Claim(r"from (?P<one>[\d.]+) % in one down to (?P<ten>[\d.]+) % in ten", _shares),
 ]
 
@@ -278,7 +309,10 @@ def _mended(run: Run, k: int, m: re.Match[str]) -> bool:
     *_, plain = march_again(run.params.grid)
     assert run.states[-1].subject is not None
     far = true_distances(run.states[-1]) > 0.5
-    off = [np.abs(d[far] / true_distances(run.states[-1])[far] - 1).mean() for d in (_ends(run).d, plain)]
+    off = [
+        np.abs(d[far] / true_distances(run.states[-1])[far] - 1).mean()
+        for d in (_ends(run).d, plain)
+    ]
     return off[0] < 0.75 * off[1]
 
 
@@ -291,7 +325,9 @@ def _round_about(run: Run) -> tuple[float, float]:
     state = run.states[-1]
     assert state.subject is not None
     ends = state.subject.p[[state.subject.goal, state.subject.source]]
-    return float(true_distances(state)[state.subject.goal]), float(np.linalg.norm(ends[0] - ends[1]))
+    return float(true_distances(state)[state.subject.goal]), float(
+        np.linalg.norm(ends[0] - ends[1])
+    )
 
 
 def _worst_of_march(side: int) -> float:
@@ -353,14 +389,16 @@ def _tried(run: Run, k: int, m: re.Match[str]) -> bool:
 LINES = {
     "taxi": [
         Claim(
-            r"point 10 first, Euclid's disc point 18", of_preset(lambda run, k, m: run.states[-1].now.straight == 18)
+            r"point 10 first, Euclid's disc point 18",
+            of_preset(lambda run, k, m: run.states[-1].now.straight == 18),
         ),
         Claim(r"At the end (?P<share>13 %)", of_preset(_balls)),
     ],
     "units": [Claim(r"At the end (?P<share>80 %)", of_preset(_balls))],
     "cosine-axioms": [
         Claim(
-            r"Points on one ray are at distance 0", lambda run, k, m: run.states[-1].now.axioms["d(a, b) > 0"] == 1.0
+            r"Points on one ray are at distance 0",
+            lambda run, k, m: run.states[-1].now.axioms["d(a, b) > 0"] == 1.0,
         ),
         Claim(r"in (?P<share>32 %) of the triples", of_preset(_tried)),
     ],
@@ -380,7 +418,10 @@ LINES = {
     "staircase": [Claim(r"up to (?P<share>41 %) too long", lambda run, k, m: _of(run, m))],
     "marching": [
         Claim(r"that is (?P<share>10 %) off at worst", lambda run, k, m: _of(run, m)),
-        Claim(r"off at worst, on one twice as fine 6 %", lambda run, k, m: 5.5 < _worst_of_march(81) < 6.5),
+        Claim(
+            r"off at worst, on one twice as fine 6 %",
+            lambda run, k, m: 5.5 < _worst_of_march(81) < 6.5,
+        ),
     ],
     "sphere": [
         Claim(r"(?P<share>6\.2 %) too long on average", lambda run, k, m: _of(run, m, mean=True)),
@@ -400,11 +441,14 @@ LINES = {
     ],
     "points": [
         Claim(
-            r"(?P<share>0\.9 %) off at worst", lambda run, k, m: 0.0085 < np.abs(_errors(run.states[-1])).max() < 0.0095
+            r"(?P<share>0\.9 %) off at worst",
+            lambda run, k, m: 0.0085 < np.abs(_errors(run.states[-1])).max() < 0.0095,
         ),
         Claim(
             r"on finer spheres that does not fall",
-            lambda run, k, m: bool((np.diff(_ends(run).study["3 points on each edge"][1][1:]) > 0).all()),
+            lambda run, k, m: bool(
+                (np.diff(_ends(run).study["3 points on each edge"][1][1:]) > 0).all()
+            ),
         ),
     ],
     "disc": [
@@ -450,19 +494,25 @@ WHYS = {
     "two-sigma": [
         Claim(
             r"(?P<two>[\d.]+) %: .* In ten it is (?P<ten>[\d.]+) %",
-            lambda run, k, m: abs(number(m["two"]) - 86.5) < 2 and abs(number(m["ten"]) - 5.3) < 1.5,
+            lambda run, k, m: (
+                abs(number(m["two"]) - 86.5) < 2 and abs(number(m["ten"]) - 5.3) < 1.5
+            ),
         )
     ],
     "twenty": [
         Claim(
             rf"(?P<most>{NUMBER})\. However far",
-            lambda run, k, m: says(m["most"], _radii(run, 4).max()) and _radii(run, 4).max() <= 19 / np.sqrt(20),
+            lambda run, k, m: (
+                says(m["most"], _radii(run, 4).max()) and _radii(run, 4).max() <= 19 / np.sqrt(20)
+            ),
         )
     ],
     "squares": [
         Claim(
             r"(?P<share>\d+ %): wherever the angle at b is obtuse",
-            lambda run, k, m: says_percent(m["share"], run.states[-1].now.broken / run.states[-1].now.tried),
+            lambda run, k, m: says_percent(
+                m["share"], run.states[-1].now.broken / run.states[-1].now.tried
+            ),
         )
     ],
     "longer": [
@@ -476,7 +526,9 @@ WHYS = {
             rf"(?P<found>{LENGTH}) for (?P<true>{LENGTH}):",
             lambda run, k, m: (
                 near_length(m["found"], float(_ends(run).d[run.states[-1].subject.goal]))
-                and near_length(m["true"], float(true_distances(run.states[-1])[run.states[-1].subject.goal]))
+                and near_length(
+                    m["true"], float(true_distances(run.states[-1])[run.states[-1].subject.goal])
+                )
             ),
         )
     ],

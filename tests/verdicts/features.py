@@ -36,7 +36,9 @@ def _best(run: Run, k: int, m: re.Match[str]) -> bool:
     assert isinstance(now, Scanned)
     before = [agreeing(s.now) for s in run.states[:k] if s.now.phase == "sample"]
     assert now.pairs is not None
-    return number(m["n"]) == agreeing(now) > max(before, default=0) and number(m["of"]) == len(now.pairs)
+    return number(m["n"]) == agreeing(now) > max(before, default=0) and number(m["of"]) == len(
+        now.pairs
+    )
 
 
 def _agree(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -65,7 +67,10 @@ def _partners(run: Run, k: int, m: re.Match[str]) -> bool:
     assert now.f_first is not None
     assert now.f_second is not None
     a, b = now.f_first, now.f_second
-    cost = 0.5 * np.divide((a - b) ** 2, a + b, out=np.zeros_like(a), where=a + b > 0).sum(axis=1).mean()
+    cost = (
+        0.5
+        * np.divide((a - b) ** 2, a + b, out=np.zeros_like(a), where=a + b > 0).sum(axis=1).mean()
+    )
     return abs(float(m["cost"]) - cost) <= 0.0051
 
 
@@ -104,16 +109,23 @@ LINES = {
         Claim(r"about one in seven of the kept matches is green", of_preset(_green(0.1, 0.18))),
         Claim(
             r"RANSAC draws over 1,000 samples",
-            lambda run, k, m: max(s.now.iteration for s in run.states if s.now.phase == "refit") > 1000,
+            lambda run, k, m: (
+                max(s.now.iteration for s in run.states if s.now.phase == "refit") > 1000
+            ),
         ),
         Claim(r"it comes home", lambda run, k, m: home(run.states[-1].now)),
     ),
     "wide": (Claim(r"well over half of the kept matches are green", _green(0.51)),),
     "patches": (Claim(r"90 % are green", _green(0.895, 0.905)),),
-    "tilted": (Claim(r"The right photograph", None), Claim(r"87 % are green", _green(0.865, 0.875))),
+    "tilted": (
+        Claim(r"The right photograph", None),
+        Claim(r"87 % are green", _green(0.865, 0.875)),
+    ),
     "turned": (Claim(r"The right photograph", None),),
     "sift": (Claim(r"82 % are green", _green(0.815, 0.825)),),
-    "outline-x": (Claim(r"fewer than a tenth of the lines are green", of_preset(_green(below=0.1))),),
+    "outline-x": (
+        Claim(r"fewer than a tenth of the lines are green", of_preset(_green(below=0.1))),
+    ),
 }
 
 WHYS: dict[str, tuple[Claim, ...]] = {}

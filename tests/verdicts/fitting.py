@@ -7,7 +7,16 @@ import scipy
 
 from lessons.fitting.presets import LEAP
 from tests.readings import LENGTH, NUMBER, POWER, near, near_length, number, says
-from tests.truths.fitting import cost, distances, is_right, least, plane_error, radius_deviation, straight, wider
+from tests.truths.fitting import (
+    cost,
+    distances,
+    is_right,
+    least,
+    plane_error,
+    radius_deviation,
+    straight,
+    wider,
+)
 from tests.verdicts import Claim, Run
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "right"]
@@ -44,7 +53,12 @@ def no_circle(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     unknown, line = state.now.now.unknown, straight(state.subject.p)
     found = cost(state, unknown)
-    if not (same(m[1], found) and same(m[2], line) and abs(found / line - 1) < 0.5 and abs(unknown[-1]) > 50):
+    if not (
+        same(m[1], found)
+        and same(m[2], line)
+        and abs(found / line - 1) < 0.5
+        and abs(unknown[-1]) > 50
+    ):
         return False
     if m[3] is None:
         return found <= 1.0011 * least(state)
@@ -70,9 +84,14 @@ def repeated(run: Run, k: int, m: re.Match[str]) -> bool:
     low, high = np.quantile(now.radii, [0.05, 0.95])
     middle = abs(now.unknown[-1])
     told = zip(
-        m.groups()[:4], (low, high, middle - 1.6449 * sd, middle + 1.6449 * sd), (6e-3, 6e-3, 7e-3, 7e-3), strict=True
+        m.groups()[:4],
+        (low, high, middle - 1.6449 * sd, middle + 1.6449 * sd),
+        (6e-3, 6e-3, 7e-3, 7e-3),
+        strict=True,
     )
-    if not all(abs(_metres(text) - value) <= share * max(abs(value), sd) for text, value, share in told):
+    if not all(
+        abs(_metres(text) - value) <= share * max(abs(value), sd) for text, value, share in told
+    ):
         return False
     times = wider(state)
     if (m[7] is not None) != (middle < 1.6449 * sd):
@@ -130,7 +149,8 @@ CAPTIONS = (
         no_circle,
     ),
     Claim(
-        rf"({SQUARE}), R = {LENGTH}; the least is ({SQUARE})\. It (?:looks settled, and it )?is wrong\.", another_end
+        rf"({SQUARE}), R = {LENGTH}; the least is ({SQUARE})\. It (?:looks settled, and it )?is wrong\.",
+        another_end,
     ),
     Claim(
         rf"with R = (?:{POWER} k?m|{LENGTH}|no number): (?:the linear problem has no one solution|the numbers are not finite"
@@ -157,18 +177,31 @@ def leaps(run: Run, k: int, m: re.Match[str]) -> bool:
     if run.params.seed != LEAP.seed:
         return True
     kept = [
-        s.now.now for s in run.states if type(s.now).__name__ == "Walked" and s.now.now.phase in ("start", "accepted")
+        s.now.now
+        for s in run.states
+        if type(s.now).__name__ == "Walked" and s.now.now.phase in ("start", "accepted")
     ]
     first, second = (cost(run.states[0], now.unknown) for now in kept[:2])
-    return says_square(m[1], first) and says_square(m[2], second) and near_length(m[3], abs(kept[4].unknown[-1]))
+    return (
+        says_square(m[1], first)
+        and says_square(m[2], second)
+        and near_length(m[3], abs(kept[4].unknown[-1]))
+    )
 
 
 LINES = {
     "jumps": (Claim(rf"from ({SQUARE}) to ({SQUARE}), and after four R is ({LENGTH})\.", leaps),),
-    "damped": (Claim(r"It comes home\.", lambda run, k, m: bool(run.states[-1].now.radii.size) and right_end(run)),),
+    "damped": (
+        Claim(
+            r"It comes home\.",
+            lambda run, k, m: bool(run.states[-1].now.radii.size) and right_end(run),
+        ),
+    ),
     "basin": (Claim(r"Green ones come home", lambda run, k, m: 0.4 < homes(run, k) < 0.8),),
     "basin-jumps": (Claim(r"how many come home now", lambda run, k, m: homes(run, k) < 0.5),),
-    "basin-full": (Claim(r"may start anywhere in the picture", lambda run, k, m: homes(run, k) == 1.0),),
+    "basin-full": (
+        Claim(r"may start anywhere in the picture", lambda run, k, m: homes(run, k) == 1.0),
+    ),
     "tukey": (Claim(r"the wrong points are beyond it", None),),
     "escape": (Claim(r"No step raises the sum of squares", never_rises),),
     "bias": (Claim(r"too large by σ² / 2, Taubin's by twice that", biased),),
@@ -188,16 +221,28 @@ def median(run: Run, name: str) -> float:
 
 
 def kept_share(run: Run, k: int, m: re.Match[str]) -> bool:
-    return says(m[1], median(run, "Kåsa")) and says(m[2], median(run, "Taubin")) and median(run, "Kåsa") < 0.7
+    return (
+        says(m[1], median(run, "Kåsa"))
+        and says(m[2], median(run, "Taubin"))
+        and median(run, "Kåsa") < 0.7
+    )
 
 
 def iteration_near(run: Run, k: int, m: re.Match[str]) -> bool:
     """The best circle by scipy, and the first iteration that is within 10 µm of it."""
     subject = run.states[0].subject
     solve = scipy.optimize.least_squares
-    best = solve(lambda c: distances("circle", c, subject.p), subject.truth, xtol=1e-15, ftol=1e-15, gtol=1e-15).x
+    best = solve(
+        lambda c: distances("circle", c, subject.p),
+        subject.truth,
+        xtol=1e-15,
+        ftol=1e-15,
+        gtol=1e-15,
+    ).x
     moments = [s.now.now for s in run.states if type(s.now).__name__ == "Walked"]
-    return int(m[1]) == min(now.iteration for now in moments if np.abs(now.unknown - best).max() < 1e-5)
+    return int(m[1]) == min(
+        now.iteration for now in moments if np.abs(now.unknown - best).max() < 1e-5
+    )
 
 
 def slopes(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -206,7 +251,12 @@ def slopes(run: Run, k: int, m: re.Match[str]) -> bool:
     v = np.cos(np.radians(60)) ** 2 / 3
     theory = np.degrees(np.arctan(np.tan(np.radians(60)) * v / (v + 0.1**2)))
     upright, across = float(np.median(angles["upright"])), float(np.median(angles["perpendicular"]))
-    return near(m[1], upright) and near(m[2], across) and abs(upright - theory) < 1.5 and abs(across - 60) < 0.7
+    return (
+        near(m[1], upright)
+        and near(m[2], across)
+        and abs(upright - theory) < 1.5
+        and abs(across - 60) < 0.7
+    )
 
 
 def escaped(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -238,7 +288,10 @@ WHYS = {
     "predict-iterations": (Claim(r"^The (\d+)th\.", iteration_near),),
     "predict-slope": (Claim(rf"^({NUMBER})°: errors in x .* give ({NUMBER})°\.", slopes),),
     "predict-alike": (
-        Claim(rf"^({NUMBER}) times\.", lambda run, k, m: abs(number(m[1]) - wider(run.states[-1])) < 0.06),
+        Claim(
+            rf"^({NUMBER}) times\.",
+            lambda run, k, m: abs(number(m[1]) - wider(run.states[-1])) < 0.06,
+        ),
     ),
     "predict-tukey": (
         Claim(rf"^({LENGTH}) off, least squares ({LENGTH})\.", tukey_end),

@@ -30,7 +30,9 @@ def right(run: Run, k: int) -> bool | None:
     if isinstance(now, Smoothed) and last:
         first, end = off(state, run.states[0].now.p), off(state, now.p)
         return False if end > first else True if end < 0.9 * first else None
-    if not len(state.subject.classes) or not (last or (isinstance(now, Cut) and now.phase == "sign")):
+    if not len(state.subject.classes) or not (
+        last or (isinstance(now, Cut) and now.phase == "sign")
+    ):
         return None
     if isinstance(now, Cut | Trained) or (isinstance(now, Layer) and now.features.shape[1] == 2):
         share = correct(state) / len(state.subject.classes)
@@ -53,7 +55,9 @@ def exact_error(run: Run, k: int) -> float:
 def _true_sides(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     misses = np.flatnonzero(told(state) != state.subject.classes)
-    named = [] if not m["nodes"] else [int(number(one)) for one in re.split(r", (?=\d)", m["nodes"])]
+    named = (
+        [] if not m["nodes"] else [int(number(one)) for one in re.split(r", (?=\d)", m["nodes"])]
+    )
     good = number(m["n"]) == correct(state) and number(m["all"]) == len(state.subject.p)
     return good and (named == misses.tolist() if named else not 0 < len(misses) <= 3)
 
@@ -129,7 +133,9 @@ def _apart(run: Run, k: int, m: re.Match[str]) -> bool:
     assert isinstance(state.now, Layer)
     x, along = state.now.features, np.sqrt(A(state).sum(axis=1) + 1)
     along = along / np.linalg.norm(along)
-    return says_percent(m["share"], float(np.linalg.norm(x - along[:, None] * (along @ x)) / np.linalg.norm(x)))
+    return says_percent(
+        m["share"], float(np.linalg.norm(x - along[:, None] * (along @ x)) / np.linalg.norm(x))
+    )
 
 
 def _smooth(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -170,7 +176,8 @@ def middle(run: Run) -> float:
 
 CAPTIONS = [
     Claim(
-        r"(?P<n>[\d,]+) of (?P<all>[\d,]+) nodes are on their true side(?: \(not (?P<nodes>[\d, ]+)\))?", _true_sides
+        r"(?P<n>[\d,]+) of (?P<all>[\d,]+) nodes are on their true side(?: \(not (?P<nodes>[\d, ]+)\))?",
+        _true_sides,
     ),
     Claim(
         rf"(?P<near>[\d,]+) nodes? against (?P<far>[\d,]+), (?:edges of weight )?(?P<cut>{NUMBER})"
@@ -178,19 +185,31 @@ CAPTIONS = [
         _cut,
     ),
     Claim(r"The cut of least conductance along the vector", _least),
-    Claim(rf"By sign it was (?P<n>[\d,]+), for a cut of (?P<edges>{NUMBER})", lambda run, k, m: _sign_truer(run, k, m)),
+    Claim(
+        rf"By sign it was (?P<n>[\d,]+), for a cut of (?P<edges>{NUMBER})",
+        lambda run, k, m: _sign_truer(run, k, m),
+    ),
     Claim(r"(?P<edges>[\d,]+) edges?, (?P<parts>[\d,]+) components?", _pieces),
     Claim(r"(?P<share>[\d.]+ %) of the namings are not returned", _one_way),
     Claim(r"0 twice: the graph has no path", lambda run, k, m: len(parts(A(run.states[k]))) == 2),
     Claim(rf"Eigenvector \d+: λ = {VALUE}(?=[,.:])", _mode),
-    Claim(rf"off the exact heat by {VALUE}", lambda run, k, m: near(m["value"], exact_error(run, k), 2)),
-    Claim(r"off the exact heat by less than 0\.00001", lambda run, k, m: exact_error(run, k) < 1.05e-5),
     Claim(
-        r"dt is above 2 / λmax", lambda run, k, m: run.params.step_size > 2 and np.abs(run.states[k].now.u).max() > 1
+        rf"off the exact heat by {VALUE}",
+        lambda run, k, m: near(m["value"], exact_error(run, k), 2),
+    ),
+    Claim(
+        r"off the exact heat by less than 0\.00001", lambda run, k, m: exact_error(run, k) < 1.05e-5
+    ),
+    Claim(
+        r"dt is above 2 / λmax",
+        lambda run, k, m: run.params.step_size > 2 and np.abs(run.states[k].now.u).max() > 1,
     ),
     Claim(rf"(?P<off>{NUMBER}) mean edges \(RMS\)", _smooth),
     Claim(r"(?P<share>[\d.,]+ %) of the volume", _volume),
-    Claim(r"reached (?:(?P<every>all)|(?P<heard>[\d,]+) of) [\d,]+ nodes(?:; (?P<right>[\d,]+) are right)?", _reached),
+    Claim(
+        r"reached (?:(?P<every>all)|(?P<heard>[\d,]+) of) [\d,]+ nodes(?:; (?P<right>[\d,]+) are right)?",
+        _reached,
+    ),
     Claim(r"(?P<share>(?:less than )?[\d.]+ %) of the features still tell nodes apart", _apart),
     Claim(r"are the same: these messages cannot tell", lambda run, k, m: _same(run, k)),
     Claim(r"differ by up to", lambda run, k, m: not _same(run, k)),
@@ -235,7 +254,9 @@ def _spectra_of_pair(run: Run, of_A: list, of_L: list) -> bool:
     for which in (0, 1):
         one = whole[np.ix_(classes == which, classes == which)]
         good &= np.allclose(np.linalg.eigvalsh(one), of_A[which], atol=1e-9)
-        good &= np.allclose(np.linalg.eigvalsh(np.diag(one.sum(axis=1)) - one), of_L[which], atol=1e-9)
+        good &= np.allclose(
+            np.linalg.eigvalsh(np.diag(one.sum(axis=1)) - one), of_L[which], atol=1e-9
+        )
     return bool(good)
 
 
@@ -243,7 +264,9 @@ def _sign_truer(run: Run, k: int, m: re.Match[str]) -> bool:
     """By the sign of the vector more nodes are on their side, for so many edges cut."""
     state = run.states[k]
     above = state.now.fiedler > 0
-    by_sign = max(int((above == state.subject.classes).sum()), int((~above == state.subject.classes).sum()))
+    by_sign = max(
+        int((above == state.subject.classes).sum()), int((~above == state.subject.classes).sum())
+    )
     edges = A(state)[above][:, ~above].sum()
     return number(m["n"]) == by_sign > correct(state) and near(m["edges"], float(edges))
 
@@ -347,13 +370,17 @@ WHYS = {
             rf"The largest heat is {VALUE} in the end",
             lambda run, k, m: near(m["value"], float(np.abs(run.states[-1].now.u).max())),
         ),
-        Claim(r"for the largest λ that is −1\.5", lambda run, k, m: 1 - run.params.step_size == -1.5),
+        Claim(
+            r"for the largest λ that is −1\.5", lambda run, k, m: 1 - run.params.step_size == -1.5
+        ),
     ],
     "volume": [Claim(r"(?P<share>[\d.]+ %)\. The mean of the neighbours lies inwards", _volume)],
     "sixty-four": [
         Claim(
             r"(?P<n>\d+): as many as if all were given one label",
-            lambda run, k, m: int(m["n"]) == correct(run.states[-1]) == 17 == run.states[-1].subject.classes.sum(),
+            lambda run, k, m: (
+                int(m["n"]) == correct(run.states[-1]) == 17 == run.states[-1].subject.classes.sum()
+            ),
         ),
     ],
 }

@@ -50,14 +50,18 @@ def said_share(run: Run, k: int, m: re.Match[str]) -> bool:
     true = share(run, k)
     if m[1].startswith("Hardly"):
         return true < 0.005
-    return abs(float(re.findall(r"\d+", m[1])[0]) - 100 * true) <= 0.51 and m[1].startswith("Only") == (true < 0.5)
+    return abs(float(re.findall(r"\d+", m[1])[0]) - 100 * true) <= 0.51 and m[1].startswith(
+        "Only"
+    ) == (true < 0.5)
 
 
 def stood_still(run: Run, k: int, _: re.Match[str]) -> bool:
     last = max(i for i, state in enumerate(run.states[: k + 1]) if not state.tries)
     before, now = run.states[last - 1], run.states[last]
     p = now.scans.p_source
-    step = np.linalg.norm(moved(now.icp.T_target_source, p) - moved(before.icp.T_target_source, p), axis=1).max()
+    step = np.linalg.norm(
+        moved(now.icp.T_target_source, p) - moved(before.icp.T_target_source, p), axis=1
+    ).max()
     return float(step) <= 1e-5 * float(np.linalg.norm(np.ptp(p, axis=0)))
 
 
@@ -102,7 +106,11 @@ def another_experiment(run: Run, k: int, m: re.Match[str]) -> bool:
     assert scans.T_truth is not None
     start = (scans.T_start @ np.linalg.inv(scans.T_truth))[:3, :3]
     turned = degrees(scans.T_start, scans.T_truth) < 1e-6 or start[1, 0] < 0
-    return turned and int(m[1]) < len(scans.p_source) and ("not shifted" in m[0]) == (run.params.start_shift > 0)
+    return (
+        turned
+        and int(m[1]) < len(scans.p_source)
+        and ("not shifted" in m[0]) == (run.params.start_shift > 0)
+    )
 
 
 ANGLE = rf"(less than 0\.001|{NUMBER})°"
@@ -111,9 +119,13 @@ CAPTIONS = (
         r"Another start, with (\d+) of the source's points(?:, turned the other way)?(?:, not shifted)?: ",
         another_experiment,
     ),
-    Claim(rf"from (\d+)° away, ICP (comes home|ends) {ANGLE} and ({LENGTH}) from the truth", try_ends),
+    Claim(
+        rf"from (\d+)° away, ICP (comes home|ends) {ANGLE} and ({LENGTH}) from the truth", try_ends
+    ),
     Claim(r"In this row, every start up to (\d+)° comes home\.", row),
-    Claim(r"Not even the start at 0° comes home\.", lambda run, k, m: not try_home(run.states[k], 0)),
+    Claim(
+        r"Not even the start at 0° comes home\.", lambda run, k, m: not try_home(run.states[k], 0)
+    ),
     Claim(rf"(?<=, ){ANGLE} and ({LENGTH}) from the truth\.", fit_ends),
     Claim(r"((?:Only )?\d+ %|Hardly any) of its matches (?:was|were) right\.", said_share),
     Claim(r"converged: the last fit moved no point by more than the tolerance", stood_still),
@@ -121,7 +133,9 @@ CAPTIONS = (
     Claim(r"It has come home\.", lambda run, k, m: arrived(run, k)),
     Claim(
         r"It looks settled, and it is wrong\.",
-        lambda run, k, m: run.states[k].icp.stop in (Stop.CONVERGED, Stop.CIRCLING) and not arrived(run, k),
+        lambda run, k, m: (
+            run.states[k].icp.stop in (Stop.CONVERGED, Stop.CIRCLING) and not arrived(run, k)
+        ),
     ),
     Claim(r"It is wrong\.", lambda run, k, m: not arrived(run, k)),
 )
@@ -134,7 +148,9 @@ def seen(holds: Callable[[Run], bool]) -> Callable[[Run, int, re.Match[str]], bo
 
 def from_45_lost(run: Run) -> bool:
     state = run.states[-1]
-    return [try_home(state, i) for i in range(len(state.tries))] == [one.start_angle < 45 for one in state.tries]
+    return [try_home(state, i) for i in range(len(state.tries))] == [
+        one.start_angle < 45 for one in state.tries
+    ]
 
 
 def outliers_fall_out(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -148,22 +164,41 @@ LINES = {
         Claim(r"the rotation is found to 0\.1°", lambda run, k, m: ended(run)[0] < 0.15),
         Claim(
             r"the source ends as far off as it started, 0\.31 m",
-            seen(lambda run: all(abs(off - 0.3135) < 0.005 for off in (started(run), ended(run)[1]))),
+            seen(
+                lambda run: all(abs(off - 0.3135) < 0.005 for off in (started(run), ended(run)[1]))
+            ),
         ),
     ),
     "overlap-adaptive": (
         Claim(
             r"a tenth of the fixed gate's rotation error is left, 0\.06° of 0\.63°",
-            seen(lambda run: near("0.064", ended(run)[0], 2) and near("0.63", fixed_gate(run.params.seed), 2)),
+            seen(
+                lambda run: (
+                    near("0.064", ended(run)[0], 2) and near("0.63", fixed_gate(run.params.seed), 2)
+                )
+            ),
         ),
     ),
-    "overlap-tight": (Claim(r"from 45° on, too few good matches pass and no start comes home", seen(from_45_lost)),),
-    "outliers": (Claim(r"the outliers pull the source 15° astray", seen(lambda run: near("15", ended(run)[0], 2))),),
+    "overlap-tight": (
+        Claim(
+            r"from 45° on, too few good matches pass and no start comes home", seen(from_45_lost)
+        ),
+    ),
+    "outliers": (
+        Claim(
+            r"the outliers pull the source 15° astray",
+            seen(lambda run: near("15", ended(run)[0], 2)),
+        ),
+    ),
     "outliers-trimmed": (
         Claim(r"nearly all outliers fall out", outliers_fall_out),
         Claim(r"ICP comes home", lambda run, k, m: came_home(run)),
     ),
-    "rings-chance": (Claim(r"0\.49 m stay", seen(lambda run: near("0.49", ended(run)[1], 2) and not came_home(run))),),
+    "rings-chance": (
+        Claim(
+            r"0\.49 m stay", seen(lambda run: near("0.49", ended(run)[1], 2) and not came_home(run))
+        ),
+    ),
     "rings-voxel": (Claim(r"36 mm stay", seen(lambda run: near("36", 1e3 * ended(run)[1], 2))),),
     "rings-spread": (Claim(r"6 mm stay", seen(lambda run: near("6", 1e3 * ended(run)[1], 1))),),
 }
@@ -178,14 +213,24 @@ WHYS = {
                 and near_length(m[3], ended(run)[1])
             ),
         ),
-        Claim(r"^(\d+) %", lambda run, k, m: abs(100 * share(run, 0) - float(m[1])) <= 0.51 and share(run, 0) < 0.25),
-        Claim(r"partners need not be right for a fit to turn the source downhill", lambda run, k, m: came_home(run)),
+        Claim(
+            r"^(\d+) %",
+            lambda run, k, m: (
+                abs(100 * share(run, 0) - float(m[1])) <= 0.51 and share(run, 0) < 0.25
+            ),
+        ),
+        Claim(
+            r"partners need not be right for a fit to turn the source downhill",
+            lambda run, k, m: came_home(run),
+        ),
     ),
     "predict-far": (
         Claim(
             rf"It ended {ANGLE} and ({LENGTH}) from the truth",
             lambda run, k, m: (
-                angle_close(m[1], ended(run)[0]) and near_length(m[2], ended(run)[1]) and not came_home(run)
+                angle_close(m[1], ended(run)[0])
+                and near_length(m[2], ended(run)[1])
+                and not came_home(run)
             ),
         ),
         Claim(
@@ -202,12 +247,14 @@ WHYS = {
             rf"RMSE ({LENGTH}), where neighbouring target points lie ({LENGTH}) apart",
             lambda run, k, m: (
                 near_length(m[1], end_of(run).icp.rmse)
-                and abs(metres(m[2]) / spacing(end_of(run)) - 1) < 0.1  # the lesson takes some hundred points
+                and abs(metres(m[2]) / spacing(end_of(run)) - 1)
+                < 0.1  # the lesson takes some hundred points
                 and metres(m[1]) < 2 * metres(m[2])
             ),
         ),
         Claim(
-            r"(\d+)° of turn left", lambda run, k, m: abs(ended(run)[0] - float(m[1])) <= 0.51 and not came_home(run)
+            r"(\d+)° of turn left",
+            lambda run, k, m: abs(ended(run)[0] - float(m[1])) <= 0.51 and not came_home(run),
         ),
     ),
 }

@@ -57,7 +57,10 @@ def _worst(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _radii(run: Run, k: int, m: re.Match[str]) -> bool:
     r = radii(run.states[k])
-    return all(says(text, value) for text, value in zip(m.groups(), (r.min(), r.max(), r.mean(), r.std()), strict=True))
+    return all(
+        says(text, value)
+        for text, value in zip(m.groups(), (r.min(), r.max(), r.mean(), r.std()), strict=True)
+    )
 
 
 # fmt: off

@@ -35,7 +35,9 @@ def off(said: str, error: float) -> bool:
         return abs(error) < 1e-8
     if said.startswith("off"):
         return abs(error) < 1.01e-4
-    return abs(number(said.removesuffix(" %").removeprefix("+")) - 100 * error) <= 0.051 * max(1.0, abs(100 * error))
+    return abs(number(said.removesuffix(" %").removeprefix("+")) - 100 * error) <= 0.051 * max(
+        1.0, abs(100 * error)
+    )
 
 
 def right(run: Run, k: int) -> bool | None:
@@ -99,7 +101,11 @@ def _throws(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     n, hits = int(number(m[1])), int(number(m[2]))
     share, box = hits / n, float(np.prod(state.subject.high - state.subject.low))
-    if state.params.draw == "random" and state.subject.name == "the sphere" and random_hits(state, n) != hits:
+    if (
+        state.params.draw == "random"
+        and state.subject.name == "the sphere"
+        and random_hits(state, n) != hits
+    ):
         return False
     half = 1.96 * box * np.sqrt(share * (1 - share) / n)
     return (
@@ -120,7 +126,9 @@ def _too_wide(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     subject, estimates = state.subject, state.now.estimates
     count, size = estimates.counts[-1], np.prod(subject.high - subject.low)
-    if state.params.draw != "stratified":  # an even sequence: one run shows its error, about which nothing is known
+    if (
+        state.params.draw != "stratified"
+    ):  # an even sequence: one run shows its error, about which nothing is known
         return abs(estimates.values[-1] - truth(state)[1]) < 1.2 * estimates.errors[-1]
     side, rng = round(count ** (1 / 3)), np.random.default_rng(k)
     cube = np.stack(np.meshgrid(*[np.arange(side)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
@@ -133,8 +141,16 @@ def _too_wide(run: Run, k: int, m: re.Match[str]) -> bool:
 def _lines(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     n, total, area = number(m[1]), number(m[2]), number(m[4])
-    radius = 1.001 * np.linalg.norm(state.subject.p - (state.subject.low + state.subject.high) / 2, axis=1).max()
-    said = abs(number(m[3]) - total / n) < 0.0051 and abs(area / (2 * np.pi * radius**2 * total / n) - 1) < 1e-3
+    radius = (
+        1.001
+        * np.linalg.norm(
+            state.subject.p - (state.subject.low + state.subject.high) / 2, axis=1
+        ).max()
+    )
+    said = (
+        abs(number(m[3]) - total / n) < 0.0051
+        and abs(area / (2 * np.pi * radius**2 * total / n) - 1) < 1e-3
+    )
     return said and near(m[6], truth(state)[0], 4) and off(m[7], area / truth(state)[0] - 1)
 
 
@@ -143,9 +159,14 @@ def _quarters(run: Run, k: int, m: re.Match[str]) -> bool:
     q = run.states[k].now.q
     a, b, c = np.array([[-1.0, 0.0, -0.6], [1.0, 0.0, -0.6], [0.0, 0.0, 1.1]])
     whole = np.linalg.norm(np.cross(b - a, c - a))
-    at = [np.linalg.norm(np.cross(y - q, z - q), axis=1) / whole > 0.5 for y, z in ((b, c), (c, a), (a, b))]
+    at = [
+        np.linalg.norm(np.cross(y - q, z - q), axis=1) / whole > 0.5
+        for y, z in ((b, c), (c, a), (a, b))
+    ]
     shares = [100 * one.mean() for one in at] + [100 * (1 - np.any(at, axis=0).mean())]
-    return all(abs(number(said) - share) < 0.51 for said, share in zip(m.groups(), shares, strict=True))
+    return all(
+        abs(number(said) - share) < 0.51 for said, share in zip(m.groups(), shares, strict=True)
+    )
 
 
 def _samples(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -180,7 +201,9 @@ def _study(run: Run, k: int, m: re.Match[str]) -> bool:
     area, volume = (run.states[k].study.errors[name] for name in ("area", "volume"))
     fine = says_percent(m[1], area[-1]) and says_percent(m[2], volume[-1])
     return (
-        fine and abs(number(m[3]) - area[-2] / area[-1]) < 0.051 and abs(number(m[4]) - volume[-2] / volume[-1]) < 0.051
+        fine
+        and abs(number(m[3]) - area[-2] / area[-1]) < 0.051
+        and abs(number(m[4]) - volume[-2] / volume[-1]) < 0.051
     )
 
 

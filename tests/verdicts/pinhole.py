@@ -56,7 +56,9 @@ def right(run: Run, k: int) -> bool | None:
 
 
 def place(m: re.Match[str], p: np.ndarray) -> bool:
-    return all(says(text, float(value)) for text, value in zip(m.groups()[: len(p)], p, strict=True))
+    return all(
+        says(text, float(value)) for text, value in zip(m.groups()[: len(p)], p, strict=True)
+    )
 
 
 def _p(run: Run) -> np.ndarray:
@@ -66,7 +68,11 @@ def _p(run: Run) -> np.ndarray:
 def _world(run: Run, k: int, m: re.Match[str]) -> bool:
     names = {"the tower's top": (-3.7, 13.2, 5.0), "the crate's corner": (-1.4, 5.5, 1.0), "the lamp": (0.9, -5.2, 2.4),
              "the rail, 40 m along": (0.75, 40.0, 0.06)}  # fmt: skip
-    return number(m[1]) == len(street().points) and close(names[m[2]], _p(run)) and says(m[3], _p(run)[0])
+    return (
+        number(m[1]) == len(street().points)
+        and close(names[m[2]], _p(run))
+        and says(m[3], _p(run)[0])
+    )
 
 
 def _camera(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -84,16 +90,25 @@ def _divided(run: Run, k: int, m: re.Match[str]) -> bool:
 def _bent(run: Run, k: int, m: re.Match[str]) -> bool:
     now, f = run.states[k].now, edited(run.params, camera(run.params)[2])[0, 0]
     moved = f * np.linalg.norm(now.xy_bent - now.xy, axis=1)
-    nearer = np.linalg.norm(now.xy_bent[run.params.point]) < np.linalg.norm(now.xy[run.params.point])
+    nearer = np.linalg.norm(now.xy_bent[run.params.point]) < np.linalg.norm(
+        now.xy[run.params.point]
+    )
     way = nearer if m[2] == "nearer to" else not nearer
-    there = all(says(text, value) for text, value in zip((m[3], m[4]), now.xy_bent[run.params.point], strict=True))
-    return bool(says(m[1], moved[run.params.point]) and way and there and says(m[5], np.nanmax(moved)))
+    there = all(
+        says(text, value)
+        for text, value in zip((m[3], m[4]), now.xy_bent[run.params.point], strict=True)
+    )
+    return bool(
+        says(m[1], moved[run.params.point]) and way and there and says(m[5], np.nanmax(moved))
+    )
 
 
 def _most(run: Run, k: int, m: re.Match[str]) -> bool:
     now, f = run.states[k].now, edited(run.params, camera(run.params)[2])[0, 0]
     here = np.isfinite(now.xy_bent[run.params.point]).all()
-    return says(m[1], float(np.nanmax(f * np.linalg.norm(now.xy_bent - now.xy, axis=1)))) and not here
+    return (
+        says(m[1], float(np.nanmax(f * np.linalg.norm(now.xy_bent - now.xy, axis=1)))) and not here
+    )
 
 
 def _pixel(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -112,7 +127,9 @@ def _inside(run: Run, k: int, m: re.Match[str]) -> bool:
 def _came_back(run: Run, k: int, m: re.Match[str]) -> bool:
     now = run.states[k].now
     miss = float(np.linalg.norm(now.p_back[run.params.point] - _p(run)))
-    start = all(says(text, float(value)) for text, value in zip(m.groups()[:3], now.p_center, strict=True))
+    start = all(
+        says(text, float(value)) for text, value in zip(m.groups()[:3], now.p_center, strict=True)
+    )
     if m[4] is None:
         return start and miss < 1e-6
     return start and says_length(m[4], miss, 3)
@@ -143,7 +160,9 @@ def _ball(run: Run, k: int, m: re.Match[str]) -> bool:
     """Longest over shortest diameter of the outline of many points of the ball, without the lens."""
     params = replace(run.params, k1=0.0, k2=0.0, p1=0.0, p2=0.0)
     turn, tilt = np.meshgrid(np.linspace(0, 2 * np.pi, 400), np.linspace(0, np.pi, 400))
-    unit = np.stack([np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)], axis=-1).reshape(-1, 3)
+    unit = np.stack(
+        [np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)], axis=-1
+    ).reshape(-1, 3)
     uv = ideal(params, BALL_CENTER + BALL_RADIUS * unit)
     n = np.stack([np.cos(angles := np.linspace(0, np.pi, 360)), np.sin(angles)])
     width = np.ptp(uv @ n, axis=0)
@@ -155,9 +174,7 @@ def _wrong(mistake: str):
     return lambda run, k, m: run.params.mistake == mistake and right(run, k) is False
 
 
-BLAME = (
-    "The pose is|by its negative depth|stands where|The lens was|is not where|was taken for|K is still|The calculation"
-)
+BLAME = "The pose is|by its negative depth|stands where|The lens was|is not where|was taken for|K is still|The calculation"
 
 CAPTIONS = (
     Claim(rf"^({NUMBER}) points of the street in world coordinates, z up. We follow (.*): \(({NUMBER}),", _world),
@@ -222,7 +239,9 @@ def with_(run: Run, **changes: Any) -> Run:
 def _doubled(run: Run, k: int, m: re.Match[str]) -> bool:
     c, half = np.array([159.5, 119.5]), with_(run, f=run.params.f / 2)
     same = close(half.states[-1].now.xy, run.states[-1].now.xy, equal_nan=True)
-    return same and close(run.states[-1].now.uv - c, 2 * (half.states[-1].now.uv - c), equal_nan=True)
+    return same and close(
+        run.states[-1].now.uv - c, 2 * (half.states[-1].now.uv - c), equal_nan=True
+    )
 
 
 def _one_over_the_distance(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -261,9 +280,15 @@ def _tangential(run: Run, k: int, m: re.Match[str]) -> bool:
     q = np.array([run.params.p2, run.params.p1])
     size = np.linalg.norm(shift, axis=1)
     angle = np.degrees(np.arccos(shift @ q / size / np.linalg.norm(q)))
-    aside = np.abs(shift[:, 0] * xy[:, 1] - shift[:, 1] * xy[:, 0]) / size / np.linalg.norm(xy, axis=1)
+    aside = (
+        np.abs(shift[:, 0] * xy[:, 1] - shift[:, 1] * xy[:, 0]) / size / np.linalg.norm(xy, axis=1)
+    )
     order = np.argsort(np.linalg.norm(xy, axis=1))
-    return bool(angle.max() <= 30.001 and aside.max() > 0.3 and size[order[-20:]].mean() > 2 * size[order[:20]].mean())
+    return bool(
+        angle.max() <= 30.001
+        and aside.max() > 0.3
+        and size[order[-20:]].mean() > 2 * size[order[:20]].mean()
+    )
 
 
 def _folds(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -274,7 +299,13 @@ def _folds(run: Run, k: int, m: re.Match[str]) -> bool:
     folded = np.array([x, y]).T * (1 - 0.6 * s)[:, None] * run.params.f
     back = (np.abs(folded) < (160, 120)).all(axis=1).any()
     none = np.isnan(run.states[-1].now.uv[beyond]).all()
-    return bool(run.params.k1 == -0.6 and abs(np.sqrt(1 / 1.8) - 0.745) < 5e-4 and beyond.any() and back and none)
+    return bool(
+        run.params.k1 == -0.6
+        and abs(np.sqrt(1 / 1.8) - 0.745) < 5e-4
+        and beyond.any()
+        and back
+        and none
+    )
 
 
 def _shifted_and_doubled(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -296,7 +327,11 @@ def _too_far(run: Run, k: int, m: re.Match[str]) -> bool:
     seen = np.isfinite(run.states[-1].now.p_back).all(axis=1)
     z, z_back = ((p @ R.T + t)[seen, 2] for p in (street().points, run.states[-1].now.p_back))
     r = np.linalg.norm(ideal(run.params, street().points)[seen], axis=1)
-    return bool((z_back >= z).all() and (np.diff((z_back / z)[np.argsort(r)]) > -1e-9).all() and r.max() > 0.3)
+    return bool(
+        (z_back >= z).all()
+        and (np.diff((z_back / z)[np.argsort(r)]) > -1e-9).all()
+        and r.max() > 0.3
+    )
 
 
 def _mirrored(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -350,7 +385,9 @@ LINES = {
 def _step_right(run: Run, p: np.ndarray) -> float:
     """By how many pixels a point moves to the right when the camera steps 2 m to its right."""
     R, t, K = camera(run.params)
-    before, after = (K @ (R @ p + t - offset) for offset in (np.zeros(3), np.array([2.0, 0.0, 0.0])))
+    before, after = (
+        K @ (R @ p + t - offset) for offset in (np.zeros(3), np.array([2.0, 0.0, 0.0]))
+    )
     return float(after[0] / after[2] - before[0] / before[2])
 
 

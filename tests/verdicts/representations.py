@@ -60,13 +60,20 @@ def _edges(run: Run, k: int, m: re.Match[str]) -> bool:
     now = run.states[k].now
     count = 1 if m[1] == "nearest one" else int(m[1].split(" ")[0])
     rows = np.asarray(scipy.spatial.KDTree(now.p).query(now.p, count + 1)[1])
-    pairs = np.unique(np.sort(np.column_stack([np.repeat(rows[:, 0], count), rows[:, 1:].ravel()]), axis=1), axis=0)
+    pairs = np.unique(
+        np.sort(np.column_stack([np.repeat(rows[:, 0], count), rows[:, 1:].ravel()]), axis=1),
+        axis=0,
+    )
     n, ones = len(now.p), np.ones(len(pairs))
     pieces, _ = scipy.sparse.csgraph.connected_components(
         scipy.sparse.coo_array((ones, pairs.T), (n, n)), directed=False
     )
     away = np.abs(distance(run.params, now.p[pairs].mean(axis=1)))
-    said = number(m[2]) == len(pairs) and number(m[3]) == pieces and says_size(m[4], 4 * n * (3 + count))
+    said = (
+        number(m[2]) == len(pairs)
+        and number(m[3]) == pieces
+        and says_size(m[4], 4 * n * (3 + count))
+    )
     return said and near_length(m[5], away.mean(), 2) and near_length(m[6], away.max(), 2)
 
 
@@ -76,10 +83,16 @@ def _bits(run: Run, k: int, m: re.Match[str]) -> bool:
     middles = -1 + h * (np.arange(n) + 0.5)
     q = np.stack(np.meshgrid(middles, middles, middles, indexing="ij"), axis=-1).reshape(-1, 3)
     full = (distance(run.params, q) < 0).reshape(n, n, n)
-    walls = h**2 * sum(int((np.pad(full, 1) != np.roll(np.pad(full, 1), 1, axis)).sum()) for axis in range(3))
+    walls = h**2 * sum(
+        int((np.pad(full, 1) != np.roll(np.pad(full, 1), 1, axis)).sum()) for axis in range(3)
+    )
     area, volume = sizes(run.params)
     said = says_size(m[2], n**3 // 8) and number(m[3]) == full.sum() == state.now.values.sum()
-    return said and says_more(m[4], full.sum() * h**3 / volume) and abs(number(m[5]) - walls / area) < 0.0051
+    return (
+        said
+        and says_more(m[4], full.sum() * h**3 / volume)
+        and abs(number(m[5]) - walls / area) < 0.0051
+    )
 
 
 def _middle(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -99,7 +112,11 @@ def _level(run: Run, k: int, m: re.Match[str]) -> bool:
 def _bytes(run: Run, k: int, m: re.Match[str]) -> bool:
     before = [int(state.now.mixed.sum()) for state in run.states[:k]]
     n = 2 ** run.states[k].now.depth
-    return says_size(m[1], 2 * sum(before)) and says_size(m[2], 72 * sum(before)) and says_size(m[3], max(1, n**3 // 8))
+    return (
+        says_size(m[1], 2 * sum(before))
+        and says_size(m[2], 72 * sum(before))
+        and says_size(m[3], max(1, n**3 // 8))
+    )
 
 
 def _built(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -124,33 +141,47 @@ def _searched(run: Run, k: int, m: re.Match[str]) -> bool:
     cells = [visit.cell for visit in now.visits]
     rows = np.concatenate([np.arange(now.tree.first[c], now.tree.last[c]) for c in cells])
     nearest = np.linalg.norm(now.tree.p[rows] - now.query, axis=1).min()
-    said = number(m[1]) == len(cells) and number(m[2]) == len(rows) and number(m[3]) == len(now.tree.p)
-    return said and says_percent(m[4], len(rows) / len(now.tree.p)) and near_length(m[5], nearest, 2)
+    said = (
+        number(m[1]) == len(cells) and number(m[2]) == len(rows) and number(m[3]) == len(now.tree.p)
+    )
+    return (
+        said and says_percent(m[4], len(rows) / len(now.tree.p)) and near_length(m[5], nearest, 2)
+    )
 
 
 def _passed(run: Run, k: int, m: re.Match[str]) -> bool:
     now = run.states[k].now
     tree, visit = now.tree, now.visits[-1]
-    away = [np.linalg.norm(tree.p[tree.first[c] : tree.last[c]] - now.query, axis=1).min() for c in visit.passed]
+    away = [
+        np.linalg.norm(tree.p[tree.first[c] : tree.last[c]] - now.query, axis=1).min()
+        for c in visit.passed
+    ]
     return number(m[1]) == len(away) and min(away) >= visit.distance
 
 
 def _done(run: Run, k: int, m: re.Match[str]) -> bool:
     now = run.states[k].now
-    return abs(np.linalg.norm(now.tree.p - now.query, axis=1).min() - now.visits[-1].distance) < 1e-9
+    return (
+        abs(np.linalg.norm(now.tree.p - now.query, axis=1).min() - now.visits[-1].distance) < 1e-9
+    )
 
 
 def _growth(run: Run, k: int, m: re.Match[str]) -> bool:
     growth = run.states[k].growth
     looked = dict(zip(growth.counts.tolist(), growth.looked, strict=True))
     shares = dict(zip(growth.dimensions.tolist(), growth.shares, strict=True))
-    said = abs(number(m[1]) - looked[number(m[2])]) < 0.51 and abs(number(m[3]) - looked[number(m[4])]) < 0.51
+    said = (
+        abs(number(m[1]) - looked[number(m[2])]) < 0.51
+        and abs(number(m[3]) - looked[number(m[4])]) < 0.51
+    )
     return said and all(says_percent(m[j], shares[d]) for j, d in ((5, 3), (6, 10), (7, 20)))
 
 
 def _control_points(run: Run, k: int, m: re.Match[str]) -> bool:
     control = run.states[k].now.control
-    shown = np.concatenate([control[..., :3] / control[..., 3:], control[..., 3:]], axis=-1).reshape(-1, 4)
+    shown = np.concatenate(
+        [control[..., :3] / control[..., 3:], control[..., 3:]], axis=-1
+    ).reshape(-1, 4)
     return number(m[1]) == len(np.unique(shown.round(6) + 0.0, axis=0))
 
 

@@ -56,7 +56,9 @@ def right(run: Run, k: int) -> bool | None:
         if k < len(run.states) - 1:
             return None
         shortest = turn_between(*poses(run.params))
-        return bool(met(run) and np.ptp(volumes(run, k)) < SMALL and turned(run, k).sum() < shortest + 0.1)
+        return bool(
+            met(run) and np.ptp(volumes(run, k)) < SMALL and turned(run, k).sum() < shortest + 0.1
+        )
     if state.factor.kind == "undo":
         wrong = state.ghosts and farthest(*wrong_undo(run), state.body.solid.p) > SMALL
         return bool(left_after_undo(run) < SMALL and not wrong)
@@ -101,7 +103,9 @@ def _divided(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _mirrored(run: Run, k: int, m: re.Match[str]) -> bool:
     M = run.states[k].factor.matrix[:3, :3]
-    return close(M.T @ M, np.eye(3)) and says(m[1], float(np.linalg.det(M))) and np.linalg.det(M) < 0
+    return (
+        close(M.T @ M, np.eye(3)) and says(m[1], float(np.linalg.det(M))) and np.linalg.det(M) < 0
+    )
 
 
 def _translated(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -119,13 +123,19 @@ def _turned(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _locked(run: Run, k: int, m: re.Match[str]) -> bool:
     triple = tuple(number(part) for part in m[1].split(", "))
-    same = close(rotation_of(run.params, triple), rotation_of(run.params, run.params.angles), atol=1e-9)
+    same = close(
+        rotation_of(run.params, triple), rotation_of(run.params, run.params.angles), atol=1e-9
+    )
     return same and triple != run.params.angles and outer_axes_apart(run.params) < 0.01
 
 
 def _beside(run: Run, k: int, m: re.Match[str]) -> bool:
     off = [distance for distance in readings(run) if distance >= SMALL]
-    low, high = (says_length(m[1], min(off)), says_length(m[2] or m[1], max(off))) if off else (False, False)
+    low, high = (
+        (says_length(m[1], min(off)), says_length(m[2] or m[1], max(off)))
+        if off
+        else (False, False)
+    )
     return low and high and k == complete_at(run)
 
 
@@ -140,7 +150,9 @@ def _all_same(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _front(run: Run, k: int, m: re.Match[str]) -> bool:
     v, w = fronts(run, k)
-    return says(m[1], float(np.degrees(np.arccos(v @ w / np.linalg.norm(v) / np.linalg.norm(w)))), 2)
+    return says(
+        m[1], float(np.degrees(np.arccos(v @ w / np.linalg.norm(v) / np.linalg.norm(w)))), 2
+    )
 
 
 def _off(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -148,22 +160,33 @@ def _off(run: Run, k: int, m: re.Match[str]) -> bool:
     origin = float(np.linalg.norm(state.T_world_body[:3, 3] - t * poses(run.params)[1][:3, 3]))
     on_path = origin < SMALL if m[2] is None else says_length(m[2], origin)
     off = turn_between(at_best(run, k), state.T_world_body)
-    return on_path and (off < 1e-5 if m[1].startswith("on the") else says(m[1].split("°")[0], off, 2))
+    return on_path and (
+        off < 1e-5 if m[1].startswith("on the") else says(m[1].split("°")[0], off, 2)
+    )
 
 
 def _gone(run: Run, k: int, m: re.Match[str]) -> bool:
     t = k / (len(run.states) - 1)
-    return says(m[1], t) and says(m[2], float(turned(run, k).sum())) and says(m[3], float(turned(run, k)[-1]))
+    return (
+        says(m[1], t)
+        and says(m[2], float(turned(run, k).sum()))
+        and says(m[3], float(turned(run, k)[-1]))
+    )
 
 
 def _volume(run: Run, k: int, m: re.Match[str]) -> bool:
     R = run.states[k].T_world_body[:3, :3]
-    return says(m[1], 100 * float(volumes(run, k)[-1]), 3) and not close(R.T @ R, np.eye(3), atol=1e-9)
+    return says(m[1], 100 * float(volumes(run, k)[-1]), 3) and not close(
+        R.T @ R, np.eye(3), atol=1e-9
+    )
 
 
 def _best_of_all(run: Run, k: int, m: re.Match[str]) -> bool:
     """By squares: no rotation of a grid of them about the middle brings the mirrored house nearer than Kabsch's."""
-    p, q = run.states[0].body.solid.p, mapped(product(run, complete_at(run)), run.states[0].body.solid.p)
+    p, q = (
+        run.states[0].body.solid.p,
+        mapped(product(run, complete_at(run)), run.states[0].body.solid.p),
+    )
     p, q = p - p.mean(axis=0), q - q.mean(axis=0)
     best = squares(run)
     tried = Rotation.random(400, rng=np.random.default_rng(0))
@@ -179,7 +202,9 @@ def _stays(run: Run, k: int, m: re.Match[str]) -> bool:
     size = abs(grown - 1) < SMALL if m[2] is None else says(m[2], grown)
     apart_by = farthest(product(run, k), np.eye(4), p)
     return (
-        m[1].split(" and the ") == [name for name, is_there in named.items() if is_there] and size and apart_by > 0.01
+        m[1].split(" and the ") == [name for name, is_there in named.items() if is_there]
+        and size
+        and apart_by > 0.01
     )
 
 
@@ -247,22 +272,34 @@ def _helix(run: Run, k: int, m: re.Match[str]) -> bool:
     climb, flat = np.diff(origins @ n), origins - np.outer(origins @ n, n)
     c = np.linalg.lstsq(2 * np.diff(flat, axis=0), np.diff((flat**2).sum(axis=1)))[0]
     radius = np.linalg.norm(flat - c, axis=1)
-    return bool(np.ptp(climb) < SMALL and abs(climb[0]) > 1e-3 and np.ptp(radius) < 1e-6 and radius[0] > 0.1)
+    return bool(
+        np.ptp(climb) < SMALL and abs(climb[0]) > 1e-3 and np.ptp(radius) < 1e-6 and radius[0] > 0.1
+    )
 
 
 def _squeezed(run: Run, k: int, m: re.Match[str]) -> bool:
     middle = run.states[(len(run.states) - 1) // 2]
     long, *short = np.linalg.svd(middle.T_world_body[:3, :3])[1]
-    return bool(close(long, 1) and max(short) < 0.1) and close(turn_between(*poses(run.params)), 170)
+    return bool(close(long, 1) and max(short) < 0.1) and close(
+        turn_between(*poses(run.params)), 170
+    )
 
 
 def _layers(run: Run, k: int, m: re.Match[str]) -> bool:
     S, p = run.states[1].factor.matrix, run.states[0].body.solid.p
     moved = mapped(S, p) - p
-    flat = np.abs(moved[:, 2]).max() < SMALL and np.abs(np.diff(moved[np.argsort(p[:, 2]), 0]) >= -SMALL).all()
+    flat = (
+        np.abs(moved[:, 2]).max() < SMALL
+        and np.abs(np.diff(moved[np.argsort(p[:, 2]), 0]) >= -SMALL).all()
+    )
     parallel = apart(run, 1) < 1e-4
     changed = np.abs(lengths(run, 1) / lengths(run, 0) - 1).max() > 0.05
-    return bool(flat and parallel and changed and np.abs(corner_angles(run, 1) - corner_angles(run, 0)).max() > 5)
+    return bool(
+        flat
+        and parallel
+        and changed
+        and np.abs(corner_angles(run, 1) - corner_angles(run, 0)).max() > 5
+    )
 
 
 def _one_point(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -284,7 +321,10 @@ def _grown(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _misread(run: Run, k: int, m: re.Match[str]) -> bool:
     w, x, y, z = np.cos(np.radians(20)), 0, 0, np.sin(np.radians(20))
-    meant, got = Rotation.from_quat([x, y, z, w]).as_rotvec(), Rotation.from_quat([w, x, y, z]).as_rotvec()
+    meant, got = (
+        Rotation.from_quat([x, y, z, w]).as_rotvec(),
+        Rotation.from_quat([w, x, y, z]).as_rotvec(),
+    )
     ghost = run.states[complete_at(run)].ghosts[0].T[:3, :3]
     return (
         close(np.degrees(meant), (0, 0, 40))
@@ -301,13 +341,17 @@ def _misses_by_more(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _pace(run: Run, k: int, m: re.Match[str]) -> bool:
-    off = max(turn_between(at_best(run, j), state.T_world_body) for j, state in enumerate(run.states))
+    off = max(
+        turn_between(at_best(run, j), state.T_world_body) for j, state in enumerate(run.states)
+    )
     steps = turned(run, len(run.states) - 1)
     return off > 10 and steps.max() > 1.5 * steps.min()
 
 
 def _steady(run: Run, k: int, m: re.Match[str]) -> bool:
-    off = max(turn_between(at_best(run, j), state.T_world_body) for j, state in enumerate(run.states))
+    off = max(
+        turn_between(at_best(run, j), state.T_world_body) for j, state in enumerate(run.states)
+    )
     steps = turned(run, len(run.states) - 1)
     return off < SMALL and steps.max() < (1 + SMALL) * steps.min() and met(run)
 

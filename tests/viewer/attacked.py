@@ -27,7 +27,10 @@ async def goes_on(page: FakePage) -> None:
     """See a page make a few steps."""
     for k in (1, 4, 2, 0):
         await page.seek(k)
-        assert page.step["step"]["caption"] == Timeline(fake.lesson, fake.Params()).complete()[k].caption.text
+        assert (
+            page.step["step"]["caption"]
+            == Timeline(fake.lesson, fake.Params()).complete()[k].caption.text
+        )
 
 
 async def until(holds: Callable[[], bool]) -> None:

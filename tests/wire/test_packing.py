@@ -26,7 +26,9 @@ RNG = np.random.default_rng(3)
 
 @pytest.fixture(scope="module", params=["field", "classes", "measured", "role"])
 def timeline(request) -> Timeline:
-    return Timeline(fake.lesson, fake.Params(colors=request.param, wobble=request.param == "role")).complete()
+    return Timeline(
+        fake.lesson, fake.Params(colors=request.param, wobble=request.param == "role")
+    ).complete()
 
 
 def test_what_is_packed_is_what_is_read():
@@ -93,7 +95,15 @@ def test_a_stage_is_told_where_the_view_or_the_lesson_is_another():
     def told(view: View, lesson: str) -> bool:
         return "stage" in reader.read(wire.step({}, {}, view, lesson))
 
-    asked = [(VIEW, "a"), (VIEW, "a"), (replace(VIEW), "a"), (other, "a"), (other, "a"), (other, "b"), (VIEW, "b")]
+    asked = [
+        (VIEW, "a"),
+        (VIEW, "a"),
+        (replace(VIEW), "a"),
+        (other, "a"),
+        (other, "a"),
+        (other, "b"),
+        (VIEW, "b"),
+    ]
     assert [told(*one) for one in asked] == [True, False, False, True, False, True, True]
     wire.forget()
     assert told(VIEW, "b")
@@ -112,8 +122,14 @@ def test_a_run_holds_step_by_step_what_a_live_page_is_sent(timeline):
         shown = {}
         for one in listed:
             names_alone += isinstance(one, str)
-            name, node = (one, before[one]) if isinstance(one, str) else (one[0], reader.node(one[1], one[2]))
-            assert not (isinstance(one, list) and alike(before.get(name), node)), f"{name} is as it was, and said again"
+            name, node = (
+                (one, before[one])
+                if isinstance(one, str)
+                else (one[0], reader.node(one[1], one[2]))
+            )
+            assert not (isinstance(one, list) and alike(before.get(name), node)), (
+                f"{name} is as it was, and said again"
+            )
             shown[name] = node
         assert list(shown) == [name for name, _, _ in head["nodes"]]
         assert alike(shown, live.nodes(head["nodes"]))

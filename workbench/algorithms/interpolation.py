@@ -125,7 +125,10 @@ def lerp_of_entries(T_world_start: Pose, T_world_end: Pose, times: Times) -> Ite
 
 @traced
 def along_a_screw(
-    T_world_start: Pose, T_world_end: Pose, times: Times, invert_rigid: Callable[[np.ndarray], np.ndarray]
+    T_world_start: Pose,
+    T_world_end: Pose,
+    times: Times,
+    invert_rigid: Callable[[np.ndarray], np.ndarray],
 ) -> Iterator[State]:
     """Yield poses on the screw from start to end: the geodesic exp(t log) of SE(3), at constant speed.
 

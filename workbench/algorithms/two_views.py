@@ -20,7 +20,11 @@ from workbench.geometry.two_views.epipolar import (
     rank_two,
     refine_fundamental,
 )
-from workbench.geometry.two_views.essential import equal_singular_values, essential_from_fundamental, refine_motion
+from workbench.geometry.two_views.essential import (
+    equal_singular_values,
+    essential_from_fundamental,
+    refine_motion,
+)
 from workbench.geometry.two_views.homography import homogeneous
 from workbench.geometry.two_views.rectification import Rectification, rectify
 from workbench.geometry.two_views.triangulation import before_both, camera_matrix
@@ -34,7 +38,15 @@ Triangulate = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndar
 """triangulate(P_first, P_second, uv_first, uv_second) -> points (n, 3) in the first camera's frame."""
 Route = Literal["eight-point", "refined F", "refined pose"]
 Stage = Literal[
-    "equations", "rank three", "rank two", "refined F", "essential", "pose", "points", "refined", "rectified"
+    "equations",
+    "rank three",
+    "rank two",
+    "refined F",
+    "essential",
+    "pose",
+    "points",
+    "refined",
+    "rectified",
 ]
 
 MOST_ROUNDS = 8
@@ -149,9 +161,13 @@ def solve_linear(
 
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997.
     """
-    constraints = epipolar_constraints((T_first @ homogeneous(uv_first).T).T, (T_second @ homogeneous(uv_second).T).T)
+    constraints = epipolar_constraints(
+        (T_first @ homogeneous(uv_first).T).T, (T_second @ homogeneous(uv_second).T).T
+    )
     _, values, Vt = np.linalg.svd(constraints)
-    F, F_two = (T_second.T @ G @ T_first for G in (Vt[-1].reshape(3, 3), rank_two(Vt[-1].reshape(3, 3))))
+    F, F_two = (
+        T_second.T @ G @ T_first for G in (Vt[-1].reshape(3, 3), rank_two(Vt[-1].reshape(3, 3)))
+    )
     nine = np.zeros(9)
     nine[: len(values)] = values
     return Linear(nine, F / np.linalg.norm(F), F_two / np.linalg.norm(F_two))
@@ -189,8 +205,12 @@ def relate(
         InputError: If one of the functions returns what is no number.
     """
     none = np.empty((0, 4, 4))
-    yield Related(stage="equations", singular_values=linear.singular_values, F=linear.F, tested=none)
-    now = Related(stage="rank three", singular_values=linear.singular_values, F=linear.F, tested=none)
+    yield Related(
+        stage="equations", singular_values=linear.singular_values, F=linear.F, tested=none
+    )
+    now = Related(
+        stage="rank three", singular_values=linear.singular_values, F=linear.F, tested=none
+    )
     yield now
     F = _numbers(eight_point(uv_first, uv_second), "eight_point")
     now = replace(now, stage="rank two", F=F)
@@ -212,7 +232,12 @@ def relate(
     for k in range(len(Ts)):
         tested = Ts[: k + 1]
         now = replace(
-            now, stage="pose", tested=tested, in_front=in_front[: k + 1], T_second_first=Ts[k], p_first=found[k]
+            now,
+            stage="pose",
+            tested=tested,
+            in_front=in_front[: k + 1],
+            T_second_first=Ts[k],
+            p_first=found[k],
         )
         yield now
     best = int(np.argmax(in_front))
@@ -226,7 +251,9 @@ def relate(
         )
         p_first = triangulate(P_first, camera_matrix(K_second, T_second_first), uv_first, uv_second)
         F = fundamental_from_cameras(K_first, K_second, T_second_first)
-        now = replace(now, stage="refined", T_second_first=T_second_first, p_first=p_first, F=F, rounds=k + 1)
+        now = replace(
+            now, stage="refined", T_second_first=T_second_first, p_first=p_first, F=F, rounds=k + 1
+        )
         yield now
         if _moved(before, T_second_first) < STILL:
             break
@@ -239,7 +266,9 @@ def relate(
 
 def _moved(T: np.ndarray, other: np.ndarray) -> float:
     """Return by how much the rotation or the direction changed, radians."""
-    return max(float(np.abs(T[:3, :3] - other[:3, :3]).max()), angle_between(T[:3, 3], other[:3, 3]))
+    return max(
+        float(np.abs(T[:3, :3] - other[:3, :3]).max()), angle_between(T[:3, 3], other[:3, 3])
+    )
 
 
 def _numbers(answer: np.ndarray, name: str) -> np.ndarray:

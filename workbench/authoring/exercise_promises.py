@@ -54,14 +54,30 @@ def it_is_complete(subject: Subject, exercise: Exercise) -> Found:
         "examples in its contract": (len(exercise.contract.examples), LEAST_EXAMPLES),
     }
     for what, (there, least) in counts.items():
-        yield f"{who(exercise)}it has {there} {what}; wanted are {least} or more" if there < least else None
+        yield (
+            f"{who(exercise)}it has {there} {what}; wanted are {least} or more"
+            if there < least
+            else None
+        )
     public = [check.public for check in exercise.checks]
-    yield None if {True, False} == set(public) else f"{who(exercise)}it needs public checks and hidden ones"
-    yield None if public == sorted(public, reverse=True) else f"{who(exercise)}public checks stand before hidden ones"
+    yield (
+        None
+        if {True, False} == set(public)
+        else f"{who(exercise)}it needs public checks and hidden ones"
+    )
+    yield (
+        None
+        if public == sorted(public, reverse=True)
+        else f"{who(exercise)}public checks stand before hidden ones"
+    )
     length = len(exercise.task)
     wrong = f"{who(exercise)}the task (the file's docstring) has {length} characters; wanted are {TASK[0]} to {TASK[1]}"
     yield None if TASK[0] <= length <= TASK[1] else wrong
-    yield None if inspect.getdoc(exercise.reference) else f"{who(exercise)}the contract has no docstring"
+    yield (
+        None
+        if inspect.getdoc(exercise.reference)
+        else f"{who(exercise)}the contract has no docstring"
+    )
 
 
 @promise
@@ -93,7 +109,9 @@ def the_run_that_is_opened_calls_the_function(subject: Subject, exercise: Exerci
 def the_reference_gets_full_marks(subject: Subject, exercise: Exercise) -> Found:
     """Our own function gets full marks."""
     report = _graded(subject, exercise, exercise.reference)
-    yield None if report.is_full else f"{who(exercise)}our own function loses points: {_lost(report)}"
+    yield (
+        None if report.is_full else f"{who(exercise)}our own function loses points: {_lost(report)}"
+    )
 
 
 @promise
@@ -121,7 +139,11 @@ def the_first_alternative_stands_alone(subject: Subject, exercise: Exercise) -> 
         report = grade_file(path, exercise)
     where = f"{who(exercise)}{at(exercise.alternatives[0])}{exercise.alternatives[0].__name__}"
     why = "handouts copy the first alternative beside `import numpy as np`"
-    yield None if report.is_full else f"{where} does not earn full marks by itself ({why}): {_lost(report)}"
+    yield (
+        None
+        if report.is_full
+        else f"{where} does not earn full marks by itself ({why}): {_lost(report)}"
+    )
 
 
 @promise
@@ -135,16 +157,26 @@ def every_mistake_is_named(subject: Subject, exercise: Exercise) -> Found:
         if report.is_full:
             yield f"{where} gets full marks; a check has to tell it from a right answer"
         elif report.mistake is not item:
-            taken = "is not recognised" if report.mistake is None else f"is taken for {report.mistake.name!r}"
+            taken = (
+                "is not recognised"
+                if report.mistake is None
+                else f"is taken for {report.mistake.name!r}"
+            )
             yield f"{where} {taken}: no check tells it from a right answer and from every other mistake"
         else:
             yield None
         good = SENTENCE[0] <= len(item.sentence) <= SENTENCE[1]
         wanted = f"wanted are {SENTENCE[0]} to {SENTENCE[1]}"
-        yield None if good else f"{where} has a sentence of {len(item.sentence)} characters; {wanted}"
+        yield (
+            None if good else f"{where} has a sentence of {len(item.sentence)} characters; {wanted}"
+        )
         for outcome in report.outcomes:
-            said = f"says only {outcome.verdict.message!r}; `beside` says what came and what is right"
-            vague = f"exercise {exercise.name}: {at(outcome.check.judge)}{outcome.check.name} {said}"
+            said = (
+                f"says only {outcome.verdict.message!r}; `beside` says what came and what is right"
+            )
+            vague = (
+                f"exercise {exercise.name}: {at(outcome.check.judge)}{outcome.check.name} {said}"
+            )
             yield vague if is_vague(outcome) else None
 
 
@@ -159,8 +191,13 @@ def the_examples_are_true(subject: Subject, exercise: Exercise) -> Found:
         for function in (exercise.reference, *exercise.alternatives):
             try:
                 value, told = eval(call, known | {exercise.name: function}), eval(result, known)
-                parts = zip(value, told, strict=True) if isinstance(told, tuple) else [(value, told)]
-                true = all(np.allclose(one, wanted, atol=5e-4, rtol=5e-4, equal_nan=True) for one, wanted in parts)
+                parts = (
+                    zip(value, told, strict=True) if isinstance(told, tuple) else [(value, told)]
+                )
+                true = all(
+                    np.allclose(one, wanted, atol=5e-4, rtol=5e-4, equal_nan=True)
+                    for one, wanted in parts
+                )
                 said = f"is {' '.join(str(value).split())} by {function.__name__}, and the example says {result}"
             except Exception as error:
                 true, said = False, f"raises {type(error).__name__}: {error}"
@@ -173,10 +210,17 @@ def the_starter_runs_and_earns_nothing(subject: Subject, exercise: Exercise) -> 
     subject.tell(f"the starter file of exercise {exercise.name}")
     text = starter(exercise)
     wide = max(map(len, text.splitlines()))
-    yield f"{who(exercise)}a line of the starter has {wide} characters; wanted are {WIDEST}" if wide > WIDEST else None
+    yield (
+        f"{who(exercise)}a line of the starter has {wide} characters; wanted are {WIDEST}"
+        if wide > WIDEST
+        else None
+    )
     with tempfile.TemporaryDirectory() as folder:
         report = grade_file(write_starter(exercise, Path(folder)), exercise)
-    unwritten = all(f"{exercise.name} is not written yet" in outcome.verdict.message for outcome in report.outcomes)
+    unwritten = all(
+        f"{exercise.name} is not written yet" in outcome.verdict.message
+        for outcome in report.outcomes
+    )
     earned = f"earns {report.points:g} points" if report.points else f"is told: {_lost(report)}"
     good = report.points == 0 and report.mistake is None and unwritten
     yield None if good else f"{who(exercise)}the starter as it is handed out {earned}"
@@ -187,13 +231,19 @@ def nothing_earns_nothing(subject: Subject, exercise: Exercise) -> Found:
     """A function that returns nothing earns nothing."""
     report = _graded(subject, exercise, lambda *args: None)
     earning = ", ".join(outcome.check.name for outcome in report.outcomes if outcome.points)
-    yield f"{who(exercise)}a function that returns nothing earns points: {earning}" if earning else None
+    yield (
+        f"{who(exercise)}a function that returns nothing earns points: {earning}"
+        if earning
+        else None
+    )
 
 
 @promise
 def who_changes_the_input_is_told_so(subject: Subject, exercise: Exercise) -> Found:
     """A right function that changes the arrays it was given loses some points, and is told why."""
-    if not any(_is_array(given) for given in inspect.signature(exercise.reference).parameters.values()):
+    if not any(
+        _is_array(given) for given in inspect.signature(exercise.reference).parameters.values()
+    ):
         return
 
     def spoiling(*args: Any) -> Any:
@@ -206,7 +256,9 @@ def who_changes_the_input_is_told_so(subject: Subject, exercise: Exercise) -> Fo
     report = _graded(subject, exercise, spoiling)
     told = any("changed" in outcome.verdict.message for outcome in report.outcomes)
     hint = "a check with `left_alone` tells so"
-    yield None if told else f"{who(exercise)}a function that changes its input is not told so; {hint}"
+    yield (
+        None if told else f"{who(exercise)}a function that changes its input is not told so; {hint}"
+    )
     some = 0 < report.points < report.possible
     yield (
         None
@@ -249,13 +301,17 @@ def _drives(lesson: Lesson, exercise: Exercise, params: Any, steps: int = 12) ->
 
 
 def _graded(subject: Subject, exercise: Exercise, function: Function) -> Report:
-    subject.tell(f"grading {getattr(function, '__name__', 'a function')} by exercise {exercise.name}")
+    subject.tell(
+        f"grading {getattr(function, '__name__', 'a function')} by exercise {exercise.name}"
+    )
     with warnings.catch_warnings(action="ignore"):  # wrong functions divide by zero
         return grade_function(function, exercise)
 
 
 def _lost(report: Report) -> str:
-    outcome = next((outcome for outcome in report.outcomes if outcome.verdict.share < 1.0), report.outcomes[0])
+    outcome = next(
+        (outcome for outcome in report.outcomes if outcome.verdict.share < 1.0), report.outcomes[0]
+    )
     return f"{outcome.check.name}: {outcome.verdict.message}"
 
 

@@ -14,7 +14,9 @@ from workbench.words.typeset import WORDING
 
 _CLAUSE = r"(?:\A|\n\s*\n|\n\s*(?:[-*#|]|\d+\.)|[.:;,!?(|–—…])\s*(?:(?:and|or|then|now|just|simply|please)\s+)?"
 _ASKED = rf"(?:{_CLAUSE}|\b(?:you|you\s+(?:can|may|must)|or|then)\s+)"
-_THING = r"(?:it|them|an?|the|one|two|three|any|its|your|another|this|that|these|those|each|every)\b"
+_THING = (
+    r"(?:it|them|an?|the|one|two|three|any|its|your|another|this|that|these|those|each|every)\b"
+)
 _DOING = tuple(
     re.compile(pattern, re.IGNORECASE)
     for pattern in (
@@ -46,7 +48,10 @@ def live_words(text: str, lesson: Lesson) -> Iterator[tuple[int, str]]:
         lesson: The lesson, whose knobs are not to be named except those of its sweeps. A knob is named in backticks or
             quotes, by its field or its label, or in words where it is to be turned.
     """
-    text = _HIDDEN.sub(lambda found: _blank(found[0]), _COMMANDS.sub(lambda found: found[0].replace("`", " "), text))
+    text = _HIDDEN.sub(
+        lambda found: _blank(found[0]),
+        _COMMANDS.sub(lambda found: found[0].replace("`", " "), text),
+    )
     found: dict[int, str] = {}
     for pattern in (*_DOING, *_naming(lesson.params, swept(lesson))):
         found |= {match.start("said"): match["said"] for match in pattern.finditer(text)}
@@ -67,7 +72,11 @@ def elsewhere(lesson: Lesson) -> Mapping[str, str]:
     for question in lesson.questions:
         texts[f"question {question.name!r}"] = "\n\n".join((question.text, *question.choices))
     published = swept(lesson)
-    texts |= {f"knob {field.name}": field.knob.hint for field in fields_of(lesson.params) if field.name in published}
+    texts |= {
+        f"knob {field.name}": field.knob.hint
+        for field in fields_of(lesson.params)
+        if field.name in published
+    }
     return texts
 
 
@@ -83,7 +92,9 @@ def _naming(params: type, published: frozenset[str]) -> tuple[re.Pattern[str], .
         return ()
     names = "|".join(re.escape(field.name) for field in fields)
     labels = "|".join(re.escape(field.label) for field in fields)
-    spoken = "|".join(re.escape(word) for field in fields for word in (field.name.replace("_", " "), field.label))
+    spoken = "|".join(
+        re.escape(word) for field in fields for word in (field.name.replace("_", " "), field.label)
+    )
     end = r"(?=\s*(?:[.,:;!?)|]|\Z|\n\s*\n)|\s+(?:to\s+[-−\d]|up\b|down\b|and\s+(?:see|look|watch)\b))"
     return tuple(
         re.compile(pattern, re.IGNORECASE)

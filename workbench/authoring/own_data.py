@@ -48,7 +48,12 @@ def _taken(subject: Subject, files: dict[str, Path], fields: list[str]) -> dict[
     pending = list(fields)
     while pending:
         found = next(
-            (given for given in _tried(bases, pending, files) if _refusal(subject, files, given) is None), None
+            (
+                given
+                for given in _tried(bases, pending, files)
+                if _refusal(subject, files, given) is None
+            ),
+            None,
         )
         if found is None:
             return taken
@@ -70,7 +75,9 @@ def _tried(bases: list[Given], pending: list[str], files: dict[str, Path]) -> It
 
 def _refusal(subject: Subject, files: dict[str, Path], given: Given) -> str | None:
     """Return why the lesson does not even show its first step with these files, None where it does."""
-    params: Any = replace(subject.lesson.params(), **{field: files[kind] for field, kind in given.items()})
+    params: Any = replace(
+        subject.lesson.params(), **{field: files[kind] for field, kind in given.items()}
+    )
     timeline = subject.fresh(showing(params, given), f"with own files {given}", steps=1)
     return None if len(timeline) else timeline.stopped or "it shows nothing"
 
@@ -79,7 +86,9 @@ def made_files(folder: Path) -> dict[str, Path]:
     """Write small good files of every kind that a lesson may read, and a bad one; return their paths by name."""
     rng = np.random.default_rng(0)
     p, faces = _ball()
-    cloud = p[rng.integers(len(p), size=400)] * [1.0, 0.7, 0.5] + 0.02 * rng.standard_normal((400, 3))
+    cloud = p[rng.integers(len(p), size=400)] * [1.0, 0.7, 0.5] + 0.02 * rng.standard_normal(
+        (400, 3)
+    )
     turn = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
     K = np.array([[800.0, 0.0, 320.0], [0.0, 800.0, 240.0], [0.0, 0.0, 1.0]])
     scene = rng.uniform([-1.0, -1.0, 4.0], [1.0, 1.0, 6.0], (40, 3))
@@ -91,7 +100,9 @@ def made_files(folder: Path) -> dict[str, Path]:
     coin = _disc()
     contents = {
         "cloud.xyz": _rows(cloud),
-        "mesh.off": b"OFF\n%d %d 0\n" % (len(p), len(faces)) + _rows(p) + _rows(np.c_[np.full(len(faces), 3), faces]),
+        "mesh.off": b"OFF\n%d %d 0\n" % (len(p), len(faces))
+        + _rows(p)
+        + _rows(np.c_[np.full(len(faces), 3), faces]),
         "places.csv": b"51.5,-0.1,one\n35.7,139.7,two\n-33.9,151.2,three\n",
         "edges.csv": b"a,b,1\nb,c,2\nc,a,1\nc,d,1\nd,e,1\ne,c,3\n",
         "circle.txt": _rows(np.c_[np.cos(turn), np.sin(turn)]),
@@ -113,7 +124,9 @@ def made_files(folder: Path) -> dict[str, Path]:
 def _ball() -> tuple[np.ndarray, np.ndarray]:
     """Return an octahedron halved twice and blown up: a closed mesh, its faces counterclockwise from outside."""
     p = np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], float)
-    faces = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]])
+    faces = np.array(
+        [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]]
+    )
     for _ in range(2):
         corners = p[faces]
         halves = (corners + np.roll(corners, -1, axis=1)) / 2
@@ -145,7 +158,9 @@ def _disc() -> np.ndarray:
 
 
 def _rows(table: np.ndarray) -> bytes:
-    return "".join(" ".join(f"{x:.9g}" for x in row) + "\n" for row in np.asarray(table).tolist()).encode()
+    return "".join(
+        " ".join(f"{x:.9g}" for x in row) + "\n" for row in np.asarray(table).tolist()
+    ).encode()
 
 
 def _png(image: np.ndarray) -> bytes:

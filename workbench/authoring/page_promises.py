@@ -45,7 +45,9 @@ def nothing_is_asked_for_that_a_published_page_cannot(subject: Subject) -> Found
     if subject.lesson.page is not None:
         page = str(subject.lesson.page)
         told = [f"{place(page, line)}: it says {said!r}" for line, said in on_page(subject.lesson)]
-        yield from [f"{subject.who}: {one}; {ONLY_LIVE}: write {{{{live: ...}}}}" for one in told] or [None]
+        yield from [
+            f"{subject.who}: {one}; {ONLY_LIVE}: write {{{{live: ...}}}}" for one in told
+        ] or [None]
 
 
 @promise
@@ -55,8 +57,14 @@ def every_formula_is_read(subject: Subject) -> Found:
     if lesson.page is None:
         return
     text = lesson.text()
-    formulas = re.findall(r"<math.*?</math>", page_of(re.sub(r"!\[.*?\]\(.*?\)", "", text), None), re.DOTALL)
-    yield None if formulas else f"{subject.who}: {lesson.page}: the page has no formula between $ and $"
+    formulas = re.findall(
+        r"<math.*?</math>", page_of(re.sub(r"!\[.*?\]\(.*?\)", "", text), None), re.DOTALL
+    )
+    yield (
+        None
+        if formulas
+        else f"{subject.who}: {lesson.page}: the page has no formula between $ and $"
+    )
     for formula in formulas:
         unknown = re.search(r"\\[a-zA-Z]*", formula)
         if unknown is None:
@@ -81,7 +89,11 @@ def every_reference_of_the_page_leads_somewhere(subject: Subject) -> Found:
 
     links = [(where(match.start()), match[1], match[2]) for match in LINK.finditer(text)]
     sought = {match[1]: where(match.start()) for match in TERM.finditer(text)}
-    yield from (f"{at}: a link runs {name!r}, which is no preset" for at, name, _ in links if name not in runs)
+    yield from (
+        f"{at}: a link runs {name!r}, which is no preset"
+        for at, name, _ in links
+        if name not in runs
+    )
     for name, params in runs.items():
         steps = [(at, int(step)) for at, linked, step in links if linked == name and step]
         if not steps and not sought:
@@ -90,7 +102,10 @@ def every_reference_of_the_page_leads_somewhere(subject: Subject) -> Found:
         yield from (opens(run, f"{at}: the link to {name!r}", step) for at, step in steps)
         shown = {path for step in run.known() for path in step.scene}
         sought = {path: at for path, at in sought.items() if not _is_shown(path, shown)}
-    yield from (f"{at}: [[{path}]] names nothing that a run of the lesson shows" for path, at in sought.items())
+    yield from (
+        f"{at}: [[{path}]] names nothing that a run of the lesson shows"
+        for path, at in sought.items()
+    )
 
 
 def _is_shown(path: str, shown: set[str]) -> bool:
@@ -109,7 +124,11 @@ def every_term_of_the_page_is_read(subject: Subject) -> Found:
         return
     seen = re.sub(r"<(code|pre|math)\b.*?</\1>", "", html, flags=re.DOTALL)
     left = re.search(r"\[\[[^<\n]{0,40}", seen)
-    yield None if left is None else f"{subject.who}: {subject.lesson.page}: {left[0]!r} is no term: [[path|words]]"
+    yield (
+        None
+        if left is None
+        else f"{subject.who}: {subject.lesson.page}: {left[0]!r} is no term: [[path|words]]"
+    )
 
 
 @promise
@@ -119,9 +138,7 @@ def nothing_is_left_of_the_scaffold(subject: Subject) -> Found:
         return
     scaffold = frozenset(_long_lines((TEMPLATE / "page.md").read_text(encoding="utf-8")))
     for number, line in enumerate(subject.lesson.text().splitlines(), 1):
-        left = (
-            f"{subject.who}: {place(str(subject.lesson.page), number)}: this line is the scaffold's, not of your lesson"
-        )
+        left = f"{subject.who}: {place(str(subject.lesson.page), number)}: this line is the scaffold's, not of your lesson"
         yield left if line.strip() in scaffold else None
 
 

@@ -78,7 +78,9 @@ class Subject:
         while (steps is None or len(timeline) < steps) and timeline.extend():
             self.tell(f"{doing}, after step {len(timeline) - 1}")
             if time.monotonic() > end and not timeline.finished:
-                timeline.stopped = f"{self.who}: {at(self.lesson.run)}the run takes over {self._seconds:g} s; "
+                timeline.stopped = (
+                    f"{self.who}: {at(self.lesson.run)}the run takes over {self._seconds:g} s; "
+                )
                 timeline.stopped += f"it is at step {len(timeline) - 1}"
                 timeline.finished = True
         return timeline
@@ -112,16 +114,26 @@ def every_step_says_what_happened(subject: Subject) -> Found:
     yield from _captions(where, subject.default())
     captions = {step.caption.text for step in subject.default().known()}
     if len(subject.default()) > 1:
-        yield f"{where}every step has the caption {min(captions)[:60]!r}" if len(captions) == 1 else None
+        yield (
+            f"{where}every step has the caption {min(captions)[:60]!r}"
+            if len(captions) == 1
+            else None
+        )
 
 
 def _captions(where: str, run: Timeline) -> Found:
     before = None
     for k, step in enumerate(run.known()):
         text = step.caption.text
-        yield length_of(f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters")
+        yield length_of(
+            f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters"
+        )
         asked = None if text == before else next(live_words(text, run.lesson), None)
-        yield None if asked is None else f"{where}step {k}: the caption says {asked[1]!r}; {ONLY_LIVE}"
+        yield (
+            None
+            if asked is None
+            else f"{where}step {k}: the caption says {asked[1]!r}; {ONLY_LIVE}"
+        )
         before = text
 
 
@@ -132,7 +144,11 @@ def every_step_shows_something_in_space(subject: Subject) -> Found:
     where = f"{subject.who}: {at(subject.lesson.draw)}"
     for k, step in enumerate(subject.default().known()):
         seen = any(in_space(primitive) for primitive in step.scene.values())
-        yield None if seen else f"{where}step {k} shows nothing in space; a scene has at least one thing there"
+        yield (
+            None
+            if seen
+            else f"{where}step {k} shows nothing in space; a scene has at least one thing there"
+        )
         for path, primitive in step.scene.items():
             kind = kinds.setdefault(path, type(primitive))
             if kind is not type(primitive):
@@ -167,7 +183,11 @@ def the_code_of_every_step_can_be_shown(subject: Subject) -> Found:
             return
         lines, first = step.moment.source
         inside = first <= step.moment.line < first + len(lines)
-        yield None if inside else f"{subject.who}: {at(step.moment.function)}step {k} stands outside of its function"
+        yield (
+            None
+            if inside
+            else f"{subject.who}: {at(step.moment.function)}step {k} stands outside of its function"
+        )
 
 
 @promise
@@ -178,12 +198,18 @@ def every_knob_goes_to_its_ends(subject: Subject) -> Found:
     """
     base = subject.lesson.params()
     for field in fields_of(subject.lesson.params):
-        if any(getattr(base, name, None) not in wanted for name, wanted in field.knob.needs.items()):
+        if any(
+            getattr(base, name, None) not in wanted for name, wanted in field.knob.needs.items()
+        ):
             continue
         for value in ends(field):
             where = f"{field.name} = {value}"
-            run = subject.fresh(replace(base, **{field.name: value}), f"the run at {where}", MOST_STEPS)
-            fine = run.failure is None or run.stopped == subject.default().stopped  # which is told already
+            run = subject.fresh(
+                replace(base, **{field.name: value}), f"the run at {where}", MOST_STEPS
+            )
+            fine = (
+                run.failure is None or run.stopped == subject.default().stopped
+            )  # which is told already
             yield None if fine else f"{run.stopped} (at {where})"
 
 
@@ -216,14 +242,19 @@ def _all_turned(subject: Subject, fields: list[Field], base: Any, plain: Timelin
     values = {field.name: ends(field) for field in fields if field.kind != "path"}
     for k in range(max(map(len, values.values()), default=0)):
         all_at = {name: several[k % len(several)] for name, several in values.items()}
-        if _effect(plain, subject.fresh(replace(base, **all_at), "a run with idle knobs turned", MOST_STEPS)):
+        if _effect(
+            plain,
+            subject.fresh(replace(base, **all_at), "a run with idle knobs turned", MOST_STEPS),
+        ):
             return True
     return False
 
 
 def _has_no_effect(subject: Subject, field: Field, base: Any, plain: Timeline) -> Found:
     for value in [value for value in ends(field) if value != getattr(base, field.name)]:
-        turned = subject.fresh(replace(base, **{field.name: value}), f"a run at {field.name} = {value}", MOST_STEPS)
+        turned = subject.fresh(
+            replace(base, **{field.name: value}), f"a run at {field.name} = {value}", MOST_STEPS
+        )
         found = _effect(plain, turned)
         where = f"{field.name} = {value} changes {found!r} although its needs are not met"
         yield f"{subject.who}: {where}, at {changed(base)}" if found else None
@@ -245,11 +276,17 @@ def params_survive_the_way_through_text(subject: Subject) -> Found:
         again = from_json(kind, to_json(params))
         kept = again == params and hash(again) == hash(params)
         yield (
-            None if kept else f"{subject.who}: {kind.__name__} written as text and read again is {again}, not {params}"
+            None
+            if kept
+            else f"{subject.who}: {kind.__name__} written as text and read again is {again}, not {params}"
         )
     for field in fields_of(kind):
         taken = field.name in RESERVED
-        yield f"{subject.who}: {kind.__name__}.{field.name}: commands use this name" if taken else None
+        yield (
+            f"{subject.who}: {kind.__name__}.{field.name}: commands use this name"
+            if taken
+            else None
+        )
 
 
 @promise
@@ -276,7 +313,11 @@ def _preset(subject: Subject, preset: Preset) -> Found:
 @promise
 def every_question_is_answered_by_its_run(subject: Subject) -> Found:
     """There are questions; the run of each gives a finite answer and a reason, and opens at one of its steps."""
-    yield None if subject.lesson.questions else f"{subject.who}: it has no question to answer before looking"
+    yield (
+        None
+        if subject.lesson.questions
+        else f"{subject.who}: it has no question to answer before looking"
+    )
     for question in subject.lesson.questions:
         yield from _question(subject, question)
 
@@ -309,14 +350,30 @@ def _known_wrong(who: str, question: Question, found: Answer) -> Found:
     """What is said to a wrong answer is said to nobody who is right."""
     if question.choices:
         reply = question.reply(found.value)
-        yield f"{who}: {found.truth!r} is right, and its why is for who chose it wrongly" if reply else None
+        yield (
+            f"{who}: {found.truth!r} is right, and its why is for who chose it wrongly"
+            if reply
+            else None
+        )
     for low, high, words in question.wrong:
         ends = f"{who}: its wrong answer from {low:g} to {high:g}"
-        yield f"{ends} belongs to numbers, and this question has choices" if question.choices else None
-        yield None if low <= high and words.strip() else f"{ends} wants a lowest number, a highest one, and words"
+        yield (
+            f"{ends} belongs to numbers, and this question has choices"
+            if question.choices
+            else None
+        )
+        yield (
+            None
+            if low <= high and words.strip()
+            else f"{ends} wants a lowest number, a highest one, and words"
+        )
         nearest = min(max(low, found.value), high)
         right = abs(nearest - found.value) <= question.tolerance
-        yield f"{ends} meets the right one, {found.value:g} ± {question.tolerance:g}" if right else None
+        yield (
+            f"{ends} meets the right one, {found.value:g} ± {question.tolerance:g}"
+            if right
+            else None
+        )
 
 
 @promise
@@ -325,12 +382,20 @@ def run_takes_only_keywords_beside_params(subject: Subject) -> Found:
     lesson = subject.lesson
     first, *slots = inspect.signature(lesson.run).parameters.values()
     where = f"{subject.who}: {at(lesson.run)}run"
-    yield None if first.name == "params" else f"{where} calls its first argument {first.name!r}; it is 'params'"
+    yield (
+        None
+        if first.name == "params"
+        else f"{where} calls its first argument {first.name!r}; it is 'params'"
+    )
     for slot in slots:
         good = slot.kind is slot.KEYWORD_ONLY and slot.default is not slot.empty
         wanted = f"beside params it takes keywords with defaults: `*, {slot.name}=...`"
         yield None if good else f"{where} takes {slot.name!r}; {wanted}"
-    yield None if NAME.fullmatch(lesson.name) else f"{subject.who}: a lesson's name is letters, digits, - and _"
+    yield (
+        None
+        if NAME.fullmatch(lesson.name)
+        else f"{subject.who}: a lesson's name is letters, digits, - and _"
+    )
 
 
 def ends(field: Field) -> list[Any]:
@@ -355,7 +420,11 @@ def opens(run: Timeline, who: str, step: int) -> str | None:
 def length_of(what: str, length: int, wanted: tuple[int, int], unit: str) -> str | None:
     """Return a line where something is shorter or longer than wanted."""
     least, most = wanted
-    return None if least <= length <= most else f"{what} has {length} {unit}; wanted are {least} to {most:,}"
+    return (
+        None
+        if least <= length <= most
+        else f"{what} has {length} {unit}; wanted are {least} to {most:,}"
+    )
 
 
 def _differs(one: Scene, two: Scene) -> str | None:

@@ -44,7 +44,9 @@ class Edited:
             lesson = load(self.path)
             other = taken_by(lesson)
             if other is not None:
-                raise InputError(f"{self.path}: its name {lesson.name!r} is taken by {other}; give it another")
+                raise InputError(
+                    f"{self.path}: its name {lesson.name!r} is taken by {other}; give it another"
+                )
             first = Timeline(lesson, lesson.params())
             first.extend()
             if first.stopped is not None and not len(first):
@@ -52,7 +54,9 @@ class Edited:
         except InputError as error:
             self.trouble = error
         except SystemExit:
-            self.trouble = AuthorError(f"lesson {self.lesson.name}: {self.path}: its code ends the program")
+            self.trouble = AuthorError(
+                f"lesson {self.lesson.name}: {self.path}: its code ends the program"
+            )
         else:
             self.lesson, self.trouble = lesson, None
         return True
@@ -74,7 +78,11 @@ class Edited:
 def _in_folder(folder: Path) -> Iterator[str]:
     for place, folders, files in os.walk(folder):
         folders[:] = [name for name in folders if not name.startswith((".", "__"))]
-        yield from (os.path.join(place, name) for name in files if name.endswith(FOLLOWED) and name[0] != ".")
+        yield from (
+            os.path.join(place, name)
+            for name in files
+            if name.endswith(FOLLOWED) and name[0] != "."
+        )
 
 
 def carried(params: Any, lesson: Lesson) -> Any:

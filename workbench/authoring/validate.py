@@ -43,7 +43,9 @@ class Verdict:
 def look_at(subject: Subject) -> Found:
     """Yield what every promise finds of a lesson and of its exercises; a promise that cannot be looked at is a line too."""
     for promise in OF_LESSONS:
-        yield from _guarded(lambda promise=promise: promise(subject), subject, promise.__doc__ or "")
+        yield from _guarded(
+            lambda promise=promise: promise(subject), subject, promise.__doc__ or ""
+        )
     try:
         exercises = exercises_of(subject.lesson)
     except (Exception, SystemExit) as error:
@@ -97,7 +99,11 @@ def validate(word: str, told: Callable[[str], object], *, seconds: float = SECON
                     tell(one_line(message["holds"]))
         if not ended:
             last_words.seek(0)
-            tell(one_line(f"{name}: {_how_it_ended(last_words.read(), child.returncode, seconds)}, at: {doing}"))
+            tell(
+                one_line(
+                    f"{name}: {_how_it_ended(last_words.read(), child.returncode, seconds)}, at: {doing}"
+                )
+            )
     return Verdict(name, looked_at, tuple(wrong))
 
 
@@ -146,7 +152,9 @@ def main(word: str, seconds: float) -> None:
     faulthandler.enable()
     catalog()  # of which the lesson's own time is none
     send(doing="loading it")
-    for found in _looked_at(word, seconds, lambda doing: send(doing=doing), lambda name: send(name=name)):
+    for found in _looked_at(
+        word, seconds, lambda doing: send(doing=doing), lambda name: send(name=name)
+    ):
         send(holds=found)
     send(end=True)
     out.close()
@@ -171,4 +179,6 @@ def _limit_memory() -> None:
 
         hard = resource.getrlimit(resource.RLIMIT_AS)[1]
         most = MEGABYTES << 20
-        resource.setrlimit(resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+        resource.setrlimit(
+            resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard)
+        )

@@ -15,7 +15,9 @@ from workbench.data.thinning import evenly
 from workbench.errors import InputError
 from workbench.geometry.shapes.algebraic_fits import fit_algebraic
 
-WIDTH = 2.0  # metres that points are long in the picture, where nothing round says how large they are
+WIDTH = (
+    2.0  # metres that points are long in the picture, where nothing round says how large they are
+)
 LARGEST = 3.0  # times as large as the points a circle may be that they are shown by
 LOOK = 100_000  # signs at the beginning of a file that tell how many columns it has
 _TEXT = (".xyz", ".txt", ".csv", ".tsv", ".dat")
@@ -65,7 +67,9 @@ def read_round(
     center, unit = (low + high) / 2, size / WIDTH
     if shape != "plane" and np.linalg.matrix_rank(p - p.mean(axis=0), tol=1e-9 * size) < wanted:
         flat = "line" if wanted == 2 else "plane"
-        raise InputError(f"{path.name}: the points lie on a {flat}, and nothing round fits them best")
+        raise InputError(
+            f"{path.name}: the points lie on a {flat}, and nothing round fits them best"
+        )
     found = fit_algebraic(p) if shape in ("circle", "sphere") else None
     if found is not None and found[-1] < LARGEST * size:
         center, unit = found[:-1], found[-1]
@@ -87,12 +91,20 @@ def _flat(path: Path, fewest: int) -> np.ndarray | None:
     stamp(path)
     text = text_of(path.read_bytes(), path.name)
     begin = text[: text.rfind("\n", 0, LOOK) + 1] if len(text) > LOOK else text
-    if max((len(words_of(line)) for line in begin.splitlines() if line.lstrip()[:1] != "#"), default=0) != 2:
+    if (
+        max(
+            (len(words_of(line)) for line in begin.splitlines() if line.lstrip()[:1] != "#"),
+            default=0,
+        )
+        != 2
+    ):
         return None
     rows = [words for _, words in number_rows(path, "points", _TEXT)]
     if not all(len(row) == 2 and all(is_number(word) for word in row) for row in rows):
         raise InputError(f"{path.name}: two numbers x y are wanted on each line")
     p = finite(np.array(rows, float).reshape(-1, 2), path.name)
     if len(p) < fewest:
-        raise InputError(f"{path.name}: at least {fewest} lines of two finite numbers x y are wanted")
+        raise InputError(
+            f"{path.name}: at least {fewest} lines of two finite numbers x y are wanted"
+        )
     return p

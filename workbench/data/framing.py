@@ -18,7 +18,9 @@ Unit = Literal["m", "cm", "mm", "km"]
 METRES: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0}
 Up = Literal["z", "y", "-y", "x"]
 Upward = Literal["auto", Up]
-UPRIGHT: dict[Up, np.ndarray] = {  # R_world_file: takes the axis of the file that points up to the world's +Z
+UPRIGHT: dict[
+    Up, np.ndarray
+] = {  # R_world_file: takes the axis of the file that points up to the world's +Z
     "z": np.eye(3),
     "y": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
     "-y": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]),
@@ -68,7 +70,9 @@ class Frame:
         return replace(self, offset=self.offset + np.array([0.0, 0.0, rise]))
 
 
-def frame(p_file: Float[np.ndarray, "n 3"], width: float, *, up: Up = "z", far: float = 0.0) -> Frame:
+def frame(
+    p_file: Float[np.ndarray, "n 3"], width: float, *, up: Up = "z", far: float = 0.0
+) -> Frame:
     """Return the frame in which the box of the points is `width` metres long, upright and about the origin.
 
     Args:
@@ -129,7 +133,9 @@ def likely_up(p: Float[np.ndarray, "n 3"], kind: str) -> Up:
     return "z" if kind == ".stl" else "y"
 
 
-def broad_side_to(p: Float[np.ndarray, "n 3"], eye: Float[np.ndarray, "3"], up: Up) -> Float[np.ndarray, "3 3"]:
+def broad_side_to(
+    p: Float[np.ndarray, "n 3"], eye: Float[np.ndarray, "3"], up: Up
+) -> Float[np.ndarray, "3 3"]:
     """Return R_world_file: the axis `up` becomes +Z, and the broad side of the points turns to an eye.
 
     Of the two broad sides it is the one that needs the smaller turn about the vertical.

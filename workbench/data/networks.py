@@ -55,7 +55,9 @@ def karate(weighted: bool = False) -> Network:
     Research 33, 1977, figures 1 to 3, tables 1 and 3; the corrected matrix of 78 edges, as networkx has it.
     """
     rows = [row.split(":") for row in "".join(_KARATE).split("; ") if row]
-    found = np.array([(int(a), *map(int, one.split("x"))) for a, others in rows for one in others.split()])
+    found = np.array(
+        [(int(a), *map(int, one.split("x"))) for a, others in rows for one in others.split()]
+    )
     edges, weights = found[:, :2], found[:, 2].astype(float)
     classes = np.ones(34, dtype=int)
     classes[list(_WITH_THE_INSTRUCTOR)] = 0
@@ -67,7 +69,9 @@ def karate(weighted: bool = False) -> Network:
     )
 
 
-def drawn(edges: Int[np.ndarray, "e 2"], count: int, width: float = 2.4) -> Float[np.ndarray, "n 3"]:
+def drawn(
+    edges: Int[np.ndarray, "e 2"], count: int, width: float = 2.4
+) -> Float[np.ndarray, "n 3"]:
     """Return places in the plane for nodes without any: as far apart as they are in edges, as well as may be.
 
     Nodes out of each other's reach count as two edges farther apart than any others. The longest side is `width` metres.
@@ -81,7 +85,9 @@ def drawn(edges: Int[np.ndarray, "e 2"], count: int, width: float = 2.4) -> Floa
     return np.column_stack([xy * width / max(np.ptp(xy, axis=0).max(), 1e-9), np.zeros(count)])
 
 
-def dumbbell(count: int, share: float, bridge: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+def dumbbell(
+    count: int, share: float, bridge: int, rng: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
     """Return points of two round lumps, 2 m apart, with a row of points between them; and their classes.
 
     Args:
@@ -95,7 +101,9 @@ def dumbbell(count: int, share: float, bridge: int, rng: np.random.Generator) ->
         Places (n, 3) at z = 0, and 0 or 1 for each: left or right of the middle.
     """
     left = round(share * count)
-    lumps = rng.normal(size=(count, 2)) * 0.25 + np.where(np.arange(count) < left, -1.0, 1.0)[:, None] * [
+    lumps = rng.normal(size=(count, 2)) * 0.25 + np.where(np.arange(count) < left, -1.0, 1.0)[
+        :, None
+    ] * [
         1.0 if bridge else 1.25,
         0,
     ]
@@ -149,7 +157,11 @@ def hexagon_and_triangles() -> Network:
     """
     (hexagon, around), (triangle, third) = _cycle(6, 0.6), _cycle(3, 0.45)
     p = np.concatenate(
-        [hexagon - 0.9 * _RIGHT, triangle + np.array([0.75, 0.5, 0]), triangle + np.array([0.75, -0.5, 0])]
+        [
+            hexagon - 0.9 * _RIGHT,
+            triangle + np.array([0.75, 0.5, 0]),
+            triangle + np.array([0.75, -0.5, 0]),
+        ]
     )
     edges = np.concatenate([around, third + 6, third + 9])
     return Network(p=p, edges=edges, weights=np.ones(12), classes=np.repeat([0, 1], 6))

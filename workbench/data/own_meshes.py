@@ -13,7 +13,9 @@ from workbench.geometry.meshes.repair import oriented, split_where_sheets_touch,
 from workbench.numerals import counted
 
 
-def read_surface(path: Path, most: int) -> tuple[Float[ndarray, "v 3"], Int[ndarray, "f 3"], tuple[str, ...]]:
+def read_surface(
+    path: Path, most: int
+) -> tuple[Float[ndarray, "v 3"], Int[ndarray, "f 3"], tuple[str, ...]]:
     """Read a mesh and mend it where its surface stays as it is.
 
     Args:
@@ -28,13 +30,17 @@ def read_surface(path: Path, most: int) -> tuple[Float[ndarray, "v 3"], Int[ndar
     """
     p, faces = read_mesh(path)
     if len(faces) > 2 * most:
-        raise InputError(f"{path.name}: {len(faces):,} faces; at most {2 * most:,} are measured, simplify it first")
+        raise InputError(
+            f"{path.name}: {len(faces):,} faces; at most {2 * most:,} are measured, simplify it first"
+        )
     p, welded_faces = welded(p, faces)
     once = without_repeats(welded_faces)
     agreeing = oriented(once)
     placed, faces = split_where_sheets_touch(p, agreeing)
     if len(placed) > most:
-        raise InputError(f"{path.name}: {len(placed):,} vertices; at most {most:,} are measured, simplify it first")
+        raise InputError(
+            f"{path.name}: {len(placed):,} vertices; at most {most:,} are measured, simplify it first"
+        )
     try:
         check_mesh(placed, faces)
     except InputError as error:
@@ -44,12 +50,17 @@ def read_surface(path: Path, most: int) -> tuple[Float[ndarray, "v 3"], Int[ndar
     done = (
         (repeats, f"{counted(repeats, 'face')} listed twice left out"),
         (turned, f"{counted(turned, 'face')} turned round to agree with the others"),
-        (split, f"{counted(split, 'vertex', 'vertices')} added where sheets only touch, one for each sheet"),
+        (
+            split,
+            f"{counted(split, 'vertex', 'vertices')} added where sheets only touch, one for each sheet",
+        ),
     )
     return placed, faces, tuple(words for count, words in done if count)
 
 
-def read_welded(path: Path, most: int, done: str) -> tuple[Float[ndarray, "v 3"], Int[ndarray, "f 3"]]:
+def read_welded(
+    path: Path, most: int, done: str
+) -> tuple[Float[ndarray, "v 3"], Int[ndarray, "f 3"]]:
     """Read a mesh as it is, equal vertices made one.
 
     Args:
@@ -65,7 +76,9 @@ def read_welded(path: Path, most: int, done: str) -> tuple[Float[ndarray, "v 3"]
     """
     p, faces = read_mesh(path)
     if len(faces) > most:
-        raise InputError(f"{path.name}: {len(faces):,} faces; at most {most:,} are {done}, simplify it first")
+        raise InputError(
+            f"{path.name}: {len(faces):,} faces; at most {most:,} are {done}, simplify it first"
+        )
     p, faces = welded(p, faces)
     if not surface_area(p, faces) > 0:
         raise InputError(f"{path.name}: its faces have no area")

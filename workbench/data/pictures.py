@@ -100,9 +100,13 @@ def names_in(path: Path) -> tuple[str, ...]:
             f"{path.name or path}: {len(found) or 'no'} pictures in it; up to {MOST_PICTURES} jpg or png are taken"
         )
     stems = [_stem(name) for name in found]
-    twice = next((name for name, stem in zip(found, stems, strict=True) if stems.count(stem) > 1), None)
+    twice = next(
+        (name for name, stem in zip(found, stems, strict=True) if stems.count(stem) > 1), None
+    )
     if twice is not None:
-        raise InputError(f"{path.name or path}: two pictures are called {PurePosixPath(twice).stem}")
+        raise InputError(
+            f"{path.name or path}: two pictures are called {PurePosixPath(twice).stem}"
+        )
     return tuple(sorted(found, key=_counted))
 
 
@@ -147,7 +151,9 @@ def matched(path: Path, views: Sequence[str], count: int) -> tuple[str | None, .
 
 
 def _is_picture(name: str) -> bool:
-    return PurePosixPath(name).suffix.lower() in ENDINGS and not PurePosixPath(name).name.startswith(".")
+    return PurePosixPath(name).suffix.lower() in ENDINGS and not PurePosixPath(
+        name
+    ).name.startswith(".")
 
 
 def _stem(name: str) -> str:
@@ -157,14 +163,19 @@ def _stem(name: str) -> str:
 
 def _counted(name: str) -> list[tuple[int, str]]:
     """Return a key by which numbers in names count as numbers."""
-    return [(int(part), "") if part.isdecimal() else (0, part) for part in re.split(r"([0-9]+)", name.casefold())]
+    return [
+        (int(part), "") if part.isdecimal() else (0, part)
+        for part in re.split(r"([0-9]+)", name.casefold())
+    ]
 
 
 def _opened_zip(path: Path) -> zipfile.ZipFile:
     try:
         return zipfile.ZipFile(path)
     except Exception as error:  # what is damaged raises many kinds
-        raise InputError(f"{path.name or path}: not readable as a zip ({type(error).__name__})") from None
+        raise InputError(
+            f"{path.name or path}: not readable as a zip ({type(error).__name__})"
+        ) from None
 
 
 def _source(path: Path, name: str) -> Path | io.BytesIO:
@@ -181,13 +192,19 @@ def _source(path: Path, name: str) -> Path | io.BytesIO:
         except InputError:
             raise
         except Exception as error:  # damaged, encrypted, packed in a way that is not known
-            raise InputError(f"{path.name or path}: {name} cannot be unpacked ({type(error).__name__})") from None
+            raise InputError(
+                f"{path.name or path}: {name} cannot be unpacked ({type(error).__name__})"
+            ) from None
 
 
 def _size(path: Path, name: str) -> tuple[int, int]:
     with opened_image(_source(path, name), PurePosixPath(name).name) as image:
         w, h = image.size
-        return (h, w) if _is_of_a_camera(image) and image.getexif().get(TURNED[0]) in TURNED[1] else (w, h)
+        return (
+            (h, w)
+            if _is_of_a_camera(image) and image.getexif().get(TURNED[0]) in TURNED[1]
+            else (w, h)
+        )
 
 
 def _is_of_a_camera(image: "Image.Image") -> bool:
@@ -207,8 +224,12 @@ def _upright(path: Path, name: str, most: int | None = None, kind: str | None = 
     with opened_image(_source(path, name), PurePosixPath(name).name) as image:
         kind = kind or ("L" if image.mode in ("1", "L", "LA") else "RGB")
         if most is not None:
-            image.draft(kind, (most, most))  # a JPEG is decoded at half or quarter size where that is enough
-        upright = (ImageOps.exif_transpose(image) if _is_of_a_camera(image) else image).convert(kind)
+            image.draft(
+                kind, (most, most)
+            )  # a JPEG is decoded at half or quarter size where that is enough
+        upright = (ImageOps.exif_transpose(image) if _is_of_a_camera(image) else image).convert(
+            kind
+        )
         if most is not None and max(upright.size) > most:
             upright.thumbnail((most, most))
         return np.array(upright)

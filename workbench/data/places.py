@@ -56,26 +56,41 @@ def read_places(path: Path) -> Places:
     names, degrees = list[str](), list[tuple[float, float]]()
     for i, line in rows:
         cells = _cells(line)
-        if i == rows[0][0] and len(cells) > 1 and not is_number(cells[0]) and not is_number(cells[1]):
+        if (
+            i == rows[0][0]
+            and len(cells) > 1
+            and not is_number(cells[0])
+            and not is_number(cells[1])
+        ):
             continue
         degrees.append(_place(cells, path.name, i))
         names.append(" ".join(cells[2:])[:40] or f"place {len(degrees)}")
     if not 2 <= len(degrees) <= MOST_PLACES:
-        raise InputError(f"{path.name}: {len(degrees):,} places; 2 to {MOST_PLACES:,} are wanted, one on each line")
+        raise InputError(
+            f"{path.name}: {len(degrees):,} places; 2 to {MOST_PLACES:,} are wanted, one on each line"
+        )
     return Places(tuple(names), np.array(degrees))
 
 
 def _cells(line: str) -> list[str]:
     mark = next((mark for mark in "\t;" if mark in line), ",")
-    return [cell.strip() for cell in next(csv.reader([line], delimiter=mark, skipinitialspace=True))]
+    return [
+        cell.strip() for cell in next(csv.reader([line], delimiter=mark, skipinitialspace=True))
+    ]
 
 
 def _place(cells: list[str], name: str, line: int) -> tuple[float, float]:
     if len(cells) < 2 or not (is_number(cells[0]) and is_number(cells[1])):
-        raise InputError(f"{name}, line {line}: a latitude, a longitude and maybe a name are wanted")
+        raise InputError(
+            f"{name}, line {line}: a latitude, a longitude and maybe a name are wanted"
+        )
     latitude, longitude = float(cells[0]), float(cells[1])
     if not abs(latitude) <= 90:
-        raise InputError(f"{name}, line {line}: latitude {cells[0][:12]} is beyond a pole; the latitude comes first")
+        raise InputError(
+            f"{name}, line {line}: latitude {cells[0][:12]} is beyond a pole; the latitude comes first"
+        )
     if not -180 <= longitude <= 360:
-        raise InputError(f"{name}, line {line}: longitude {cells[1][:12]} is not between −180 and 360")
+        raise InputError(
+            f"{name}, line {line}: longitude {cells[1][:12]} is not between −180 and 360"
+        )
     return latitude, longitude - 360.0 * (longitude > 180)

@@ -41,7 +41,9 @@ class Scans:
         """Return how far a motion is from the truth."""
         return motion_error(T_target_source, self.T_truth, self.p_source)
 
-    def right(self, pairs: Int[np.ndarray, "n 2"], distance: float) -> Bool[np.ndarray, " n"] | None:
+    def right(
+        self, pairs: Int[np.ndarray, "n 2"], distance: float
+    ) -> Bool[np.ndarray, " n"] | None:
         """Return which pairs (source, target) lie within a distance of each other in truth; None where nobody knows."""
         if self.T_truth is None:
             return None
@@ -50,7 +52,14 @@ class Scans:
 
 
 def read_scans(
-    target: Path, source: Path, truth: Path | None, *, width: float, up: Up, voxel: float, rng: np.random.Generator
+    target: Path,
+    source: Path,
+    truth: Path | None,
+    *,
+    width: float,
+    up: Up,
+    voxel: float,
+    rng: np.random.Generator,
 ) -> Scans:
     """Return a person's two scans, each about its own middle and as large as its unit makes it beside the target.
 
@@ -76,12 +85,18 @@ def read_scans(
     thinned = [voxel_means(points, voxel * width) for points in fine]
     for file, points in zip(files, thinned, strict=True):
         if len(points) < FEWEST:
-            raise InputError(f"{file.name}: {len(points)} points are left after thinning; {FEWEST} at least are needed")
+            raise InputError(
+                f"{file.name}: {len(points)} points are left after thinning; {FEWEST} at least are needed"
+            )
         if len(points) > MOST:
-            raise InputError(f"{file.name}: {len(points):,} points after thinning, at most {MOST:,}; raise voxel")
+            raise InputError(
+                f"{file.name}: {len(points):,} points after thinning, at most {MOST:,}; raise voxel"
+            )
     T_truth = None
     if truth is not None:
-        T_truth = how.shown_motion(read_pose(truth, *files)) @ motion(np.eye(3), how.shown(theirs.centre))
+        T_truth = how.shown_motion(read_pose(truth, *files)) @ motion(
+            np.eye(3), how.shown(theirs.centre)
+        )
     return Scans(
         p_target=thinned[0],
         p_source=thinned[1],

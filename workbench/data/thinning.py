@@ -22,16 +22,22 @@ def voxel_means(p: Float[np.ndarray, "n 3"], size: float) -> Float[np.ndarray, "
     """
     if not size > 0:
         raise ValueError(f"a voxel has a positive size, not {size}")
-    voxels = np.floor((p - p.min(axis=0)) / size)  # stay floats: a far stray point would overflow whole numbers
+    voxels = np.floor(
+        (p - p.min(axis=0)) / size
+    )  # stay floats: a far stray point would overflow whole numbers
     order = np.lexsort(voxels.T[::-1])
     starts = np.flatnonzero(np.r_[True, (np.diff(voxels[order], axis=0) != 0).any(axis=1)])
-    origin = p[order[starts]]  # means about a point of the voxel keep their digits far from the origin
+    origin = p[
+        order[starts]
+    ]  # means about a point of the voxel keep their digits far from the origin
     counts = np.diff(np.r_[starts, len(p)])
     offsets = p[order] - np.repeat(origin, counts, axis=0)
     return origin + np.add.reduceat(offsets, starts, axis=0) / counts[:, None]
 
 
-def some_points(p: Float[np.ndarray, "n d"], most: int, rng: np.random.Generator) -> Float[np.ndarray, "m d"]:
+def some_points(
+    p: Float[np.ndarray, "n d"], most: int, rng: np.random.Generator
+) -> Float[np.ndarray, "m d"]:
     """Return so many points drawn by chance, in the order they had; all of them where there are no more.
 
     Nothing is drawn from `rng` where all are returned.

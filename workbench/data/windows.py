@@ -8,7 +8,10 @@ LEAST_SPAN = 60.0  # grey levels: noise alone shall not look like a texture
 
 
 def framed(
-    picture: UInt8[np.ndarray, "h w 3"], center: tuple[int, int], window: int, frame: tuple[int, int, int]
+    picture: UInt8[np.ndarray, "h w 3"],
+    center: tuple[int, int],
+    window: int,
+    frame: tuple[int, int, int],
 ) -> UInt8[np.ndarray, "h w 3"]:
     """Return a copy of a picture with a frame of a colour around the window at `center` (u, v), as far as it is inside."""
     u, v = center

@@ -44,7 +44,8 @@ class Call:
     def key(self) -> tuple[Any, ...]:
         """The arguments as what can be looked up: arrays as (shape, type, bytes)."""
         return tuple(
-            (arg.shape, arg.dtype.str, arg.tobytes()) if isinstance(arg, np.ndarray) else arg for arg in self.args
+            (arg.shape, arg.dtype.str, arg.tobytes()) if isinstance(arg, np.ndarray) else arg
+            for arg in self.args
         )
 
 
@@ -88,10 +89,14 @@ class Candidate:
         except Exception as error:  # one of our own functions, which may be wrong on purpose
             self._keep(args, raised(error), right)
             name, names = type(error).__name__, tuple(kind.__name__ for kind in type(error).__mro__)
-            raise StudentError(f"{self.__name__} raised {name}: {error}", "raised", name, errors=names) from None
+            raise StudentError(
+                f"{self.__name__} raised {name}: {error}", "raised", name, errors=names
+            ) from None
         self._keep(args, Answer(value, ""), right)
         pairs = zip(args, given, strict=True)
-        self._changed = any(isinstance(arg, np.ndarray) and arg.tobytes() != now.tobytes() for arg, now in pairs)
+        self._changed = any(
+            isinstance(arg, np.ndarray) and arg.tobytes() != now.tobytes() for arg, now in pairs
+        )
         if self.changed_inputs:
             self.changing.append(args)
         try:
@@ -143,29 +148,41 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
         value = _as_values(value, expected)
         if not isinstance(value, (tuple, list)) or len(value) != len(expected):
             raise StudentError(
-                f"{name} returned {_kind(value)}; the contract asks for {len(expected)} values", "result"
+                f"{name} returned {_kind(value)}; the contract asks for {len(expected)} values",
+                "result",
             )
         return tuple(
-            held_to_contract(v, e, f"{name}[{i}]") for i, (v, e) in enumerate(zip(value, expected, strict=True))
+            held_to_contract(v, e, f"{name}[{i}]")
+            for i, (v, e) in enumerate(zip(value, expected, strict=True))
         )
     wanted = np.asarray(expected)
     if value is None or isinstance(value, str):
         raise StudentError(
-            f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}. Is a return missing?", "result"
+            f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}. Is a return missing?",
+            "result",
         )
     try:
         got = np.asarray(value)
     except ValueError:
         raise StudentError(
-            f"{name} returned rows of unequal length; the contract asks for {_kind(expected)}", "result"
+            f"{name} returned rows of unequal length; the contract asks for {_kind(expected)}",
+            "result",
         ) from None
     if got.shape != wanted.shape:
-        raise StudentError(f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}", "result")
+        raise StudentError(
+            f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}", "result"
+        )
     if got.dtype.kind not in "biuf" or (wanted.dtype.kind in "iu" and got.dtype.kind not in "iu"):
-        raise StudentError(f"{name} returned {got.dtype} values; the contract asks for {_kind(expected)}", "result")
+        raise StudentError(
+            f"{name} returned {got.dtype} values; the contract asks for {_kind(expected)}", "result"
+        )
     if wanted.dtype.kind == "b" and got.dtype.kind != "b":
-        raise StudentError(f"{name} returned {got.dtype} values; the contract asks for true or false", "result")
-    plain = got.astype({"b": np.bool_, "i": np.int64, "u": np.int64}.get(wanted.dtype.kind, np.float64))
+        raise StudentError(
+            f"{name} returned {got.dtype} values; the contract asks for true or false", "result"
+        )
+    plain = got.astype(
+        {"b": np.bool_, "i": np.int64, "u": np.int64}.get(wanted.dtype.kind, np.float64)
+    )
     if wanted.dtype.kind == "f":
         _must_be_judgeable(plain, wanted, name)
     return plain if isinstance(expected, np.ndarray) else plain.item()
@@ -178,7 +195,9 @@ def _as_values(value: Any, expected: Sequence[Any]) -> Any:
     whole = [np.asarray(one).dtype.kind in "iu" for one in expected]
     counted = [value.dtype.kind == "f" and bool((np.mod(part, 1) == 0).all()) for part in value]
     pairs = zip(value, whole, counted, strict=True)
-    return [part.astype(np.int64) if asked and is_whole else part for part, asked, is_whole in pairs]
+    return [
+        part.astype(np.int64) if asked and is_whole else part for part, asked, is_whole in pairs
+    ]
 
 
 def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:
@@ -191,7 +210,11 @@ def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:
         what = f"{got}" if got.ndim == 0 else f"{strange.sum()} of {got.size} values not finite"
     elif np.abs(got[finite]).max(initial=0.0) > most:
         strange, asked = finite & (np.abs(got) > most), "numbers that can be computed with"
-        what = f"{got}" if got.ndim == 0 else f"{strange.sum()} of {got.size} values too large to be judged"
+        what = (
+            f"{got}"
+            if got.ndim == 0
+            else f"{strange.sum()} of {got.size} values too large to be judged"
+        )
     else:
         return
     at = tuple(int(i) for i in np.argwhere(strange)[0])
@@ -213,8 +236,16 @@ def _kind(value: Any) -> str:
     if value is None:
         return "nothing"
     if isinstance(value, np.ndarray) and value.ndim:
-        what = {"b": "true or false", "i": "whole numbers", "u": "whole numbers"}.get(value.dtype.kind, "numbers")
+        what = {"b": "true or false", "i": "whole numbers", "u": "whole numbers"}.get(
+            value.dtype.kind, "numbers"
+        )
         return f"an array {value.shape} of {what}"
     if isinstance(value, (list, tuple)):
         return f"{len(value)} values"
-    return "a text" if isinstance(value, str) else "a whole number" if isinstance(value, int) else "a number"
+    return (
+        "a text"
+        if isinstance(value, str)
+        else "a whole number"
+        if isinstance(value, int)
+        else "a number"
+    )

@@ -88,13 +88,19 @@ def grade_class(
     return ordered
 
 
-def _graded(waiting: list[Task], executor: Executor | None, jobs: int) -> Generator[tuple[str, Result], None, None]:
+def _graded(
+    waiting: list[Task], executor: Executor | None, jobs: int
+) -> Generator[tuple[str, Result], None, None]:
     if executor is None:
-        graded = parallel_map(_grade, waiting, jobs, seconds=LONGEST_SECONDS, lost=_lost, start="fork")
+        graded = parallel_map(
+            _grade, waiting, jobs, seconds=LONGEST_SECONDS, lost=_lost, start="fork"
+        )
         with contextlib.closing(graded):  # type: ignore[type-var]
             yield from ((handed.student, result) for (handed, _), result in graded)
         return
-    futures: dict[Future, str] = {executor.submit(_grade, task): task[0].student for task in waiting}
+    futures: dict[Future, str] = {
+        executor.submit(_grade, task): task[0].student for task in waiting
+    }
     for future in as_completed(futures):
         yield futures[future], future.result()
 
@@ -167,7 +173,9 @@ def grade_folder(
     asked.exercises()  # one that is not there is told before the first student
     wall = best() if asked.sandbox == "auto" else named(asked.sandbox)
     if wall.name == "user":
-        raise InputError("--sandbox user: is for one submission in a container; here it could read the others")
+        raise InputError(
+            "--sandbox user: is for one submission in a container; here it could read the others"
+        )
     if not wall.holds and asked.sandbox != "none":
         raise InputError(
             f"nothing here shuts submissions in, so marks would not be safe: {wall.why}. Mend that, or say --sandbox none "
@@ -196,7 +204,9 @@ def grade_folder(
                 progress=progress,
             )
         except KeyboardInterrupt:
-            tell.write(f"\nInterrupted: {done[0]} of {done[1] or '?'} graded; the same command goes on from there.\n")
+            tell.write(
+                f"\nInterrupted: {done[0]} of {done[1] or '?'} graded; the same command goes on from there.\n"
+            )
             return 130
     result.write(summary(graded, worth) + f"\nResults: {out / 'class.csv'}, {out / 'matrix.csv'}\n")
     some = [one for one in graded if one["reports"]]
@@ -225,7 +235,9 @@ def _dask_executor(address: str, stack: contextlib.ExitStack) -> Executor:
     try:
         from distributed import Client  # type: ignore[import-not-found]
     except ImportError:
-        raise InputError("--dask needs the package `distributed`: pip install distributed") from None
+        raise InputError(
+            "--dask needs the package `distributed`: pip install distributed"
+        ) from None
     try:
         client = stack.enter_context(Client(address, timeout="10s"))
     except OSError:

@@ -16,7 +16,17 @@ from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError
 from workbench.lesson import Lesson
 from workbench.run.timeline import Step, Timeline
-from workbench.scene import Caption, Mesh, Points, Primitive, Scalar, Scene, Segments, caption_of, ghost
+from workbench.scene import (
+    Caption,
+    Mesh,
+    Points,
+    Primitive,
+    Scalar,
+    Scene,
+    Segments,
+    caption_of,
+    ghost,
+)
 
 TOLERANCE = 1e-6  # of the larger of 1 and the size of what is compared
 DIFFERENCE = "exercise/difference"
@@ -56,7 +66,10 @@ class _Beside:
     """
 
     def __init__(self, function: Function, exercise: Exercise):
-        self._candidate, self._contract = Candidate(function, exercise.reference, remember=False), exercise.contract
+        self._candidate, self._contract = (
+            Candidate(function, exercise.reference, remember=False),
+            exercise.contract,
+        )
         self.called = self.differed = False
 
     def __call__(self, *args: Any) -> Any:
@@ -85,7 +98,17 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
                 return
             except Exception as error:
                 trouble, line = _trouble(error, exercise)
-                yield Pair(state_ours, None, trouble, line, float("nan"), not differed, beside.called, scene_ours, {})
+                yield Pair(
+                    state_ours,
+                    None,
+                    trouble,
+                    line,
+                    float("nan"),
+                    not differed,
+                    beside.called,
+                    scene_ours,
+                    {},
+                )
                 return
             difference = gap(scene_ours, scene)
             differs = beside.differed and not difference <= TOLERANCE
@@ -97,11 +120,15 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
     def draw(pair: Pair) -> Scene:
         scene = {**pair.scene, **pair.ghost}
         if pair.theirs is None:
-            return scene | {"caption": Caption(pair.trouble, "wrong"), DIFFERENCE: _difference(float("nan"))}
+            return scene | {
+                "caption": Caption(pair.trouble, "wrong"),
+                DIFFERENCE: _difference(float("nan")),
+            }
         if pair.first:
             said = caption_of(scene).text
             scene["caption"] = Caption(
-                f"Here your run first differs from the reference (its ghost is faint). {said}", "wrong"
+                f"Here your run first differs from the reference (its ghost is faint). {said}",
+                "wrong",
             )
         return scene | ({DIFFERENCE: _difference(pair.difference)} if pair.called else {})
 
@@ -113,12 +140,19 @@ def _trouble(error: Exception, exercise: Exercise) -> tuple[str, int]:
     if isinstance(error, StudentError):
         return str(error), error.line
     said = " ".join(str(error).split())[:200]
-    return f"The lesson cannot go on with what {exercise.name} returned ({type(error).__name__}: {said}).", 0
+    return (
+        f"The lesson cannot go on with what {exercise.name} returned ({type(error).__name__}: {said}).",
+        0,
+    )
 
 
 def _difference(value: float) -> Scalar:
     return Scalar(
-        value if np.isfinite(value) else float("nan"), "largest difference", "Difference to the reference", "", "wrong"
+        value if np.isfinite(value) else float("nan"),
+        "largest difference",
+        "Difference to the reference",
+        "",
+        "wrong",
     )
 
 
@@ -147,7 +181,9 @@ def _apart(a: Primitive, b: Primitive) -> float:
         p_a, p_b = _in_world(a), _in_world(b)
         if p_a.shape != p_b.shape:
             return float("inf")
-        return float(np.abs(p_a - p_b).max(initial=0.0)) / max(1.0, float(np.abs(p_a).max(initial=0.0)))
+        return float(np.abs(p_a - p_b).max(initial=0.0)) / max(
+            1.0, float(np.abs(p_a).max(initial=0.0))
+        )
     return 0.0
 
 

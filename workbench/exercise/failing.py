@@ -41,7 +41,9 @@ def record_failing(
             return None
         timeline, at = found
         states = [step.state for step in timeline.known()][max(0, at - 1) :]
-        shown = Timeline(replace(timeline.lesson, run=lambda params: iter(states)), timeline.params).complete()
+        shown = Timeline(
+            replace(timeline.lesson, run=lambda params: iter(states)), timeline.params
+        ).complete()
     out = path.with_suffix(".rrd") if out is None else out
     try:
         out.write_bytes(record_bytes(shown))
@@ -66,11 +68,17 @@ def failing_run(
     lesson = catalog()[exercise.lesson] if lesson is None else lesson
     end = time.monotonic() + SECONDS
     paired = driven(lesson, exercise, student)
-    first = [] if exercise.contract.preset is None else [lesson.preset(exercise.contract.preset).params]
+    first = (
+        [] if exercise.contract.preset is None else [lesson.preset(exercise.contract.preset).params]
+    )
     for params in (*first, lesson.params(), *(preset.params for preset in lesson.presets)):
         timeline = Timeline(paired, params)
         at = None
-        while time.monotonic() < end and (at is None or len(timeline) <= at + AFTER) and timeline.extend():
+        while (
+            time.monotonic() < end
+            and (at is None or len(timeline) <= at + AFTER)
+            and timeline.extend()
+        ):
             if at is None:
                 at = first_difference(timeline.known())
         if at is not None:

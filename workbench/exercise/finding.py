@@ -21,7 +21,11 @@ def exercises() -> dict[str, Exercise]:
 
     A third party's exercise whose name is taken, or that cannot be loaded, is left out with a warning.
     """
-    return {exercise.name: exercise for lesson in catalog().values() for exercise in exercises_of(lesson)}
+    return {
+        exercise.name: exercise
+        for lesson in catalog().values()
+        for exercise in exercises_of(lesson)
+    }
 
 
 def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
@@ -33,7 +37,11 @@ def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
         InputError: If an exercise of the course, or of a lesson that is not in the catalogue, says too little.
     """
     listed = catalog().get(lesson.name)
-    return _exercises_in(lesson) if listed is None or listed.params is not lesson.params else usable()[lesson.name]
+    return (
+        _exercises_in(lesson)
+        if listed is None or listed.params is not lesson.params
+        else usable()[lesson.name]
+    )
 
 
 @functools.cache
@@ -63,11 +71,18 @@ def _not_taken(lesson: Lesson, places: dict[str, str]) -> tuple[Exercise, ...]:
     try:
         for exercise in _exercises_in(lesson):
             if exercise.name in places:
-                _leave_out(f"exercise {exercise.name} of", lesson, f"its name is taken by {places[exercise.name]}")
+                _leave_out(
+                    f"exercise {exercise.name} of",
+                    lesson,
+                    f"its name is taken by {places[exercise.name]}",
+                )
             else:
                 kept.append(exercise)
                 places[exercise.name] = _place(lesson)
-    except (Exception, SystemExit) as error:  # somebody else's exercises must not take the course's down
+    except (
+        Exception,
+        SystemExit,
+    ) as error:  # somebody else's exercises must not take the course's down
         _leave_out("the exercises of", lesson, f"{type(error).__name__}: {error}")
     return tuple(kept)
 
@@ -91,7 +106,9 @@ def _exercises_in(lesson: Lesson) -> tuple[Exercise, ...]:
                 lesson.preset(exercise.contract.preset)
             except InputError as error:
                 raise InputError(f"exercise {exercise.name}: {error}") from None
-    return tuple(sorted(found, key=lambda exercise: (slots.index(exercise.contract.slot), exercise.name)))
+    return tuple(
+        sorted(found, key=lambda exercise: (slots.index(exercise.contract.slot), exercise.name))
+    )
 
 
 def _leave_out(what: str, lesson: Lesson, why: str) -> None:
@@ -116,7 +133,11 @@ def find_exercise(name: str, lesson: Lesson | None = None) -> Exercise:
 
 def known(lesson: Lesson | None) -> dict[str, Exercise]:
     """Return the exercises of a lesson by name; of the catalogue where none is given."""
-    return exercises() if lesson is None else {exercise.name: exercise for exercise in exercises_of(lesson)}
+    return (
+        exercises()
+        if lesson is None
+        else {exercise.name: exercise for exercise in exercises_of(lesson)}
+    )
 
 
 def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
@@ -136,13 +157,17 @@ def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tupl
         raise InputError(submission.broken)
     asked = known(lesson)
     said = said_for(submission, lesson)
-    found = said or tuple(exercise for name, exercise in asked.items() if name in submission.defines)
+    found = said or tuple(
+        exercise for name, exercise in asked.items() if name in submission.defines
+    )
     if not found:
         listed = ", ".join(asked) or "there are none"
         raise InputError(f"{submission.file}: defines none of the exercises' functions ({listed})")
     missing = [exercise.name for exercise in found if exercise.name not in submission.defines]
     if missing:
-        raise InputError(f"{submission.file}: is for {', '.join(missing)} and defines {_nearly(submission, missing)}")
+        raise InputError(
+            f"{submission.file}: is for {', '.join(missing)} and defines {_nearly(submission, missing)}"
+        )
     return found
 
 
@@ -154,9 +179,14 @@ def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exer
     exercise's ("final_project.py"), and count only where the file defines no exercise's function at all.
     """
     asked = known(lesson)
-    lines, words = [name for name in submission.said if name in asked], _in_words(submission.file, asked)
+    lines, words = (
+        [name for name in submission.said if name in asked],
+        _in_words(submission.file, asked),
+    )
     said = next((names for names in (lines, words) if not submission.defines.isdisjoint(names)), [])
-    if not said and (lines or submission.defines.isdisjoint(asked) or _begins_with_my(submission.file, words)):
+    if not said and (
+        lines or submission.defines.isdisjoint(asked) or _begins_with_my(submission.file, words)
+    ):
         said = lines or words
     return tuple(asked[name] for name in said)
 
@@ -168,7 +198,9 @@ def _in_words(file: str, names: Iterable[str]) -> list[str]:
     for name in names:
         parts = name.lower().split("_")
         ends = range(len(parts), len(words) + 1)
-        places += [(end - len(parts), end, name) for end in ends if words[end - len(parts) : end] == parts]
+        places += [
+            (end - len(parts), end, name) for end in ends if words[end - len(parts) : end] == parts
+        ]
     longest = [
         (first, end, name)
         for first, end, name in places
@@ -192,4 +224,8 @@ def _nearly(submission: Submission, missing: list[str]) -> str:
     """Say that a file has no such function, and which other spelling it has."""
     wanted = {name.replace("_", "").lower() for name in missing}
     near = [name for name in sorted(submission.defines) if name.replace("_", "").lower() in wanted]
-    return f"no such function; it defines {near[0]}, which is another name" if near else "no such function"
+    return (
+        f"no such function; it defines {near[0]}, which is another name"
+        if near
+        else "no such function"
+    )

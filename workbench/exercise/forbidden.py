@@ -21,7 +21,9 @@ def forbidden_use(given: Submission, exercise: Exercise) -> str:
         for path, line in (use for part in parts for use in part.uses):
             module = next((one for one in forbid if f"{path}.".startswith(f"{one}.")), None)
             if module is not None:
-                where = f"{file}, line {line}: uses {module}, which is forbidden for {exercise.name}"
+                where = (
+                    f"{file}, line {line}: uses {module}, which is forbidden for {exercise.name}"
+                )
                 return f"{where}, since it solves the task: write it yourself."
     return ""
 

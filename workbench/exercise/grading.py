@@ -115,11 +115,18 @@ def grade_file(
     with SandboxedFunction(
         given, exercise.name, seconds=seconds, wall=wall, budget=CallBudget(seconds), **room
     ) as student:
-        return grade_function(student, exercise, hidden=hidden, file=student.submission.file, seed=seed)
+        return grade_function(
+            student, exercise, hidden=hidden, file=student.submission.file, seed=seed
+        )
 
 
 def grade_function(
-    function: Function, exercise: Exercise, *, hidden: bool = True, file: str = "", seed: int | None = None
+    function: Function,
+    exercise: Exercise,
+    *,
+    hidden: bool = True,
+    file: str = "",
+    seed: int | None = None,
 ) -> Report:
     """Grade a callable: a student's function in its process, or one of ours.
 
@@ -160,12 +167,19 @@ def grade_function(
     )
 
 
-def _refused(said: str, exercise: Exercise, hidden: bool, file: str, wall: Wall, seed: int | None) -> Report:
+def _refused(
+    said: str, exercise: Exercise, hidden: bool, file: str, wall: Wall, seed: int | None
+) -> Report:
     """Return the report on a file that uses what is forbidden: nothing of it is run, and every check says why."""
     run = [check for check in exercise.checks if check.public or hidden]
     outcomes = tuple(Outcome(check, fail(said), "forbidden") for check in run)
     return Report(
-        exercise, file, outcomes, tuple(one for one in exercise.checks if one not in run), wall=wall, seed=seed
+        exercise,
+        file,
+        outcomes,
+        tuple(one for one in exercise.checks if one not in run),
+        wall=wall,
+        seed=seed,
     )
 
 
@@ -176,8 +190,13 @@ def _judged(check: Check, candidate: Candidate) -> Outcome:
         return Outcome(check, Verdict(verdict.share, one_line(verdict.message)))
     except StudentError as error:
         return Outcome(check, fail(str(error)), error.kind)
-    except Exception as error:  # a check of ours that stumbles over an odd answer must not stop a batch
-        return Outcome(check, fail(one_line(f"The answer could not be judged ({type(error).__name__}: {error}).")))
+    except (
+        Exception
+    ) as error:  # a check of ours that stumbles over an odd answer must not stop a batch
+        return Outcome(
+            check,
+            fail(one_line(f"The answer could not be judged ({type(error).__name__}: {error}).")),
+        )
 
 
 def _inputs_looked_at(outcomes: list[Outcome], asked: dict[str, Candidate]) -> list[Outcome]:

@@ -21,7 +21,13 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def rotation_verdict(
-    R: np.ndarray, R_right: np.ndarray, hint: str, *, good: float = 0.1, fair: float = 2.0, name: str = "R"
+    R: np.ndarray,
+    R_right: np.ndarray,
+    hint: str,
+    *,
+    good: float = 0.1,
+    fair: float = 2.0,
+    name: str = "R",
 ) -> Verdict:
     """Judge a rotation by the angle to the right one, in degrees; what is no rotation earns nothing."""
     hint = beside(R, R_right, hint, name)
@@ -30,8 +36,12 @@ def rotation_verdict(
         if off <= SKEWED:
             return fail(f"{name} mirrors: its determinant is {number(det, 3)}, right is 1. {hint}")
         told = f", its determinant is {against(det, 1.0, 3)}" if abs(det - 1.0) > SKEWED else ""
-        return fail(f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}{told}. {hint}")
-    return band("Rotation error", degrees_between(R, R_right), "degrees", good=good, fair=fair, hint=hint)
+        return fail(
+            f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}{told}. {hint}"
+        )
+    return band(
+        "Rotation error", degrees_between(R, R_right), "degrees", good=good, fair=fair, hint=hint
+    )
 
 
 def motion_verdict(
@@ -58,11 +68,16 @@ def motion_verdict(
     off = float(np.abs(T[3] - [0.0, 0.0, 0.0, 1.0]).max())
     if off > SKEWED:
         return fail(f"The last row of {name} is {number(T[3])}, right is (0, 0, 0, 1). {hint}")
-    turned = rotation_verdict(T[:3, :3], T_right[:3, :3], hint, good=degrees[0], fair=degrees[1], name=name)
+    turned = rotation_verdict(
+        T[:3, :3], T_right[:3, :3], hint, good=degrees[0], fair=degrees[1], name=name
+    )
     p = np.zeros((1, 3)) if p is None else p
     away = np.linalg.norm(p @ (T - T_right)[:3, :3].T + (T - T_right)[:3, 3], axis=1).max()
     told = beside(
-        T[:3, 3], T_right[:3, 3], hint, "The rotation is right; the last column" if turned.share == 1 else "t"
+        T[:3, 3],
+        T_right[:3, 3],
+        hint,
+        "The rotation is right; the last column" if turned.share == 1 else "t",
     )
     moved = band("Position error", float(away), "m", good=metres[0], fair=metres[1], hint=told)
     if turned.share == moved.share == 1.0:
@@ -107,7 +122,9 @@ def left_alone(candidate: Function, verdict: Verdict) -> Verdict:
 
 def changed(args: tuple[Any, ...]) -> Verdict:
     """Return the failure to leave these arguments as they were."""
-    arrays = [arg.ravel() for arg in args if isinstance(arg, np.ndarray) and arg.dtype.kind in "biuf"]
+    arrays = [
+        arg.ravel() for arg in args if isinstance(arg, np.ndarray) and arg.dtype.kind in "biuf"
+    ]
     values = np.concatenate(arrays) if arrays else np.zeros(0)
     with np.errstate(invalid="ignore"):
         what = (

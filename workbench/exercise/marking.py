@@ -138,17 +138,25 @@ def grade_student(handed: HandIn, asked: Asked) -> Result:
             else:
                 result["ungraded"].append(graded)
         if asked.only:
-            result["ungraded"] += [not_handed_in(exercise) for exercise in found.missing if handed.files]
+            result["ungraded"] += [
+                not_handed_in(exercise) for exercise in found.missing if handed.files
+            ]
         else:
             result["handed"] = _parts_of_lessons(result, asked)
         result["note"] = "; ".join(filter(None, [handed.note, *found.notes]))
     except Exception as error:  # a fault of ours with one student must not stop a class
-        said = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {one_line(str(error))}"
+        said = (
+            str(error)
+            if isinstance(error, InputError)
+            else f"{type(error).__name__}: {one_line(str(error))}"
+        )
         result["ungraded"].append(ungraded("", None, f"could not be graded: {said}"))
     return summed(result)
 
 
-def marked(part: Part, wall: Wall, megabytes: int | None = None, seed: int | None = None) -> Report | dict[str, Any]:
+def marked(
+    part: Part, wall: Wall, megabytes: int | None = None, seed: int | None = None
+) -> Report | dict[str, Any]:
     """Return the report on a file, or as what `ungraded` makes of it that it cannot be graded.
 
     Args:
@@ -174,8 +182,14 @@ def _parts_of_lessons(result: Result, asked: Asked) -> list[str]:
     all_of_them = finding.known(asked.loaded()).values()
     there = {item["exercise"] for item in (*result["reports"], *result["ungraded"])}
     lessons = dict.fromkeys(exercise.lesson for exercise in all_of_them if exercise.name in there)
-    named = {lesson: {one.name for one in all_of_them if one.lesson == lesson} for lesson in lessons}
-    return [f"{lesson} {len(names & there)} of {len(names)}" for lesson, names in named.items() if names - there]
+    named = {
+        lesson: {one.name for one in all_of_them if one.lesson == lesson} for lesson in lessons
+    }
+    return [
+        f"{lesson} {len(names & there)} of {len(names)}"
+        for lesson, names in named.items()
+        if names - there
+    ]
 
 
 def empty(handed: HandIn, asked: Asked) -> Result:
@@ -209,13 +223,19 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
                 read[file] = _read_one(handed, file, reader)
             except InputError as error:
                 troubles.append(ungraded(file, None, str(error)))
-    helping = {str(PurePosixPath(file).with_name(f"{name}.py")) for file, one in read.items() for name in one.modules}
+    helping = {
+        str(PurePosixPath(file).with_name(f"{name}.py"))
+        for file, one in read.items()
+        for name in one.modules
+    }
     found: dict[str, list[Part]] = {}
     strays: list[dict[str, Any]] = []
     for file, one in read.items():
         said = asked.wanted(one)
         if said and asked.only and not any(exercise.name in asked.only for exercise in said):
-            strays.append(ungraded(file, None, f"{file}: is for {said[0].name}, which is not asked for"))
+            strays.append(
+                ungraded(file, None, f"{file}: is for {said[0].name}, which is not asked for")
+            )
         elif said or file not in helping:
             try:
                 parts = [Part(file, one, exercise) for exercise in asked.of(one)]
@@ -224,7 +244,9 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
                 if not parts:
                     strays.append(ungraded(file, None, _defines_none(file, asked)))
             except InputError as error:
-                wanted = [exercise for exercise in said if not asked.only or exercise.name in asked.only]
+                wanted = [
+                    exercise for exercise in said if not asked.only or exercise.name in asked.only
+                ]
                 troubles += [ungraded(file, exercise, str(error)) for exercise in wanted]
                 told = str(error) if one.broken or not asked.only else _defines_none(file, asked)
                 strays += [] if wanted else [ungraded(file, None, told)]
@@ -243,7 +265,9 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
     there = {part.exercise.name for part in graded} | {item["exercise"] for item in troubles}
     missing = [exercise for exercise in asked.exercises() if exercise.name not in there]
     if len(asked.only) == len(missing) == 1 and troubles:  # whatever was handed in was meant for it
-        troubles = [ungraded(item["file"], missing[0], item["error"]) for item in troubles[:1]] + troubles[1:]
+        troubles = [
+            ungraded(item["file"], missing[0], item["error"]) for item in troubles[:1]
+        ] + troubles[1:]
         missing = []
     return Chosen(graded=graded, troubles=troubles, notes=notes, missing=missing)
 

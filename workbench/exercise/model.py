@@ -107,13 +107,17 @@ class Check:
     judge: Callable[[Function], Verdict]
 
 
-def check(points: float, *, public: bool = True) -> Callable[[Callable[[Function], Verdict]], Check]:
+def check(
+    points: float, *, public: bool = True
+) -> Callable[[Callable[[Function], Verdict]], Check]:
     """Make a check of a function of the candidate: its name is the key, the first line of its docstring the promise."""
 
     def made(judge: Callable[[Function], Verdict]) -> Check:
         lines = (judge.__doc__ or "").strip().splitlines()
         if not lines:
-            raise TypeError(f"check {judge.__name__} needs a docstring: the promise that the report shows")
+            raise TypeError(
+                f"check {judge.__name__} needs a docstring: the promise that the report shows"
+            )
         return Check(judge.__name__, lines[0].rstrip("."), points, public, judge)
 
     return made
@@ -170,7 +174,13 @@ def contract(
             uses them earns nothing.
     """
     return lambda function: Contract(
-        function=function, slot=slot, examples=examples, seconds=seconds, either=either, preset=preset, forbid=forbid
+        function=function,
+        slot=slot,
+        examples=examples,
+        seconds=seconds,
+        either=either,
+        preset=preset,
+        forbid=forbid,
     )
 
 
@@ -265,22 +275,32 @@ def exercise_in(module: ModuleType, lesson: str) -> Exercise:
         InputError: If it has no docstring, contract or check, or two of them have one name; names the file.
     """
     own = list(vars(module).values())
-    contracts = [item for item in own if isinstance(item, Contract) and _is_of(item.function, module)]
+    contracts = [
+        item for item in own if isinstance(item, Contract) and _is_of(item.function, module)
+    ]
     checks = tuple(item for item in own if isinstance(item, Check) and _is_of(item.judge, module))
     name, task = module.__name__.rpartition(".")[2], " ".join((module.__doc__ or "").split())
     if [item.function.__name__ for item in contracts] != [name]:
-        raise InputError(f"{module.__file__}: it needs one function `{name}` with @contract: what a student writes")
+        raise InputError(
+            f"{module.__file__}: it needs one function `{name}` with @contract: what a student writes"
+        )
     if not task or not checks:
-        raise InputError(f"{module.__file__}: it needs a docstring, the task, and functions with @check")
+        raise InputError(
+            f"{module.__file__}: it needs a docstring, the task, and functions with @check"
+        )
     return Exercise(
         name=name,
         lesson=lesson,
         task=task,
         contract=contracts[0],
         checks=checks,
-        mistakes=tuple(item for item in own if isinstance(item, Mistake) and _is_of(item.function, module)),
+        mistakes=tuple(
+            item for item in own if isinstance(item, Mistake) and _is_of(item.function, module)
+        ),
         alternatives=tuple(
-            item.function for item in own if isinstance(item, Alternative) and _is_of(item.function, module)
+            item.function
+            for item in own
+            if isinstance(item, Alternative) and _is_of(item.function, module)
         ),
     )
 

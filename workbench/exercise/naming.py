@@ -50,7 +50,9 @@ class Evidence:
         return not self.other and bool(self.weight or not self.spared)
 
 
-def diagnose(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> Mistake | None:
+def diagnose(
+    calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise
+) -> Mistake | None:
     """Return the one mistake whose answers are those of the calls and are not the right ones; None if there is none.
 
     It is looked for in all calls first, then in those of each failing check alone: who makes two mistakes makes one of
@@ -82,7 +84,9 @@ def concerned(
     return frozenset(name for name, found in told.items() if found and (found.weight or found.made))
 
 
-def _in_some_checks(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> dict[Mistake, int]:
+def _in_some_checks(
+    calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise
+) -> dict[Mistake, int]:
     weights = {}
     for mistake in exercise.mistakes:
         told = [_evidence(mistake, calls[name], exercise) for name in failing]
@@ -112,7 +116,10 @@ def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Ev
             else:
                 other += 1
         else:
-            mistaken, others = _answer(mistake.function, call), [_answer(f, call) for f in exercise.alternatives]
+            mistaken, others = (
+                _answer(mistake.function, call),
+                [_answer(f, call) for f in exercise.alternatives],
+            )
             is_open = any(not _alike(other, call.right, exercise) for other in others)
             if _alike(call.answer, mistaken, exercise):
                 wrong = not _alike(mistaken, call.right, exercise)
@@ -141,7 +148,11 @@ def _gap(a: Answer, b: Answer) -> float:
     try:
         first, second = np.asarray(a.value, dtype=float), np.asarray(b.value, dtype=float)
         with np.errstate(invalid="ignore"):
-            off = np.where((first == second) | (np.isnan(first) & np.isnan(second)), 0.0, np.abs(first - second))
+            off = np.where(
+                (first == second) | (np.isnan(first) & np.isnan(second)),
+                0.0,
+                np.abs(first - second),
+            )
     except (TypeError, ValueError):
         return np.inf
     return float(np.nan_to_num(off, nan=np.inf, posinf=np.inf).max(initial=0.0))
@@ -164,7 +175,9 @@ def _wrong_entries(mistaken: Any, right: Any, numbers: set[float]) -> int:
 def _alike(a: Answer, b: Answer, exercise: Exercise) -> bool:
     if a.error or b.error:
         return a.error == b.error
-    return any(values_alike(a.value, form) for form in (b.value, *exercise.contract.others(b.value)))
+    return any(
+        values_alike(a.value, form) for form in (b.value, *exercise.contract.others(b.value))
+    )
 
 
 def values_alike(a: Any, b: Any) -> bool:
@@ -177,7 +190,11 @@ def values_alike(a: Any, b: Any) -> bool:
         first, second = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
     except (TypeError, ValueError):
         return a is None and b is None
-    rounding = SINGLE_ROUNDING if np.float32 in (getattr(a, "dtype", None), getattr(b, "dtype", None)) else ROUNDING
+    rounding = (
+        SINGLE_ROUNDING
+        if np.float32 in (getattr(a, "dtype", None), getattr(b, "dtype", None))
+        else ROUNDING
+    )
     scale = max(1e-12, float(np.abs(second[np.isfinite(second)]).max(initial=0.0)))
     return first.shape == second.shape and bool(
         np.allclose(first, second, rtol=rounding, atol=0.1 * rounding * scale, equal_nan=True)

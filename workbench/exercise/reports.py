@@ -14,9 +14,7 @@ from workbench.machinery.version import __version__
 
 SCHEMA_VERSION = 2
 SCHEMA = Path(__file__).with_name("result.schema.json")
-UNSAFE = (
-    "Marks are not safe: nothing but limits stood between this code and the machine that graded it (--sandbox none)."
-)
+UNSAFE = "Marks are not safe: nothing but limits stood between this code and the machine that graded it (--sandbox none)."
 PRINTED_LINES, PRINTED_SIGNS = 5, 160
 MARKS = {"pass": "✓", "partial": "◐", "fail": "✗"}
 
@@ -26,7 +24,9 @@ def terminal(report: Report) -> str:
     lines = [f"{report.exercise.name} · {one_line(report.file)}"]
     for outcome in report.outcomes:
         points = f"{outcome.points:g}/{outcome.check.points:g}"
-        lines.append(f"  {MARKS[outcome.verdict.word]} {outcome.verdict.word:<7} {points:>5}  {outcome.check.promise}")
+        lines.append(
+            f"  {MARKS[outcome.verdict.word]} {outcome.verdict.word:<7} {points:>5}  {outcome.check.promise}"
+        )
         lines += [] if report.said_once else [f"{'':18}{outcome.verdict.message}"]
     lines += [f"  {report.said_once}"] if report.said_once else []
     if report.mistake is not None:
@@ -92,7 +92,11 @@ def as_dict(report: Report) -> dict[str, Any]:
         else {
             "name": report.mistake.name,
             "sentence": report.mistake.sentence,
-            "checks": [outcome.check.name for outcome in report.outcomes if outcome.check.name in report.concerned],
+            "checks": [
+                outcome.check.name
+                for outcome in report.outcomes
+                if outcome.check.name in report.concerned
+            ],
         },
         "printed": shown(report.printed),
         "sandbox": None if report.wall is None else report.wall.name,
@@ -133,7 +137,11 @@ def gradescope(
     Source: Gradescope autograder specification, "Output format".
     """
     worth = dict(factors or {})
-    tests = [_said_once(report, worth.get(report.exercise.name, 1.0)) for report in reports if report.said_once]
+    tests = [
+        _said_once(report, worth.get(report.exercise.name, 1.0))
+        for report in reports
+        if report.said_once
+    ]
     tests += [
         {
             "name": f"{report.exercise.name}: {outcome.check.promise}",
@@ -160,10 +168,16 @@ def gradescope(
     ]
     said = [*dict.fromkeys(item["error"] for item in failed), *notes]
     said += [
-        f"{report.exercise.name} printed:\n" + "\n".join(shown(report.printed)) for report in reports if report.printed
+        f"{report.exercise.name} printed:\n" + "\n".join(shown(report.printed))
+        for report in reports
+        if report.printed
     ]
     said += [UNSAFE] if any(map(_is_unsafe, reports)) else []
-    return {"score": sum(test["score"] for test in tests), "output": "\n".join(said), "tests": tests}
+    return {
+        "score": sum(test["score"] for test in tests),
+        "output": "\n".join(said),
+        "tests": tests,
+    }
 
 
 def _said_once(report: Report, factor: float) -> dict[str, Any]:
@@ -173,13 +187,19 @@ def _said_once(report: Report, factor: float) -> dict[str, Any]:
         "score": report.points * factor,
         "max_score": report.possible * factor,
         "status": "passed" if report.is_full else "failed",
-        "output": "\n".join([report.said_once, *([report.mistake.sentence] if report.mistake else [])]),
+        "output": "\n".join(
+            [report.said_once, *([report.mistake.sentence] if report.mistake else [])]
+        ),
         "visibility": "visible",
     }
 
 
 def _named(report: Report, outcome: Outcome) -> list[str]:
-    return [report.mistake.sentence] if report.mistake and outcome.check.name in report.concerned else []
+    return (
+        [report.mistake.sentence]
+        if report.mistake and outcome.check.name in report.concerned
+        else []
+    )
 
 
 def junit(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> str:
@@ -187,10 +207,15 @@ def junit(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> s
     root = ElementTree.Element("testsuites")
     for report in reports:
         failures = sum(outcome.verdict.share < 1.0 for outcome in report.outcomes)
-        suite = _suite(root, report.exercise.name, tests=len(report.outcomes), failures=failures, errors=0)
+        suite = _suite(
+            root, report.exercise.name, tests=len(report.outcomes), failures=failures, errors=0
+        )
         for outcome in report.outcomes:
             case = ElementTree.SubElement(
-                suite, "testcase", classname=printable(report.file) or report.exercise.name, name=outcome.check.name
+                suite,
+                "testcase",
+                classname=printable(report.file) or report.exercise.name,
+                name=outcome.check.name,
             )
             if outcome.verdict.share < 1.0:
                 ElementTree.SubElement(
@@ -204,7 +229,10 @@ def junit(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> s
     for item in failed:
         name = printable(item["exercise"] or item["file"] or "file")
         case = ElementTree.SubElement(
-            _suite(root, name, tests=1, failures=0, errors=1), "testcase", classname=name, name="can be graded"
+            _suite(root, name, tests=1, failures=0, errors=1),
+            "testcase",
+            classname=name,
+            name="can be graded",
         )
         ElementTree.SubElement(case, "error", message=printable(item["error"]), type="ungraded")
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=True)
@@ -232,7 +260,11 @@ def markdown(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -
         for outcome in report.outcomes:
             found = "" if report.said_once else outcome.verdict.message
             cells = (outcome.check.promise, f"{outcome.points:g}/{outcome.check.points:g}", found)
-            lines.append("| " + " | ".join([MARKS[outcome.verdict.word], *(_cell(cell) for cell in cells)]) + " |")
+            lines.append(
+                "| "
+                + " | ".join([MARKS[outcome.verdict.word], *(_cell(cell) for cell in cells)])
+                + " |"
+            )
         lines += ["", _cell(report.said_once)] if report.said_once else []
         if report.mistake is not None:
             lines += ["", f"> {_cell(report.mistake.sentence)}"]
@@ -240,7 +272,9 @@ def markdown(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -
     return "\n".join(lines)
 
 
-def write_files(reports: Sequence[Report], folder: Path, failed: Sequence[dict[str, Any]] = ()) -> None:
+def write_files(
+    reports: Sequence[Report], folder: Path, failed: Sequence[dict[str, Any]] = ()
+) -> None:
     """Write result.json, Gradescope's results.json, junit.xml and summary.md into a folder.
 
     Args:
@@ -272,7 +306,9 @@ def write_files(reports: Sequence[Report], folder: Path, failed: Sequence[dict[s
 
 def printable(text: str) -> str:
     """Return text without the control characters that XML cannot hold."""
-    return "".join(c for c in text if c in "\t\n" or (ord(c) >= 32 and not 0xD800 <= ord(c) <= 0xDFFF))
+    return "".join(
+        c for c in text if c in "\t\n" or (ord(c) >= 32 and not 0xD800 <= ord(c) <= 0xDFFF)
+    )
 
 
 def _cell(text: str) -> str:

@@ -29,7 +29,9 @@ class HiddenSeed:
         """Return the usual seed, or inside `drawn_from` the one that belongs to it and to the teacher's."""
         seed = _teachers.get()
         return (
-            self.usual if seed is None else int(np.random.SeedSequence([seed, self.usual]).generate_state(1)[0]) % MOST
+            self.usual
+            if seed is None
+            else int(np.random.SeedSequence([seed, self.usual]).generate_state(1)[0]) % MOST
         )
 
 

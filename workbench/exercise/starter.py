@@ -67,7 +67,9 @@ def sample(exercise: Exercise) -> str:
         InputError: If the exercise has no alternative.
     """
     if not exercise.alternatives:
-        raise InputError(f"exercise {exercise.name} has no @alternative, which would be the sample solution")
+        raise InputError(
+            f"exercise {exercise.name} has no @alternative, which would be the sample solution"
+        )
     function = exercise.alternatives[0]
     source = inspect.getsource(function).removeprefix("@alternative\n")
     return f'''"""Exercise {exercise.name}, lesson {exercise.lesson}.
@@ -88,7 +90,11 @@ def allowed(exercise: Exercise, megabytes: int = MEGABYTES) -> str:
     """Return what a student's function may use, in sentences."""
     room = f"{megabytes} MB" if megabytes % 1024 else f"{megabytes >> 10} GB"
     seconds, forbid = exercise.contract.seconds, exercise.contract.forbid
-    but = f" It may not use {' or '.join(forbid)}, which solves the task: who does earns nothing." if forbid else ""
+    but = (
+        f" It may not use {' or '.join(forbid)}, which solves the task: who does earns nothing."
+        if forbid
+        else ""
+    )
     return (
         f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside this file.{but} One call "
         f"may take {seconds:g} s and {room}, all calls together {CALLS * seconds:g} s. It may print: the first "
@@ -138,7 +144,9 @@ def _plain(annotation: Any) -> str:
     if annotation is np.ndarray or hasattr(annotation, "dim_str"):
         return "np.ndarray"
     text = (
-        annotation.__name__ if isinstance(annotation, type) and not hasattr(annotation, "__args__") else str(annotation)
+        annotation.__name__
+        if isinstance(annotation, type) and not hasattr(annotation, "__args__")
+        else str(annotation)
     )
     return "tuple" if text.startswith("tuple") else text.replace("numpy.", "np.")
 

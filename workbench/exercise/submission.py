@@ -74,7 +74,9 @@ def read_submission(path: Path) -> Submission:
         return submission(path.name, content(path), extra_file, reader)
 
 
-def submission(file: str, data: bytes, extra_file: Callable[[str], bytes | None], reader: Reader) -> Submission:
+def submission(
+    file: str, data: bytes, extra_file: Callable[[str], bytes | None], reader: Reader
+) -> Submission:
     """Return what the bytes of a file are.
 
     Args:
@@ -132,13 +134,18 @@ def content(path: Path, root: Path | None = None) -> bytes:
         real = path.resolve(strict=True)
         if root is not None and not real.is_relative_to(root.resolve()):
             raise InputError(f"{path.name}: a link that leads out of the folder")
-        held = os.open(real, os.O_RDONLY | os.O_CLOEXEC | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0))
+        held = os.open(
+            real,
+            os.O_RDONLY | os.O_CLOEXEC | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0),
+        )
         with os.fdopen(held, "rb") as file:
             if not stat.S_ISREG(os.fstat(held).st_mode):
                 raise InputError(f"{path.name}: no file, but a pipe, a device or a folder")
             data = file.read(MOST_BYTES + 1)
     except (OSError, RuntimeError) as error:  # a link that leads to itself is a RuntimeError
-        raise InputError(f"{path}: cannot be read as text ({getattr(error, 'strerror', None) or error})") from None
+        raise InputError(
+            f"{path}: cannot be read as text ({getattr(error, 'strerror', None) or error})"
+        ) from None
     if len(data) > MOST_BYTES:
         raise InputError(f"{path.name}: more than {MOST_BYTES >> 20} MB")
     return data

@@ -49,7 +49,9 @@ class Watched:
     def first_preset(self, params: Any) -> Preset | None:
         """Return the preset that calls the function, where the run that was asked for is the default one, which does not."""
         name = self.exercise.contract.preset
-        return None if name is None or params != self.original.params() else self.original.preset(name)
+        return (
+            None if name is None or params != self.original.params() else self.original.preset(name)
+        )
 
     def printed(self) -> str:
         """Return the beginning of what the function printed in the runs that it drives."""
@@ -63,7 +65,10 @@ class Watched:
         stamp = self._stamp_now()
         self._missing = self._missing + 1 if stamp is None else 0
         if stamp is None and self._missing == GONE_AFTER:
-            self._stamp, self.said = None, f"{self.path.name} is gone: what is shown ran before. Save it there again."
+            self._stamp, self.said = (
+                None,
+                f"{self.path.name} is gone: what is shown ran before. Save it there again.",
+            )
         if stamp is None or stamp == self._stamp:
             return False
         self._stamp, self.said = stamp, RUNNING
@@ -104,7 +109,9 @@ class Watched:
         self._student.close()
 
     def _new(self) -> SandboxedFunction:
-        return SandboxedFunction(self.path, self.exercise.name, seconds=self.exercise.contract.seconds)
+        return SandboxedFunction(
+            self.path, self.exercise.name, seconds=self.exercise.contract.seconds
+        )
 
     def _stamp_now(self) -> tuple[int, int] | None:
         try:

@@ -140,8 +140,12 @@ def plane_in_box(
         low: The corner of the box with the smallest coordinates.
         high: The corner with the largest.
     """
-    corners = np.array([[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)])
-    edges = np.array([(i, j) for i in range(8) for j in range(i + 1, 8) if bin(i ^ j).count("1") == 1])
+    corners = np.array(
+        [[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)]
+    )
+    edges = np.array(
+        [(i, j) for i in range(8) for j in range(i + 1, 8) if bin(i ^ j).count("1") == 1]
+    )
     sides = corners @ plane[:3] + plane[3]
     start, end = sides[edges[:, 0]], sides[edges[:, 1]]
     cut = (start > 0) != (end > 0)
@@ -193,12 +197,16 @@ def cut_finely(
     return np.concatenate([p for p, _ in done]), np.concatenate([source for _, source in done])
 
 
-def over_corners(choose: np.ufunc, rows: Float[np.ndarray, "n c *more"]) -> Float[np.ndarray, "n *more"]:
+def over_corners(
+    choose: np.ufunc, rows: Float[np.ndarray, "n c *more"]
+) -> Float[np.ndarray, "n *more"]:
     """Return the minimum or maximum over the corners of each row; numpy's reduction is slow over so few."""
     return functools.reduce(choose, (rows[:, corner] for corner in range(rows.shape[1])))
 
 
-def _lone_corner_first(p: np.ndarray, ahead: np.ndarray, alone: np.ndarray) -> tuple[np.ndarray, ...]:
+def _lone_corner_first(
+    p: np.ndarray, ahead: np.ndarray, alone: np.ndarray
+) -> tuple[np.ndarray, ...]:
     """Turn triangles so that the corner alone on its side leads; return a, b, c and the crossings on ab and ac."""
     turn = (np.argmax(alone, axis=1)[:, None] + np.arange(3)) % 3
     a, b, c = np.take_along_axis(p, turn[:, :, None], axis=1).transpose(1, 0, 2)
@@ -206,7 +214,9 @@ def _lone_corner_first(p: np.ndarray, ahead: np.ndarray, alone: np.ndarray) -> t
     return a, b, c, _crossing(a, b, at_a, at_b), _crossing(a, c, at_a, at_c)
 
 
-def _crossing(p_a: np.ndarray, p_b: np.ndarray, ahead_a: np.ndarray, ahead_b: np.ndarray) -> np.ndarray:
+def _crossing(
+    p_a: np.ndarray, p_b: np.ndarray, ahead_a: np.ndarray, ahead_b: np.ndarray
+) -> np.ndarray:
     """Return where segments a-b cross the plane at which `ahead` is zero; anything for those that do not."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return p_a + (ahead_a / (ahead_a - ahead_b))[:, None] * (p_b - p_a)
@@ -220,4 +230,7 @@ def _halves(p: np.ndarray) -> list[np.ndarray]:
 def _quarters(p: np.ndarray) -> list[np.ndarray]:
     a, b, c = p[:, 0], p[:, 1], p[:, 2]
     ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
-    return [np.stack(corners, axis=1) for corners in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+    return [
+        np.stack(corners, axis=1)
+        for corners in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    ]

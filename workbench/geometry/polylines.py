@@ -11,7 +11,9 @@ def segments(p: Float[np.ndarray, "n d"], *, closed: bool = False) -> Float[np.n
     return np.stack([p[:-1], p[1:]], axis=1)
 
 
-def between(p: Float[np.ndarray, "*n d"], q: Float[np.ndarray, "*k d"]) -> Float[np.ndarray, "m 2 d"]:
+def between(
+    p: Float[np.ndarray, "*n d"], q: Float[np.ndarray, "*k d"]
+) -> Float[np.ndarray, "m 2 d"]:
     """Return the segments from each point (n, d) to its partner in the same row; a single point (d,) is partner of all.
 
     Examples:
@@ -28,10 +30,14 @@ def at_height(p: Float[np.ndarray, "*n d"], height: float = 0.0) -> Float[np.nda
         >>> at_height(np.array([[1.0, 2.0]]), 3.0).tolist()
         [[1.0, 2.0, 3.0]]
     """
-    return p if p.shape[-1] == 3 else np.concatenate([p, np.full((*p.shape[:-1], 1), height)], axis=-1)
+    return (
+        p if p.shape[-1] == 3 else np.concatenate([p, np.full((*p.shape[:-1], 1), height)], axis=-1)
+    )
 
 
-def rectangle(low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]) -> Float[np.ndarray, "4 2"]:
+def rectangle(
+    low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
+) -> Float[np.ndarray, "4 2"]:
     """Return the corners of an upright rectangle in order, the lowest first and then the one farther along x."""
     (x0, y0), (x1, y1) = low, high
     return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]], float)
@@ -43,7 +49,9 @@ def circle(pieces: int = 64) -> Float[np.ndarray, "n 2"]:
     return np.column_stack([np.cos(turn), np.sin(turn)])
 
 
-def sphere_rings(centre: Float[np.ndarray, "3"], radius: float, pieces: int = 64) -> Float[np.ndarray, "n 2 3"]:
+def sphere_rings(
+    centre: Float[np.ndarray, "3"], radius: float, pieces: int = 64
+) -> Float[np.ndarray, "n 2 3"]:
     """Return three great circles of a sphere and two circles of latitude, as segments.
 
     Args:
@@ -52,12 +60,18 @@ def sphere_rings(centre: Float[np.ndarray, "3"], radius: float, pieces: int = 64
         pieces: Segments of each circle.
     """
     (c, s), zero = circle(pieces).T, np.zeros(pieces + 1)
-    rings = [np.column_stack([c, s, zero]), np.column_stack([c, zero, s]), np.column_stack([zero, c, s])]
+    rings = [
+        np.column_stack([c, s, zero]),
+        np.column_stack([c, zero, s]),
+        np.column_stack([zero, c, s]),
+    ]
     rings += [np.column_stack([0.8 * c, 0.8 * s, zero + z]) for z in (-0.6, 0.6)]
     return np.concatenate([segments(centre + radius * ring) for ring in rings])
 
 
-def near_arc(circle: Float[np.ndarray, "3"], reach: float, pieces: int = 96) -> Float[np.ndarray, "n 2"]:
+def near_arc(
+    circle: Float[np.ndarray, "3"], reach: float, pieces: int = 96
+) -> Float[np.ndarray, "n 2"]:
     """Return the points of a circle (x, y, r), or of a large one the arc nearest to the origin.
 
     Args:

@@ -25,7 +25,9 @@ def files(assignment: Assignment) -> dict[str, bytes]:
 
 def autograder(assignment: Assignment) -> dict[str, bytes]:
     """Return what the zip holds."""
-    failed = [ungraded("", exercise, f"{exercise.name} {BROKEN}") for exercise in assignment.exercises]
+    failed = [
+        ungraded("", exercise, f"{exercise.name} {BROKEN}") for exercise in assignment.exercises
+    ]
     factors = {exercise.name: assignment.factor(exercise) for exercise in assignment.exercises}
     python = f"{sys.version_info.major}.{sys.version_info.minor}"
     return {

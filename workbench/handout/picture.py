@@ -42,4 +42,9 @@ def pictured(exercise: Exercise, handed: HandIn, file: str, wall: Wall) -> list[
     out = io.BytesIO()
     sheet.save(out, "PNG", optimize=True)
     label = f"Step {at} of lesson {exercise.lesson}: {caption_of(scene).text}"
-    return [{"label": label, "url": "data:image/png;base64," + base64.b64encode(out.getvalue()).decode()}]
+    return [
+        {
+            "label": label,
+            "url": "data:image/png;base64," + base64.b64encode(out.getvalue()).decode(),
+        }
+    ]

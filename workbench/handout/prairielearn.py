@@ -28,7 +28,10 @@ def files(assignment: Assignment) -> dict[str, bytes]:
     held = {f"serverFilesCourse/{GRADER}/{name}": data for name, data in grader.items()}
     for exercise, weight in zip(assignment.exercises, assignment.weights, strict=True):
         alone = Assignment(
-            service=assignment.service, exercises=(exercise,), weights=(weight,), sandbox=assignment.sandbox
+            service=assignment.service,
+            exercises=(exercise,),
+            weights=(weight,),
+            sandbox=assignment.sandbox,
         )
         folder = f"questions/{question(exercise)}"
         held[f"{folder}/info.json"] = _json(info(assignment, exercise))
@@ -94,7 +97,13 @@ def assessment(assignment: Assignment) -> dict[str, Any]:
         "set": "Homework",
         "number": "1",
         "allowAccess": [rule],
-        "zones": [{"questions": [{"id": question(exercise), "autoPoints": weight} for exercise, weight in pairs]}],
+        "zones": [
+            {
+                "questions": [
+                    {"id": question(exercise), "autoPoints": weight} for exercise, weight in pairs
+                ]
+            }
+        ],
     }
 
 

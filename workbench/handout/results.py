@@ -40,7 +40,11 @@ def prairielearn(
     said = [report.said_once for report in reports if report.said_once]
     said += [report.mistake.sentence for report in reports if report.mistake and _is_seen(report)]
     said += notes
-    said += [UNSAFE] if any(report.wall is not None and not report.wall.holds for report in reports) else []
+    said += (
+        [UNSAFE]
+        if any(report.wall is not None and not report.wall.holds for report in reports)
+        else []
+    )
     if said:
         results["message"] = "\n".join(said)
     printed = [line for report in reports for line in shown(report.printed)]
@@ -81,4 +85,7 @@ def _passes(outcome: Outcome) -> bool:
 
 def _is_seen(report: Report) -> bool:
     """Whether a mistake concerns a public check: of hidden ones nothing is told."""
-    return any(outcome.check.public and outcome.check.name in report.concerned for outcome in report.outcomes)
+    return any(
+        outcome.check.public and outcome.check.name in report.concerned
+        for outcome in report.outcomes
+    )

@@ -23,7 +23,9 @@ from workbench.handout.results import prairielearn
 from workbench.machinery.atomic import write_atomic
 
 NOT_YET = "was not graded: the grader ended before, or ran out of time. This is not about your code; tell your teacher."
-Written = Callable[[Sequence[Report], Sequence[dict[str, Any]], Sequence[dict[str, str]]], dict[str, Any]]
+Written = Callable[
+    [Sequence[Report], Sequence[dict[str, Any]], Sequence[dict[str, str]]], dict[str, Any]
+]
 
 
 @dataclass(frozen=True)
@@ -51,14 +53,19 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
         results = _results(assignment, reports, [*failed, *left], images, notes)
         path = root / places.results
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_atomic(path, json.dumps(results, ensure_ascii=False, indent=1).encode("utf-8", "backslashreplace"))
+        write_atomic(
+            path,
+            json.dumps(results, ensure_ascii=False, indent=1).encode("utf-8", "backslashreplace"),
+        )
         return results
 
     write()
     try:
         wall = _wall(assignment)
         handed = handed_by("submission", root / places.submission)
-        found = chosen(handed, Asked(only=tuple(exercise.name for exercise in assignment.exercises)))
+        found = chosen(
+            handed, Asked(only=tuple(exercise.name for exercise in assignment.exercises))
+        )
         failed += found.troubles
         notes += found.notes if handed.files else ["no .py file and no notebook was handed in"]
         notes += [handed.note] if handed.note else []
@@ -77,14 +84,18 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
             write()
     except Exception as error:  # a fault of ours must not leave a student without a word
         said = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
-        return write(f"was not graded. This is not about your code; tell your teacher: {one_line(said)}")
+        return write(
+            f"was not graded. This is not about your code; tell your teacher: {one_line(said)}"
+        )
     return write()
 
 
 def _wall(assignment: Assignment) -> Wall:
     wall = best(alone=True) if assignment.sandbox == "auto" else named(assignment.sandbox)
     if not wall.holds and assignment.sandbox != "none":
-        raise InputError(f"nothing shuts submissions in here, so marks would not be safe ({wall.why})")
+        raise InputError(
+            f"nothing shuts submissions in here, so marks would not be safe ({wall.why})"
+        )
     return wall
 
 
@@ -106,7 +117,11 @@ def main(words: Sequence[str]) -> int:
     """Grade what lies in the folder of a service; `--wall` says what would shut it in, for the log of an installation."""
     if list(words) == ["--wall"]:
         wall = best(alone=True)
-        sys.stdout.write(f"Submissions are shut in by: {wall.name}" + (f" ({wall.why})" if wall.why else "") + "\n")
+        sys.stdout.write(
+            f"Submissions are shut in by: {wall.name}"
+            + (f" ({wall.why})" if wall.why else "")
+            + "\n"
+        )
         return 0
     root, file = map(Path, words)
     assignment = read(file.read_text(encoding="utf-8"))

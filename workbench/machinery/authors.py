@@ -8,7 +8,12 @@ from types import TracebackType
 
 from workbench.errors import AuthorError, InputError
 
-_OURS = (str(Path(__file__).parents[1]), sysconfig.get_path("stdlib"), sysconfig.get_path("purelib"), "<")
+_OURS = (
+    str(Path(__file__).parents[1]),
+    sysconfig.get_path("stdlib"),
+    sysconfig.get_path("purelib"),
+    "<",
+)
 
 
 class Blaming:
@@ -28,8 +33,12 @@ class Blaming:
     def __enter__(self) -> None:
         pass
 
-    def __exit__(self, kind: object, error: BaseException | None, trace: TracebackType | None) -> None:
-        if isinstance(error, Exception | SystemExit) and not isinstance(error, InputError | StopIteration):
+    def __exit__(
+        self, kind: object, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if isinstance(error, Exception | SystemExit) and not isinstance(
+            error, InputError | StopIteration
+        ):
             told = "".join(traceback.format_exception(error))
             raise AuthorError(f"{self._who}: {described(error, self._function)}", told) from error
 

@@ -26,7 +26,9 @@ class Hosts:
     def __init__(self, listens: str):
         self.local = is_loopback(listens)
         own = socket.gethostname().lower()
-        self._names = {"localhost", "127.0.0.1", "[::1]"} | (set() if self.local else {own, f"{own}.local"})
+        self._names = {"localhost", "127.0.0.1", "[::1]"} | (
+            set() if self.local else {own, f"{own}.local"}
+        )
         self._names.add(f"[{listens.strip('[]')}]" if ":" in listens else listens.lower())
 
     def know(self, host: str) -> bool:
@@ -34,7 +36,9 @@ class Hosts:
         found = name_in(host)
         if found is None:
             return False
-        return found in self._names or (not self.local and _is_address(found))  # an address means one machine
+        return found in self._names or (
+            not self.local and _is_address(found)
+        )  # an address means one machine
 
 
 def listening(host: str, port: int) -> socket.socket:
@@ -52,7 +56,9 @@ def listening(host: str, port: int) -> socket.socket:
     except OSError as error:
         made.close()
         if isinstance(error, PermissionError):
-            raise InputError(f"port {port} needs more rights than this user has: choose one above 1023") from None
+            raise InputError(
+                f"port {port} needs more rights than this user has: choose one above 1023"
+            ) from None
         if isinstance(error, socket.gaierror) or error.errno == 99:
             raise InputError(f"host {host!r} is no address of this machine") from None
         if error.errno == 98 or "in use" in str(error):

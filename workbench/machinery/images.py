@@ -30,7 +30,9 @@ def resized(image: np.ndarray, width: int, height: int) -> np.ndarray:
     from PIL import Image
 
     size = max(width, 1), max(height, 1)
-    return np.asarray(Image.fromarray(np.ascontiguousarray(image)).resize(size, Image.Resampling.BOX))
+    return np.asarray(
+        Image.fromarray(np.ascontiguousarray(image)).resize(size, Image.Resampling.BOX)
+    )
 
 
 def webp(image: np.ndarray) -> bytes:

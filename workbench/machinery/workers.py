@@ -79,7 +79,11 @@ def parallel_map(
         hand_out()
         while busy:
             ready: list[Any] = wait(list(busy), timeout=None if seconds is None else 1.0)
-            late = [] if seconds is None else [p for p, one in busy.items() if time.monotonic() - one.since > seconds]
+            late = (
+                []
+                if seconds is None
+                else [p for p, one in busy.items() if time.monotonic() - one.since > seconds]
+            )
             done: list[tuple[T, R]] = []
             for pipe in dict.fromkeys((*ready, *late)):
                 worker = busy.pop(pipe)

@@ -34,14 +34,18 @@ def article_html(lesson: Lesson, address: Address, home: str) -> str:
     written = TERM.sub(
         lambda found: found[0].replace("|", r"\|"), wording(lesson.text(), home)
     )  # a table would cut there
-    text = page_of(written, lesson.page).replace('<div class="math block">', '<div class="math block" tabindex="0">')
+    text = page_of(written, lesson.page).replace(
+        '<div class="math block">', '<div class="math block" tabindex="0">'
+    )
     names = {"this", "default", *(preset.name for preset in lesson.presets)}
 
     def link(found: re.Match[str]) -> str:
         name, step = found[1], None if found[2] is None else int(found[2])
         if name not in names:
             known = ", ".join(preset.name for preset in lesson.presets) or "none"
-            raise AuthorError(f"{lesson.page}: a link runs {name!r}, which is no preset; there are: {known}")
+            raise AuthorError(
+                f"{lesson.page}: a link runs {name!r}, which is no preset; there are: {known}"
+            )
         name = "" if name == "this" else name
         at = "" if step is None else f' data-step="{step}"'
         return f'<a class="run" href="{escape(address(name, step))}" data-run="{escape(name)}"{at}>'

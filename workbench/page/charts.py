@@ -45,7 +45,9 @@ def outline(curve: Curve) -> tuple[np.ndarray, np.ndarray]:
 def table_html(table: Table) -> str:
     """Return a table as HTML, its text escaped."""
     head = "".join(f"<th>{escape(cell)}</th>" for cell in table.header)
-    rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows)
+    rows = "".join(
+        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows
+    )
     title = f"<strong>{escape(table.title)}</strong>" if table.title else ""
     return f'<div class="wb wb-pad">{title}<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
 
@@ -56,7 +58,11 @@ def chart_of(curves: Sequence[Curve]) -> dict[str, Any]:
     across, up = axes_of([x for x, _ in outlines], [y for _, y in outlines])
     title, label = titled(curves)
     drawn = {"kind": "curves", "title": title, "xLabel": curves[0].x_label, "yLabel": label}
-    return drawn | {"x": asdict(across), "y": asdict(up), "curves": [_curve(curve) for curve in curves]}
+    return drawn | {
+        "x": asdict(across),
+        "y": asdict(up),
+        "curves": [_curve(curve) for curve in curves],
+    }
 
 
 def series_of(series: Mapping[str, Series], start: int = 0) -> list[dict[str, Any]]:
@@ -69,7 +75,9 @@ def series_of(series: Mapping[str, Series], start: int = 0) -> list[dict[str, An
             "unit": one.scalar.unit,
             "color": css_color(PALETTE[one.scalar.color]),
             "log": one.scalar.log,
-            "values": [float(value) if np.isfinite(value) else None for value in one.values[start:]],
+            "values": [
+                float(value) if np.isfinite(value) else None for value in one.values[start:]
+            ],
         }
         for path, one in series.items()
     ]

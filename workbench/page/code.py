@@ -22,7 +22,11 @@ def source_html(function: Callable[..., Any]) -> str:
     lines, first = source_of(function)
     rows = _rows("\n".join(lines), first)
     start, end = _long_docstring("\n".join(lines))
-    folded = f"<details><summary>{rows[start]}</summary>{''.join(rows[start + 1 : end])}</details>" if end else ""
+    folded = (
+        f"<details><summary>{rows[start]}</summary>{''.join(rows[start + 1 : end])}</details>"
+        if end
+        else ""
+    )
     return f"{''.join(rows[:start])}{folded}{''.join(rows[end:])}"
 
 
@@ -43,7 +47,9 @@ def _long_docstring(source: str) -> tuple[int, int]:
     body = ast.parse(source).body[0].body  # type: ignore[attr-defined]
     first = body[0]
     is_text = (
-        isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str)
+        isinstance(first, ast.Expr)
+        and isinstance(first.value, ast.Constant)
+        and isinstance(first.value.value, str)
     )
     if not is_text or first.end_lineno == first.lineno:
         return 0, 0

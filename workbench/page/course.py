@@ -25,7 +25,9 @@ class Card:
     picture: str
 
 
-def course_document(cards: Iterable[Card], *, root: str, trouble: str | None = None, head: str = "") -> str:
+def course_document(
+    cards: Iterable[Card], *, root: str, trouble: str | None = None, head: str = ""
+) -> str:
     """Return the document of the course.
 
     Args:

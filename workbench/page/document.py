@@ -116,7 +116,11 @@ def _article(article: str, home: str, data: dict[str, Any], opening: str, ending
         f"<small>{escape(preset['line'])}</small></button></li>"
         for preset in data["presets"]
     )
-    chosen = f'<section class="s-runs"><h2>Experiments</h2><ul class="runs">{presets}</ul></section>' if presets else ""
+    chosen = (
+        f'<section class="s-runs"><h2>Experiments</h2><ul class="runs">{presets}</ul></section>'
+        if presets
+        else ""
+    )
     return (
         f'<article id="article">{_top("Geometry workbench", _course(home))}'
         f'{opening}<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}'
@@ -145,7 +149,9 @@ def in_script(value: Any) -> str:
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
-def document_head(title: str, summary: str, root: str | None, more: str, *, math: bool = True) -> str:
+def document_head(
+    title: str, summary: str, root: str | None, more: str, *, math: bool = True
+) -> str:
     """Return the head of a document of ours."""
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
@@ -172,7 +178,11 @@ def _stage(still: str) -> str:
         for verb, title, sign in VERBS
     )
     speeds = "".join(f'<option value="{speed:g}">{speed:g}×</option>' for speed in SPEEDS)
-    picture = f'<noscript><img src="{escape(still)}" alt="A step of this lesson"></noscript>' if still else ""
+    picture = (
+        f'<noscript><img src="{escape(still)}" alt="A step of this lesson"></noscript>'
+        if still
+        else ""
+    )
     return (
         '<section id="stage" aria-label="Stage"><div id="view"><div id="scene" aria-busy="true"></div>'
         f"{picture}"

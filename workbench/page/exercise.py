@@ -14,10 +14,16 @@ from workbench.lesson import Lesson
 def exercises_html(exercises: Iterable[Exercise]) -> str:
     """Return the section of a lesson's exercises; nothing where it has none."""
     tasks = "".join(_task(exercise) for exercise in exercises)
-    return f'<section class="s-exercise" id="exercise"><h2>Exercise</h2>{tasks}</section>' if tasks else ""
+    return (
+        f'<section class="s-exercise" id="exercise"><h2>Exercise</h2>{tasks}</section>'
+        if tasks
+        else ""
+    )
 
 
-def watched_html(exercise: Exercise, file: str, lesson: Lesson, address: Callable[[str], str]) -> str:
+def watched_html(
+    exercise: Exercise, file: str, lesson: Lesson, address: Callable[[str], str]
+) -> str:
     """Return the section of the exercise whose function is watched, in a student's file.
 
     It has one sentence for runs that call the function and one for those that do not; the page shows the one that is true.
@@ -29,8 +35,14 @@ def watched_html(exercise: Exercise, file: str, lesson: Lesson, address: Callabl
         address: The address of a run of the lesson: of a preset by its name, or of `default`.
     """
     run = exercise.contract.preset or "default"
-    title = "The run this lesson opens with" if run == "default" else f"The experiment “{lesson.preset(run).title}”"
-    there = f'<a class="run" href="{escape(address(run))}" data-run="{escape(run)}">{escape(title)}</a>'
+    title = (
+        "The run this lesson opens with"
+        if run == "default"
+        else f"The experiment “{lesson.preset(run).title}”"
+    )
+    there = (
+        f'<a class="run" href="{escape(address(run))}" data-run="{escape(run)}">{escape(title)}</a>'
+    )
     name = escape(exercise.name)
     return (
         f'<section class="s-exercise" id="exercise"><h2>Your {name}</h2>'
@@ -74,7 +86,9 @@ def report_data(said: Report | str, printed: str = "") -> dict[str, Any]:
 
 def _task(exercise: Exercise, *, alone: bool = False) -> str:
     promises = "".join(
-        f"<li>{escape(check.promise)} ({check.points:g})</li>" for check in exercise.checks if check.public
+        f"<li>{escape(check.promise)} ({check.points:g})</li>"
+        for check in exercise.checks
+        if check.public
     )
     hidden = sum(not check.public for check in exercise.checks)
     more = f"<li>{hidden} more that are run where a class is graded</li>" if hidden else ""

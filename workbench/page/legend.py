@@ -26,7 +26,9 @@ def legend_html(scene: Scene, grid: float | None) -> str:
     for path, primitive in scene.items():
         for row in _legend_rows(primitive) if in_space(primitive) else ():
             rows.setdefault(row, []).append(path)
-    found = [f'<span data-things="{escape("|".join(paths))}">{row}</span>' for row, paths in rows.items()]
+    found = [
+        f'<span data-things="{escape("|".join(paths))}">{row}</span>' for row, paths in rows.items()
+    ]
     if grid is not None:
         found.append(f"<span>grid {grid:g} m</span>")
     return f'<div class="wb-legend">{"".join(found)}</div>' if found else ""

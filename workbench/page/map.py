@@ -23,12 +23,16 @@ def columns(needs: Mapping[str, Sequence[str]]) -> list[list[str]]:
     for at, column in enumerate(found):
         here = [name for name, deep in depth.items() if deep == at]
         heights = {name: [row[one] for one in needs[name] if one in row] for name in here}
-        column += sorted(here, key=lambda name: sum(heights[name]) / len(heights[name]) if heights[name] else 0.0)
+        column += sorted(
+            here, key=lambda name: sum(heights[name]) / len(heights[name]) if heights[name] else 0.0
+        )
         row |= {name: i - (len(column) - 1) / 2 for i, name in enumerate(column)}
     return found
 
 
-def course_map(titles: Mapping[str, str], needs: Mapping[str, Sequence[str]], addresses: Mapping[str, str]) -> str:
+def course_map(
+    titles: Mapping[str, str], needs: Mapping[str, Sequence[str]], addresses: Mapping[str, str]
+) -> str:
     """Return the map of lessons, given by name in course order, as links in an SVG; empty where none builds on another."""
     placed = columns(needs)
     if len(placed) < 2:
@@ -40,7 +44,9 @@ def course_map(titles: Mapping[str, str], needs: Mapping[str, Sequence[str]], ad
         for x, column in enumerate(placed)
         for y, name in enumerate(column)
     }
-    ways = "".join(_way(corner[one], corner[name]) for name in corner for one in needs[name] if one in corner)
+    ways = "".join(
+        _way(corner[one], corner[name]) for name in corner for one in needs[name] if one in corner
+    )
     boxes = "".join(
         f'<a href="{escape(addresses[name])}"><rect x="{x}" y="{y:g}" width="{WIDTH}" height="{HEIGHT}" rx="7"/>'
         f'<text x="{x + WIDTH / 2:g}" y="{y + HEIGHT / 2:g}">{escape(titles[name])}</text></a>'

@@ -49,7 +49,9 @@ class Steps:
         """The run."""
         timeline = self._run()
         if timeline is None:
-            raise ReferenceError("the run is gone: hold it as long as the steps beside it are asked for")
+            raise ReferenceError(
+                "the run is gone: hold it as long as the steps beside it are asked for"
+            )
         return timeline
 
     def step(self, k: int) -> dict[str, Any]:
@@ -67,7 +69,9 @@ class Steps:
             return None
         name = f"{moment.function.__module__}.{moment.function.__qualname__}"
         with self._lock:
-            source = self._number({"kind": "source", "name": name, "html": source_html(moment.function)}, name)
+            source = self._number(
+                {"kind": "source", "name": name, "html": source_html(moment.function)}, name
+            )
         return {"source": source, **moment_data(moment)}
 
     def series(self, start: int = 0, end: int | None = None) -> dict[str, Any]:
@@ -77,7 +81,9 @@ class Steps:
         series, key = timeline.series(known), (start, known)
         with self._lock:
             if key not in self._series:
-                self._series = dict(tuple(self._series.items())[-7:])  # of those who follow a run as it grows
+                self._series = dict(
+                    tuple(self._series.items())[-7:]
+                )  # of those who follow a run as it grows
                 self._series[key] = {"from": start, "series": series_of(series, start),
                                      "charts": series_charts(series, known)}  # fmt: skip
             return self._series[key]
@@ -125,7 +131,11 @@ class Steps:
     def _picture(self, picture: Picture) -> int:
         """Return the number of a picture: one with the arrays of an earlier step is not looked at again."""
         image = picture.image
-        field = (id(image.values), image.low, image.high, image.map) if isinstance(image, Field) else id(image)
+        field = (
+            (id(image.values), image.low, image.high, image.map)
+            if isinstance(image, Field)
+            else id(image)
+        )
         same = picture.title, field  # the run keeps its arrays: no other has these numbers
         if same not in self._numbers:
             rgb = picture.rgb() if isinstance(image, np.ndarray) else _coarse(image).rgb()

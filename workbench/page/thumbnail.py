@@ -42,13 +42,18 @@ def telling_step(lesson: Lesson, timeline: Timeline) -> int:
     first = timeline.opening(f"lesson {lesson.name}", lesson.first_step)
     if first:
         return first
-    return max(range(len(timeline)), key=lambda k: (len([p for p in timeline[k].scene.values() if in_space(p)]), -k))
+    return max(
+        range(len(timeline)),
+        key=lambda k: (len([p for p in timeline[k].scene.values() if in_space(p)]), -k),
+    )
 
 
 def picture_of(scene: Scene, view: View, size: tuple[int, int] = SIZE) -> bytes:
     """Return a scene as a WebP image with a transparent ground."""
     file = io.BytesIO()
-    drawn(scene, view, size).save(file, "WEBP", quality=82)  # what method 6 saves, 3 %, takes a hundred times as long
+    drawn(scene, view, size).save(
+        file, "WEBP", quality=82
+    )  # what method 6 saves, 3 %, takes a hundred times as long
     return file.getvalue()
 
 
@@ -80,7 +85,9 @@ def _around(sheet: Image.Image) -> tuple[float, float, float, float]:
     if found is None:
         return 0, 0, *sheet.size
     left, top, right, bottom = found
-    share = min(1.0, max(0.42, 1.12 * (right - left) / sheet.width, 1.12 * (bottom - top) / sheet.height))
+    share = min(
+        1.0, max(0.42, 1.12 * (right - left) / sheet.width, 1.12 * (bottom - top) / sheet.height)
+    )
     width, height = share * sheet.width, share * sheet.height
     x = min(max(0.5 * (left + right - width), 0), sheet.width - width)
     y = min(max(0.5 * (top + bottom - height), 0), sheet.height - height)
@@ -114,7 +121,11 @@ def _things(primitive: object, pen: _Pen) -> Iterator[tuple]:
         yield from _points(primitive, pen)
     elif isinstance(primitive, Segments):
         yield from _lines(
-            primitive.ends, primitive.T_world_object, _rgba(primitive, len(primitive.ends)), primitive.width, pen
+            primitive.ends,
+            primitive.T_world_object,
+            _rgba(primitive, len(primitive.ends)),
+            primitive.width,
+            pen,
         )
     elif isinstance(primitive, Mesh):
         yield from _faces(primitive, pen)
@@ -129,11 +140,15 @@ def _things(primitive: object, pen: _Pen) -> Iterator[tuple]:
         height, width = primitive.rgb().shape[:2]
         x, y = 0.5 * (primitive.width or 1.0) * np.array([1.0, height / width])
         corners = np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]])
-        yield from _sheet(primitive.rgb(), corners, primitive.T_world_object, primitive.opacity, pen)
+        yield from _sheet(
+            primitive.rgb(), corners, primitive.T_world_object, primitive.opacity, pen
+        )
 
 
 def _rgba(primitive: Points | Segments | Mesh, n: int) -> np.ndarray:
-    return np.column_stack([color_rows(primitive.color, n), np.full(n, 255 * primitive.opacity)]).astype(int)
+    return np.column_stack(
+        [color_rows(primitive.color, n), np.full(n, 255 * primitive.opacity)]
+    ).astype(int)
 
 
 def _points(points: Points, pen: _Pen) -> Iterator[tuple]:
@@ -141,22 +156,36 @@ def _points(points: Points, pen: _Pen) -> Iterator[tuple]:
     radius = np.maximum(pen.focal * points.radius / depth, 1.4)
     for (u, v), z, r, color in zip(uv, depth, radius, _rgba(points, len(points.p)), strict=True):
         if np.isfinite(z):
-            yield z, lambda box=(u - r, v - r, u + r, v + r), c=tuple(color): pen.draw.ellipse(box, fill=c)
+            yield (
+                z,
+                lambda box=(u - r, v - r, u + r, v + r), c=tuple(color): pen.draw.ellipse(
+                    box, fill=c
+                ),
+            )
 
 
-def _lines(ends: np.ndarray, T: np.ndarray | None, rgba: np.ndarray, width: float, pen: _Pen) -> Iterator[tuple]:
+def _lines(
+    ends: np.ndarray, T: np.ndarray | None, rgba: np.ndarray, width: float, pen: _Pen
+) -> Iterator[tuple]:
     uv, depth = pen.seen(ends, T)
     for pair, z, color in zip(uv, depth.mean(-1), rgba, strict=True):
         if np.isfinite(z) and np.abs(pair).max() < 20_000:
             place, c = tuple(map(tuple, pair)), tuple(int(value) for value in color)
-            yield z, lambda place=place, c=c: pen.draw.line(place, fill=c, width=round(0.6 * FINER * width))
+            yield (
+                z,
+                lambda place=place, c=c: pen.draw.line(
+                    place, fill=c, width=round(0.6 * FINER * width)
+                ),
+            )
 
 
 def _faces(mesh: Mesh, pen: _Pen) -> Iterator[tuple]:
     uv, depth = pen.seen(mesh.p, mesh.T_world_object)
     rgba = _rgba(mesh, len(mesh.p))
     if mesh.wireframe:
-        edges = np.unique(np.sort(mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), 1), axis=0)
+        edges = np.unique(
+            np.sort(mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), 1), axis=0
+        )
         yield from _lines(mesh.p[edges], mesh.T_world_object, rgba[edges[:, 0]], 1.0, pen)
         return
     corners = mesh.p[mesh.faces]
@@ -164,7 +193,9 @@ def _faces(mesh: Mesh, pen: _Pen) -> Iterator[tuple]:
     if mesh.T_world_object is not None:
         normals = normals @ mesh.T_world_object[:3, :3].T
     length = np.linalg.norm(normals, axis=1)
-    light = 0.62 + 0.38 * np.abs(normals @ pen._R.T @ np.array([0.35, -0.6, -0.72])) / np.where(length > 0, length, 1.0)
+    light = 0.62 + 0.38 * np.abs(normals @ pen._R.T @ np.array([0.35, -0.6, -0.72])) / np.where(
+        length > 0, length, 1.0
+    )
     for face, shade in zip(mesh.faces, light, strict=True):
         z = depth[face].mean()
         if np.isfinite(z):
@@ -179,7 +210,9 @@ def _camera(camera: Camera, pen: _Pen) -> Iterator[tuple]:
     corners_uv = np.array([[-0.5, -0.5, 1], [w, -0.5, 1], [w, h, 1], [-0.5, h, 1]])
     corners = camera.depth * corners_uv @ np.linalg.inv(camera.K).T
     if camera.image is not None:
-        image = camera.image if camera.image.ndim == 3 else np.repeat(camera.image[:, :, None], 3, 2)
+        image = (
+            camera.image if camera.image.ndim == 3 else np.repeat(camera.image[:, :, None], 3, 2)
+        )
         yield from _sheet(image, corners, camera.T_world_object, camera.opacity, pen)
     spokes = np.stack([np.zeros((4, 3)), corners], 1)
     ends = np.concatenate([np.stack([corners, np.roll(corners, -1, 0)], 1), spokes])
@@ -187,7 +220,9 @@ def _camera(camera: Camera, pen: _Pen) -> Iterator[tuple]:
     yield from _lines(ends, camera.T_world_object, color, 2.0, pen)
 
 
-def _sheet(image: np.ndarray, corners: np.ndarray, T: np.ndarray | None, opacity: float, pen: _Pen) -> Iterator[tuple]:
+def _sheet(
+    image: np.ndarray, corners: np.ndarray, T: np.ndarray | None, opacity: float, pen: _Pen
+) -> Iterator[tuple]:
     """Yield an image on a plane in space."""
     uv, depth = pen.seen(corners, T)
     if not np.isfinite(depth).all():
@@ -208,7 +243,10 @@ def _sheet(image: np.ndarray, corners: np.ndarray, T: np.ndarray | None, opacity
 
     def draw() -> None:
         seen = sheet.transform(
-            pen.sheet.size, Image.Transform.PERSPECTIVE, tuple(homography), Image.Resampling.BILINEAR
+            pen.sheet.size,
+            Image.Transform.PERSPECTIVE,
+            tuple(homography),
+            Image.Resampling.BILINEAR,
         )
         pen.sheet.alpha_composite(seen)
 

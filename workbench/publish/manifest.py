@@ -23,7 +23,9 @@ LARGEST = 4_000_000
 """Bytes beyond which no file is read as a manifest."""
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,99}")
 """A name of a lesson or of a run: the name of a folder or a file, and part of an address, on any system."""
-_FILE = re.compile(r"\.nojekyll|[A-Za-z0-9_][A-Za-z0-9._-]{0,199}(/[A-Za-z0-9_][A-Za-z0-9._-]{0,199}){0,3}")
+_FILE = re.compile(
+    r"\.nojekyll|[A-Za-z0-9_][A-Za-z0-9._-]{0,199}(/[A-Za-z0-9_][A-Za-z0-9._-]{0,199}){0,3}"
+)
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,9 @@ class Manifest:
             if path.is_dir() and not path.is_symlink():
                 raise InputError(f"{path}: is a folder, where a file is needed")
             if not force and os.path.lexists(path) and not self.is_ours(name):
-                raise InputError(f"{path}: was not written by publish, or has been changed since; --force replaces it")
+                raise InputError(
+                    f"{path}: was not written by publish, or has been changed since; --force replaces it"
+                )
 
     def write(self, contents: Mapping[str, bytes]) -> None:
         """Write files that `check` allowed. Who is stopped in between knows them as ours at the next start."""
@@ -131,12 +135,16 @@ def _read(path: Path) -> tuple[str | None, dict[str, Listed], dict[str, str], di
         raise ValueError("no manifest")
     said = json.loads(path.read_text(encoding="utf-8"))
     files = {name: _texts(value) for name, value in said["files"].items()}
-    for name, digest in said.get("writing", {}).items():  # format 2 told apart what was being written
+    for name, digest in said.get(
+        "writing", {}
+    ).items():  # format 2 told apart what was being written
         files[name] = _texts([*files.get(name, ()), digest])
     lessons = {name: _listed(**value) for name, value in said["lessons"].items()}
     runs = dict(said["runs"].items())
     _texts(runs.values())
-    if said["format"] not in FORMATS or not all((*map(NAME.fullmatch, lessons), *map(_FILE.fullmatch, files))):
+    if said["format"] not in FORMATS or not all(
+        (*map(NAME.fullmatch, lessons), *map(_FILE.fullmatch, files))
+    ):
         raise ValueError("no manifest")
     return said.get("made_by"), lessons, runs, files
 

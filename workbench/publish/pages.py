@@ -41,7 +41,9 @@ def course_page(lessons: Mapping[str, Listed], head: str = "") -> str:
 
 def lessons_script(lessons: Mapping[str, Listed]) -> str:
     """Return the script that tells a lesson's page which lessons there are."""
-    course = [{"name": name, "title": one.title, "needs": one.needs} for name, one in lessons.items()]
+    course = [
+        {"name": name, "title": one.title, "needs": one.needs} for name, one in lessons.items()
+    ]
     return f"const COURSE = {in_script(course)};\n"
 
 

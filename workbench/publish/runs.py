@@ -95,7 +95,9 @@ def swept(lesson: Lesson, sweep: Sweep) -> list[tuple[str, str, Any]]:
     found = []
     for params in lesson.swept(sweep):
         said = knobs.text_of(getattr(params, sweep.knob))
-        found.append((f"{sweep.knob}:{said}", f"{field.label} {said} {field.knob.unit}".rstrip(), params))
+        found.append(
+            (f"{sweep.knob}:{said}", f"{field.label} {said} {field.knob.unit}".rstrip(), params)
+        )
     return found
 
 
@@ -110,9 +112,13 @@ def sweep_data(lesson: Lesson) -> list[dict[str, Any]]:
 
 def _dial(lesson: Lesson, sweep: Sweep, runs: Sequence[Run]) -> dict[str, Any]:
     field = next(field for field in knobs.fields_of(lesson.params) if field.name == sweep.knob)
-    stops = {getattr(params, sweep.knob): params for params in (*lesson.swept(sweep), lesson.params())}
+    stops = {
+        getattr(params, sweep.knob): params for params in (*lesson.swept(sweep), lesson.params())
+    }
     values = list(stops)
-    if all(isinstance(value, int | float) for value in values) and values[:-1] == sorted(values[:-1]):
+    if all(isinstance(value, int | float) for value in values) and values[:-1] == sorted(
+        values[:-1]
+    ):
         values.sort()
     said = [knobs.text_of(value) for value in values]
     return {
@@ -136,12 +142,21 @@ def _place(value: Any, values: Sequence[Any]) -> tuple[int, str]:
 def files_of(lesson: Lesson, run: Run) -> tuple[str, ...]:
     """Return where in a site a run's replay, page of its own and recording are."""
     beside, recording = f"{lesson.name}/runs/{run.file}", recording_of(lesson, run)
-    return f"{beside}.js", f"{beside}.html", *([f"{lesson.name}/runs/{recording}"] if recording else [])
+    return (
+        f"{beside}.js",
+        f"{beside}.html",
+        *([f"{lesson.name}/runs/{recording}"] if recording else []),
+    )
 
 
 def swept_files(lessons: Iterable[Lesson]) -> set[str]:
     """Return the run files that a site has for sweeps alone."""
-    return {files_of(lesson, run)[0] for lesson in lessons for run in runs_of(lesson) if not run.recorded}
+    return {
+        files_of(lesson, run)[0]
+        for lesson in lessons
+        for run in runs_of(lesson)
+        if not run.recorded
+    }
 
 
 def recording_of(lesson: Lesson, run: Run) -> str | None:
@@ -149,7 +164,9 @@ def recording_of(lesson: Lesson, run: Run) -> str | None:
     return file_name(lesson, None if run.name == "default" else run.name) if run.recorded else None
 
 
-def render_all(runs: Sequence[tuple[Lesson, Run]]) -> Iterator[tuple[Lesson, Run, dict[str, bytes]]]:
+def render_all(
+    runs: Sequence[tuple[Lesson, Run]],
+) -> Iterator[tuple[Lesson, Run, dict[str, bytes]]]:
     """Return each run with its files when they are done, in any order.
 
     Lessons of the catalogue are rendered by one process per core, others, whose code only this process has, here.
@@ -158,7 +175,11 @@ def render_all(runs: Sequence[tuple[Lesson, Run]]) -> Iterator[tuple[Lesson, Run
         InputError: If a run fails.
     """
     cores = os.cpu_count() or 1
-    if len(runs) <= ALONE or cores == 1 or any(catalog().get(lesson.name) is not lesson for lesson, _ in runs):
+    if (
+        len(runs) <= ALONE
+        or cores == 1
+        or any(catalog().get(lesson.name) is not lesson for lesson, _ in runs)
+    ):
         for lesson, run in runs:
             yield lesson, run, render(lesson, run)
         return
@@ -167,7 +188,9 @@ def render_all(runs: Sequence[tuple[Lesson, Run]]) -> Iterator[tuple[Lesson, Run
         for names, files in parallel_map(_render_named, list(waiting), cores):
             yield *waiting[names], files
     except WorkerLostError:
-        raise InputError("a process that renders runs was ended from outside; publishing again goes on") from None
+        raise InputError(
+            "a process that renders runs was ended from outside; publishing again goes on"
+        ) from None
 
 
 def _render_named(names: tuple[str, str]) -> dict[str, bytes]:
@@ -215,7 +238,9 @@ def run_data(lesson: Lesson, run: Run, timeline: Timeline) -> dict[str, Any]:
     }
 
 
-def recorded(lesson: Lesson, opened: Run, *, root: str, runs: str, answers: Mapping[str, str]) -> dict[str, Any]:
+def recorded(
+    lesson: Lesson, opened: Run, *, root: str, runs: str, answers: Mapping[str, str]
+) -> dict[str, Any]:
     """Return what a page must know of the runs that it can open.
 
     Args:
@@ -232,7 +257,11 @@ def recorded(lesson: Lesson, opened: Run, *, root: str, runs: str, answers: Mapp
         "open": opened.name,
         "files": {run.name: run.file for run in runs_of(lesson)},
         "titles": {run.name: run.title for run in runs_of(lesson)},
-        "aliases": {name: run for sweep in sweeps for name, run in zip(sweep["names"], sweep["runs"], strict=True)},
+        "aliases": {
+            name: run
+            for sweep in sweeps
+            for name, run in zip(sweep["names"], sweep["runs"], strict=True)
+        },
         "sweeps": sweeps,
         "note": f"These runs are recorded. All knobs, live: {show_command(lesson, lesson.params())}",
         "answers": dict(answers),
@@ -263,11 +292,22 @@ def digest_of(lesson: Lesson, run: Run) -> str:
 def page_digest(lesson: Lesson, address: str) -> str:
     """Return what a lesson's page and picture must agree with."""
     questions = [
-        (one.name, one.text, one.choices, one.unit, one.tolerance, one.step, one.wrong, knobs.to_json(one.params))
+        (
+            one.name,
+            one.text,
+            one.choices,
+            one.unit,
+            one.tolerance,
+            one.step,
+            one.wrong,
+            knobs.to_json(one.params),
+        )
         for one in lesson.questions
     ]
     said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{lesson.sweeps}\0{questions}\0{address}\0"
     found = hashlib.sha256(f"{said}{sources_digest(lesson)}".encode())
-    for file in sorted((*STATIC.iterdir(), *STATIC.parent.glob("*.py"), *Path(__file__).parent.glob("*.py"))):
+    for file in sorted(
+        (*STATIC.iterdir(), *STATIC.parent.glob("*.py"), *Path(__file__).parent.glob("*.py"))
+    ):
         found.update(f"\0{file.name}\0".encode() + file.read_bytes())
     return found.hexdigest()

@@ -32,7 +32,12 @@ from workbench.recording import equal_content
 from workbench.run.timeline import Timelines
 from workbench.words.typeset import math_font_css
 
-PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = 300_000, 1_000_000, 4_000_000, 3_000_000
+PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = (
+    300_000,
+    1_000_000,
+    4_000_000,
+    3_000_000,
+)
 COURSE_PAGE = "index.html"
 PICTURE = "picture.webp"
 
@@ -65,8 +70,13 @@ def publish(
     """
     for lesson in lessons:
         runs = runs_of(lesson)
-        if not all(NAME.fullmatch(name) for name in (lesson.name, *(run.name for run in runs if run.recorded))):
-            raise InputError(f"lesson {lesson.name!r}: a name on a site has the signs A-Z a-z 0-9 _ - only")
+        if not all(
+            NAME.fullmatch(name)
+            for name in (lesson.name, *(run.name for run in runs if run.recorded))
+        ):
+            raise InputError(
+                f"lesson {lesson.name!r}: a name on a site has the signs A-Z a-z 0-9 _ - only"
+            )
         if len({run.file.casefold() for run in runs}) < len(runs):
             raise InputError(
                 f"lesson {lesson.name!r}: two of its runs would have one file; give them other names or values"
@@ -91,12 +101,20 @@ def _publish(
     manifest = Manifest(out)
     manifest.remove_leftovers()
     names = {lesson.name for lesson in lessons}
-    others = {} if remove_others else {name: one for name, one in manifest.lessons.items() if name not in names}
+    others = (
+        {}
+        if remove_others
+        else {name: one for name, one in manifest.lessons.items() if name not in names}
+    )
     made_by = f"workbench {__version__}, viser {viser.__version__}"
     if others and manifest.made_by != made_by:
-        raise InputError(f"{out}: its other lessons were published by another version; publish all of them again")
+        raise InputError(
+            f"{out}: its other lessons were published by another version; publish all of them again"
+        )
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]
-    shared = {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *RECORDED, *SCRIPTS)}
+    shared = {
+        f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *RECORDED, *SCRIPTS)
+    }
     shared |= {f"{PAGE}/{MATH}": math_font_css().encode(), ".nojekyll": b""}
     shared |= {CLIENT: client_script().encode()}
     shared |= {f"{PAGE}/{THIRD_PARTIES}": (STATIC / THIRD_PARTIES).read_bytes()}
@@ -112,7 +130,8 @@ def _publish(
     for lesson in lessons:
         _write_page(manifest, lesson, timelines, canonical(base_url, f"{lesson.name}/"))
     listed = others | {
-        lesson.name: Listed(lesson.title, lesson.summary, lesson.order, lesson.needs) for lesson in lessons
+        lesson.name: Listed(lesson.title, lesson.summary, lesson.order, lesson.needs)
+        for lesson in lessons
     }
     manifest.lessons = dict(sorted(listed.items(), key=lambda item: (item[1].order, item[0])))
     course = {
@@ -120,13 +139,23 @@ def _publish(
         LESSONS: lessons_script(manifest.lessons),
     }
     manifest.write({name: text.encode() for name, text in course.items()})
-    manifest.remove(name for name in manifest.files if name not in wanted and name.partition("/")[0] not in others)
-    manifest.runs = {key: value for key, value in manifest.runs.items() if key.partition("/")[0] in manifest.lessons}
+    manifest.remove(
+        name
+        for name in manifest.files
+        if name not in wanted and name.partition("/")[0] not in others
+    )
+    manifest.runs = {
+        key: value
+        for key, value in manifest.runs.items()
+        if key.partition("/")[0] in manifest.lessons
+    }
     manifest.save()
     return checked(out, manifest.files)
 
 
-def _render(manifest: Manifest, work: Sequence[tuple[Lesson, Run]], progress: Progress | None) -> None:
+def _render(
+    manifest: Manifest, work: Sequence[tuple[Lesson, Run]], progress: Progress | None
+) -> None:
     """Write the files of those runs that are not there as they should be."""
     digests = {(lesson.name, run.name): digest_of(lesson, run) for lesson, run in work}
     stale = [
@@ -138,7 +167,9 @@ def _render(manifest: Manifest, work: Sequence[tuple[Lesson, Run]], progress: Pr
     done = len(work) - len(stale)
     for lesson, run, files in render_all(stale):
         manifest.runs.pop(f"{lesson.name}/{run.name}", None)
-        manifest.write({name: data for name, data in files.items() if not _is_equal(manifest, name, data)})
+        manifest.write(
+            {name: data for name, data in files.items() if not _is_equal(manifest, name, data)}
+        )
         manifest.runs[f"{lesson.name}/{run.name}"] = digests[lesson.name, run.name]
         manifest.save()  # who stops here goes on here
         done += 1
@@ -152,16 +183,24 @@ def _write_page(manifest: Manifest, lesson: Lesson, timelines: Timelines, addres
     digest = page_digest(lesson, address)
     if manifest.runs.get(key) == digest and all(map(manifest.is_ours, names)):
         return
-    known = recorded(lesson, runs_of(lesson)[0], root="../", runs="runs/", answers=answers(lesson, timelines))
+    known = recorded(
+        lesson, runs_of(lesson)[0], root="../", runs="runs/", answers=answers(lesson, timelines)
+    )
     picture = thumbnail(lesson, timelines.get(lesson, lesson.params()))
     manifest.runs.pop(key, None)
-    manifest.write(dict(zip(names, (lesson_page(lesson, known, address).encode(), picture), strict=True)))
+    manifest.write(
+        dict(zip(names, (lesson_page(lesson, known, address).encode(), picture), strict=True))
+    )
     manifest.runs[key] = digest
 
 
 def _is_equal(manifest: Manifest, name: str, data: bytes) -> bool:
     """Return whether our file there is a recording of equal content: its bytes may differ all the same."""
-    return name.endswith(".rrd") and manifest.is_ours(name) and equal_content(manifest.read(name), data)
+    return (
+        name.endswith(".rrd")
+        and manifest.is_ours(name)
+        and equal_content(manifest.read(name), data)
+    )
 
 
 def canonical(base_url: str | None, path: str) -> str:
@@ -172,10 +211,18 @@ def canonical(base_url: str | None, path: str) -> str:
         parts = urlsplit(base_url)
     except ValueError:  # such as brackets that hold no address
         parts = urlsplit("")
-    if parts.scheme not in ("http", "https") or not parts.netloc or any(c in base_url for c in "\"'<> "):
-        raise InputError(f"--base-url {base_url!r}: an address such as https://example.org/course is needed")
+    if (
+        parts.scheme not in ("http", "https")
+        or not parts.netloc
+        or any(c in base_url for c in "\"'<> ")
+    ):
+        raise InputError(
+            f"--base-url {base_url!r}: an address such as https://example.org/course is needed"
+        )
     if "?" in base_url or "#" in base_url:
-        raise InputError(f"--base-url {base_url!r}: the address of a folder has no query (?) and no fragment (#)")
+        raise InputError(
+            f"--base-url {base_url!r}: the address of a folder has no query (?) and no fragment (#)"
+        )
     return f'<link rel="canonical" href="{base_url.rstrip("/")}/{path}">\n'
 
 
@@ -222,9 +269,14 @@ def _over(what: str, size: int, budget: int) -> str:
 def sizes_told(out: Path, files: Sequence[tuple[str, int]], swept: Collection[str] = ()) -> str:
     """Return a summary of what a site holds, by kind of file, and where to begin; `swept` are the files of sweeps."""
     kinds = {"pages": "*.html", "runs": "*/runs/*.js", "recordings": "*.rrd"}
-    lines = [_sizes(kind, [size for name, size in files if PurePosixPath(name).match(p)]) for kind, p in kinds.items()]
+    lines = [
+        _sizes(kind, [size for name, size in files if PurePosixPath(name).match(p)])
+        for kind, p in kinds.items()
+    ]
     if swept:
-        lines.append(_sizes("of these runs are of sweeps", [size for name, size in files if name in swept]))
+        lines.append(
+            _sizes("of these runs are of sweeps", [size for name, size in files if name in swept])
+        )
     return "\n".join([*lines, f"begin at {out / COURSE_PAGE}"])
 
 

@@ -38,22 +38,30 @@ def _tidied(chunks: Iterable[Any]) -> Iterator[pa.Table]:
         field = table.schema.field(ROW_ID)
         ids = pa.array([number[row_id, i] for _, row_id in _order(table)], field.type)
         about = {**(table.schema.metadata or {}), b"rerun:id": f"chunk_{i + 1:032X}".encode()}
-        table = table.set_column(table.column_names.index(ROW_ID), field, ids).replace_schema_metadata(about)
+        table = table.set_column(
+            table.column_names.index(ROW_ID), field, ids
+        ).replace_schema_metadata(about)
         yield table.sort_by(ROW_ID).combine_chunks()
 
 
 def _joined(batches: Sequence[pa.RecordBatch]) -> pa.Table:
     """Return the rows of chunks as one table, its columns in the order that rerun wants."""
-    table = pa.concat_tables([pa.Table.from_batches([batch]) for batch in batches], promote_options="default")
+    table = pa.concat_tables(
+        [pa.Table.from_batches([batch]) for batch in batches], promote_options="default"
+    )
     table = table.replace_schema_metadata(batches[0].schema.metadata)
-    return table.select(sorted(table.column_names, key=lambda name: (_KINDS[_kind(table, name)], name)))
+    return table.select(
+        sorted(table.column_names, key=lambda name: (_KINDS[_kind(table, name)], name))
+    )
 
 
 def _order(table: pa.Table) -> list[tuple[int, bytes]]:
     """Return what orders the rows: the step, then the moment of logging. Rerun takes both columns for sorted."""
     ids = table.column(ROW_ID).to_pylist()
     times = [name for name in table.column_names if _kind(table, name) == b"index"]
-    return list(zip(table.column(times[0]).to_pylist() if times else [-1] * len(ids), ids, strict=True))
+    return list(
+        zip(table.column(times[0]).to_pylist() if times else [-1] * len(ids), ids, strict=True)
+    )
 
 
 def _kind(table: pa.Table, name: str) -> bytes:
@@ -71,7 +79,9 @@ def id_of(tables: Sequence[pa.Table]) -> str:
     for table in tables:
         told.update(repr(sorted((table.schema.metadata or {}).items())).encode())
         bare = pa.schema([pa.field(field.name, field.type) for field in table.schema])
-        told.update(repr([sorted((field.metadata or {}).items()) for field in table.schema]).encode())
+        told.update(
+            repr([sorted((field.metadata or {}).items()) for field in table.schema]).encode()
+        )
         told.update(pa.table(table.columns, schema=bare).to_batches()[0].serialize())
         told.update(str(bare).encode())
     return told.hexdigest()[:32]

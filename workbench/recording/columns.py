@@ -23,8 +23,12 @@ def send_captions(stream: Any, captions: Sequence[Caption]) -> None:
     shown = [f"### {TONES[caption.tone]}{markdown(caption.text)}" for caption in captions]
     kinds = [rr.MediaType.MARKDOWN] * len(captions)
     texts, tones = [caption.text for caption in captions], [caption.tone for caption in captions]
-    stream.send_columns("/caption", [_steps(len(captions))], rr.TextDocument.columns(text=shown, media_type=kinds))
-    stream.send_columns("/caption", [_steps(len(captions))], rr.AnyValues.columns(caption=texts, tone=tones))
+    stream.send_columns(
+        "/caption", [_steps(len(captions))], rr.TextDocument.columns(text=shown, media_type=kinds)
+    )
+    stream.send_columns(
+        "/caption", [_steps(len(captions))], rr.AnyValues.columns(caption=texts, tone=tones)
+    )
 
 
 def facts(**values: Any) -> rr.AnyValues:
@@ -51,14 +55,18 @@ def send_series(stream: Any, path: str, series: Series, order: int) -> None:
     )
     stream.log(entity, about, static=True)
     if scalar.log:
-        stream.send_columns(shown, [_steps(len(values))], rr.Scalars.columns(scalars=plotted_values(scalar, values)))
+        stream.send_columns(
+            shown, [_steps(len(values))], rr.Scalars.columns(scalars=plotted_values(scalar, values))
+        )
     stream.log(shown, curve_style(scalar, scalar.name), static=True)
 
 
 def curve_style(scalar: Scalar, name: str, *, second: bool = False) -> Any:
     """Return how a curve is drawn; that of a second run is thinner and darker."""
     color = np.array(PALETTE[scalar.color]) * (0.6 if second else 1.0)
-    return rr.SeriesLines(colors=[color.astype(np.uint8)], names=safe(name), widths=1.2 if second else 2.2)
+    return rr.SeriesLines(
+        colors=[color.astype(np.uint8)], names=safe(name), widths=1.2 if second else 2.2
+    )
 
 
 def _steps(n: int) -> Any:

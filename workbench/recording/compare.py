@@ -31,7 +31,14 @@ def compare_files(a: Path, b: Path, *, native: bool, host: str, port: int, brows
     with tempfile.TemporaryDirectory(prefix="workbench-compare-") as folder:
         file = Path(folder) / "compare.rrd"
         file.write_bytes(compare_bytes(a, b))
-        play({file.name: file}, f"{a.name} · {b.name}", native=native, host=host, port=port, browser=browser)
+        play(
+            {file.name: file},
+            f"{a.name} · {b.name}",
+            native=native,
+            host=host,
+            port=port,
+            browser=browser,
+        )
 
 
 def compare_bytes(a: Path, b: Path) -> bytes:
@@ -39,7 +46,9 @@ def compare_bytes(a: Path, b: Path) -> bytes:
     runs = dict(zip(ROOTS, (open_recording(a), open_recording(b)), strict=True))
     one, two = runs.values()
     if one.lesson != two.lesson:
-        raise InputError(f"{a} is a run of {one.lesson}, {b} of {two.lesson}: two runs of one lesson can be compared")
+        raise InputError(
+            f"{a} is a run of {one.lesson}, {b} of {two.lesson}: two runs of one lesson can be compared"
+        )
     application = application_id(f"compare {one.lesson}")
     (contents_a, view), (contents_b, _) = (_beside(run) for run in runs.values())
     differences = differences_of(one, two)
@@ -48,20 +57,28 @@ def compare_bytes(a: Path, b: Path) -> bytes:
         stream.send_recording_name(safe(f"{a.name} and {b.name}"))
         stream.log("/differences", document(_table(differences)), static=True)
         for root, run in runs.items():
-            stream.send_chunks([moved for chunk in read_chunks(run.path) if (moved := _below(root, chunk)) is not None])
+            stream.send_chunks(
+                [
+                    moved
+                    for chunk in read_chunks(run.path)
+                    if (moved := _below(root, chunk)) is not None
+                ]
+            )
         charts = Counter(scalar.chart for scalar in {**one.curves, **two.curves}.values())
         for root, run in runs.items():
             for path, scalar in run.curves.items():
-                letter = root[
-                    1:
-                ].upper()  # alone in its plot a curve needs no other name: a long one hides what it names
+                letter = (
+                    root[1:].upper()
+                )  # alone in its plot a curve needs no other name: a long one hides what it names
                 name = letter if charts[scalar.chart] == 1 else f"{scalar.name} · {letter}"
                 style = curve_style(scalar, name, second=root == ROOTS[1])
                 stream.log(root + plotted(path, scalar), style, static=True)
 
     values = {root: run.scalars for root, run in runs.items()}
     names = {root: " · ".join((root[1:].upper(), run.path.name)) for root, run in runs.items()}
-    return stream_bytes(application, fill, two_runs(view, both(contents_a, contents_b), values, names))
+    return stream_bytes(
+        application, fill, two_runs(view, both(contents_a, contents_b), values, names)
+    )
 
 
 def _beside(run: Recording) -> tuple[Contents, View]:

@@ -59,7 +59,9 @@ def _union(clouds: Sequence[Points]) -> Union | None:
         mixed = (mixed ^ column) * np.uint64(0x9E3779B97F4A7C15)
         mixed ^= mixed >> np.uint64(29)
     keys, first, number = np.unique(mixed, return_index=True, return_inverse=True)
-    if len(first) > WORTH * len(rows) or not np.array_equal(rows[first][number], rows):  # two points, one key
+    if len(first) > WORTH * len(rows) or not np.array_equal(
+        rows[first][number], rows
+    ):  # two points, one key
         return None
     last = np.zeros(len(first), int)
     last[number] = cloud_of  # the last one counts
@@ -74,6 +76,9 @@ def _union(clouds: Sequence[Points]) -> Union | None:
 def gathered(cloud: Points, union: Union) -> Iterator[Aspect]:
     """Return the aspects of a cloud that is part of a union."""
     radii = np.where(union.shown[id(cloud)], cloud.radius * union.swell, 0.0).astype(np.float32)
-    yield Aspect(rr.Points3D.from_fields, {"positions": union.p, "colors": union.colors, "show_labels": False})
+    yield Aspect(
+        rr.Points3D.from_fields,
+        {"positions": union.p, "colors": union.colors, "show_labels": False},
+    )
     yield Aspect(rr.Points3D.from_fields, {"radii": radii})
     yield pose(affine(cloud).T_world_object)

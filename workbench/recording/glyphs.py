@@ -26,7 +26,9 @@ def _glyph(char: str) -> str:
         return char
     if char in _INSTEAD:
         return _INSTEAD[char]
-    plain = "".join(part for part in unicodedata.normalize("NFKD", char) if not unicodedata.combining(part))
+    plain = "".join(
+        part for part in unicodedata.normalize("NFKD", char) if not unicodedata.combining(part)
+    )
     if plain != char and plain and all(part in _SAFE for part in plain):
         return plain
     return "" if unicodedata.combining(char) or unicodedata.category(char).startswith("C") else "?"

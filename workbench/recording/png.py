@@ -38,7 +38,9 @@ def _field_png(field: Field) -> bytes:
     known = np.isfinite(field.values)
     share = np.where(known, (field.values - field.low) / (field.high - field.low), 0.0)
     levels = np.where(known, np.rint(np.clip(share, 0.0, 1.0) * (_LEVELS - 1)), _LEVELS)
-    colors = np.vstack([color_map(field.map, np.linspace(0.0, 1.0, _LEVELS)), UNKNOWN]).astype(np.uint8)
+    colors = np.vstack([color_map(field.map, np.linspace(0.0, 1.0, _LEVELS)), UNKNOWN]).astype(
+        np.uint8
+    )
     return png_of_levels(levels.astype(np.uint8), colors)
 
 

@@ -68,7 +68,11 @@ class Recording:
 
     def __repr__(self) -> str:
         """Return one short line: the file, the lesson, where it comes from, how many steps, and how it ended."""
-        words = [self.path.name, self.lesson, *([] if self.preset is None else [f"preset {self.preset}"])]
+        words = [
+            self.path.name,
+            self.lesson,
+            *([] if self.preset is None else [f"preset {self.preset}"]),
+        ]
         said = [reprlib.repr(word) for word in (*words, self.status)]
         return f"<Recording {said[0]}: {', '.join(said[1:-1])}, {len(self):,} steps, {said[-1]}>"
 
@@ -102,7 +106,9 @@ def open_recording(path: str | Path) -> Recording:
         raise InputError(f"{path}: is damaged ({type(error).__name__})") from error
 
 
-def reopening(path: Path, given: Lesson | None = None, *, files: bool = False) -> tuple[Lesson, Any, list[str]]:
+def reopening(
+    path: Path, given: Lesson | None = None, *, files: bool = False
+) -> tuple[Lesson, Any, list[str]]:
     """Return the lesson and the params of a recording, and a line for everything that is not as it was.
 
     The lesson's name is looked up in the catalogue and nowhere else: a recording may come from anybody.
@@ -119,9 +125,13 @@ def reopening(path: Path, given: Lesson | None = None, *, files: bool = False) -
     lesson = _lesson_of(recording, given)
     lines = []
     if recording.version != __version__:
-        lines.append(f"{path}: recorded by version {recording.version}, this is {__version__}; the run may differ")
+        lines.append(
+            f"{path}: recorded by version {recording.version}, this is {__version__}; the run may differ"
+        )
     if recording.format > FORMAT:
-        lines.append(f"{path}: format {recording.format} is newer than this version's {FORMAT}; trying all the same")
+        lines.append(
+            f"{path}: format {recording.format} is newer than this version's {FORMAT}; trying all the same"
+        )
     fields = {field.name: field for field in knobs.fields_of(lesson.params)}
     values = {}
     for name, value in recording.params.items():
@@ -132,7 +142,11 @@ def reopening(path: Path, given: Lesson | None = None, *, files: bool = False) -
             values[name] = fields[name].clean(value)
         except InputError as error:
             lines.append(f"{path}: {error}; left at its default")
-    named = [f"{name} {values[name]}" for name in values if fields[name].sensitive and values[name] is not None]
+    named = [
+        f"{name} {values[name]}"
+        for name in values
+        if fields[name].sensitive and values[name] is not None
+    ]
     if named and not files:
         raise InputError(
             f"{path}: was made from files ({', '.join(named)}); a recording may come from anybody, so they are read"
@@ -145,7 +159,9 @@ def _lesson_of(recording: Recording, given: Lesson | None) -> Lesson:
     """Return the lesson of a recording: the one given if it has the name, or the one that the catalogue has."""
     name, path = recording.lesson, recording.path
     if given is not None and given.name != name:
-        raise InputError(f"{path}: is a run of the lesson {name[:80]!r}, and the lesson given is {given.name!r}")
+        raise InputError(
+            f"{path}: is a run of the lesson {name[:80]!r}, and the lesson given is {given.name!r}"
+        )
     found = catalog().get(name) if given is None else given
     if found is None:
         raise InputError(
@@ -165,7 +181,9 @@ def read_chunks(path: Path) -> list[Any]:
     """
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of bytes behind the end: what is read is held to its digest
+            warnings.simplefilter(
+                "ignore"
+            )  # of bytes behind the end: what is read is held to its digest
             reader = RrdReader(path)
         stores = reader.recordings()
         chunks = [chunk for store in stores for chunk in reader.stream(store=store)]
@@ -214,16 +232,30 @@ def _recording(path: Path, chunks: Sequence[Any]) -> Recording:
     if not result:
         raise InputError(f"{path}: is cut short: its end is missing")
     n = int(result["steps"])
-    told = sum(chunk.num_rows for chunk in chunks if chunk.entity_path == "/caption" and not chunk.is_static)
+    told = sum(
+        chunk.num_rows
+        for chunk in chunks
+        if chunk.entity_path == "/caption" and not chunk.is_static
+    )
     if not 0 < n <= told:
         raise InputError(f"{path}: is damaged: it has fewer captions than steps")
     captions = _column(chunks, "/caption", "caption", n)
-    paths = [chunk.entity_path for chunk in chunks if chunk.entity_path.startswith("/scalars/") and not chunk.is_static]
-    found = {_scene_path(entity): np.array(_column(chunks, entity, "Scalars:scalars", n), float) for entity in paths}
+    paths = [
+        chunk.entity_path
+        for chunk in chunks
+        if chunk.entity_path.startswith("/scalars/") and not chunk.is_static
+    ]
+    found = {
+        _scene_path(entity): np.array(_column(chunks, entity, "Scalars:scalars", n), float)
+        for entity in paths
+    }
     abouts = {path: _static(chunks, entity) for path, entity in zip(found, paths, strict=True)}
     order = sorted(found, key=lambda path: int(abouts[path]["order"]))
     scalars = {path: found[path] for path in order}
-    if any(caption is None for caption in captions) or digest(facts["params"], captions, scalars) != result["digest"]:
+    if (
+        any(caption is None for caption in captions)
+        or digest(facts["params"], captions, scalars) != result["digest"]
+    ):
         raise InputError(f"{path}: is damaged: its content does not fit its fingerprint")
     params = json.loads(facts["params"])
     if not isinstance(params, dict):

@@ -128,9 +128,13 @@ def _mesh(primitive: Mesh, numbers: ClassNumbers) -> Iterator[Aspect]:
         yield Aspect(_wires, {"p": mesh.p, "faces": mesh.faces})
         yield _width(1.0)
         role = mesh.color if isinstance(mesh.color, str) else "neutral"
-        yield Aspect(_painted, {"archetype": rr.LineStrips3D, "color": role, "opacity": mesh.opacity})
+        yield Aspect(
+            _painted, {"archetype": rr.LineStrips3D, "color": role, "opacity": mesh.opacity}
+        )
     else:
-        make = _surface if isinstance(mesh.color, str) else _coloured_surface  # Rerun would multiply both's colours
+        make = (
+            _surface if isinstance(mesh.color, str) else _coloured_surface
+        )  # Rerun would multiply both's colours
         yield Aspect(make, {"mesh": replace(mesh, T_world_object=None)})
     yield pose(mesh.T_world_object)
 
@@ -170,7 +174,9 @@ def pose(T_world_object: np.ndarray | None) -> Aspect:
 
 
 def _width(pixels: float) -> Aspect:
-    return Aspect(rr.LineStrips3D.from_fields, {"radii": -pixels / 2, "show_labels": False})  # negative: of the screen
+    return Aspect(
+        rr.LineStrips3D.from_fields, {"radii": -pixels / 2, "show_labels": False}
+    )  # negative: of the screen
 
 
 def _colors(primitive: Points | Segments, archetype: Any, numbers: ClassNumbers) -> Aspect:
@@ -183,7 +189,9 @@ def _colors(primitive: Points | Segments, archetype: Any, numbers: ClassNumbers)
 
 def _painted(archetype: Any, color: Color, opacity: float) -> Any:
     """Return one colour for all where all have the same, else one each."""
-    return archetype.from_fields(colors=_faded(color_rows(color, 1 if isinstance(color, str) else 0), opacity))
+    return archetype.from_fields(
+        colors=_faded(color_rows(color, 1 if isinstance(color, str) else 0), opacity)
+    )
 
 
 def _faded(colors: np.ndarray, opacity: float) -> np.ndarray:

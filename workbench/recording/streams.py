@@ -30,11 +30,18 @@ def stream_bytes(application: str, fill: Callable[[Any], None], layout: Any = No
         rr.set_strict_mode(True)
         try:
             content = tidied(_logged(_recording(application, "content"), fill))
-            beside = [] if layout is None else tidied(_logged(_layout(application), layout._log_to_stream))
+            beside = (
+                []
+                if layout is None
+                else tidied(_logged(_layout(application), layout._log_to_stream))
+            )
             if beside:
                 application = f"{application}-{id_of(beside)[:8]}"
             stream = _recording(application, id_of([*content, *beside]))
-            return _logged(stream, lambda stream: _send(stream, application, chunks_of(content), chunks_of(beside)))
+            return _logged(
+                stream,
+                lambda stream: _send(stream, application, chunks_of(content), chunks_of(beside)),
+            )
         finally:
             rr.set_strict_mode(strict)
             bindings.flush_and_cleanup_orphaned_recordings()
@@ -71,7 +78,10 @@ def _recording(application: str, name: str) -> Any:
 def _layout(application: str) -> Any:
     stream = RecordingStream._from_native(
         bindings.new_blueprint(
-            application_id=application, make_default=False, make_thread_default=False, default_enabled=True
+            application_id=application,
+            make_default=False,
+            make_thread_default=False,
+            default_enabled=True,
         )
     )
     stream.set_log_time_enabled(False)

@@ -62,7 +62,9 @@ def web_viewer() -> dict[str, Path]:
                 for name in missing:
                     _fetch(f"{address}/{name}", files[name])
         except OSError as error:
-            raise InputError(f"Rerun's web viewer could not be unpacked into {folder}: {error}") from error
+            raise InputError(
+                f"Rerun's web viewer could not be unpacked into {folder}: {error}"
+            ) from error
     return files
 
 
@@ -74,9 +76,22 @@ def _fetch(address: str, file: Path) -> None:
 @contextmanager
 def _serving() -> Iterator[str]:
     """Run the binary as a web server without a recording, which costs nothing, and yield its address."""
-    command = [str(binary()), "--serve-web", "--bind", "127.0.0.1", "--port", "0", "--web-viewer-port", "0"]
+    command = [
+        str(binary()),
+        "--serve-web",
+        "--bind",
+        "127.0.0.1",
+        "--port",
+        "0",
+        "--web-viewer-port",
+        "0",
+    ]
     process = subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=quiet_environment()
+        command,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=quiet_environment(),
     )
     assert process.stderr is not None
     watchdog = threading.Timer(PATIENCE, process.kill)

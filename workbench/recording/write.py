@@ -66,12 +66,20 @@ def record(
         InputError: If the inputs cannot be used, the run fails, or the file is there or cannot be written; then nothing
             has changed.
     """
-    found = find(lesson) if isinstance(lesson, str) else load(lesson) if isinstance(lesson, Path) else lesson
+    found = (
+        find(lesson)
+        if isinstance(lesson, str)
+        else load(lesson)
+        if isinstance(lesson, Path)
+        else lesson
+    )
     if params is not None and (preset is not None or values):
         other = f"preset {preset!r}" if preset is not None else f"{next(iter(values))}=…"
         raise InputError(f"params and {other}: give whole params, or a preset and single values")
     if params is None:
-        params = knobs.make(found.params, values, base=None if preset is None else found.preset(preset).params)
+        params = knobs.make(
+            found.params, values, base=None if preset is None else found.preset(preset).params
+        )
     _check_place(Path(path), force, how="force=True")
     record_file(found, params, Path(path), preset=preset, force=force)
     return Path(path)
@@ -120,10 +128,14 @@ def record_to_stdout(lesson: Lesson, params: Any, *, preset: str | None = None) 
         raise
     except OSError as error:
         sys.stdout = None  # what is left in its buffer cannot be written at exit either
-        raise InputError(f"standard output: cannot be written: {error.strerror or error}") from error
+        raise InputError(
+            f"standard output: cannot be written: {error.strerror or error}"
+        ) from error
 
 
-def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Progress | None = None) -> bytes:
+def record_bytes(
+    timeline: Timeline, *, preset: str | None = None, progress: Progress | None = None
+) -> bytes:
     """Return a recording of the steps of a run that are known so far.
 
     Args:
@@ -149,7 +161,9 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
 
     def fill(stream: Any) -> None:
         stream.send_recording_name(safe(_title(timeline, preset)))
-        stream.send_property("run", facts(layout=to_json(contents, view), **_facts(timeline, preset)))
+        stream.send_property(
+            "run", facts(layout=to_json(contents, view), **_facts(timeline, preset))
+        )
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
         stream.log("page", document(plain_page(wording(lesson.text(), "site"))), static=True)
         send_captions(stream, [step.caption for step in steps])
@@ -161,7 +175,11 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
             if progress is not None:
                 progress("recorded", k + 1, len(steps))
         captions = [step.caption.text for step in steps]
-        status = "complete" if timeline.finished and timeline.stopped is None else timeline.stopped or "unfinished"
+        status = (
+            "complete"
+            if timeline.finished and timeline.stopped is None
+            else timeline.stopped or "unfinished"
+        )
         check = digest(knobs.to_json(timeline.params), captions, values)
         stream.send_property("result", facts(status=status, steps=len(steps), digest=check))
 
@@ -186,7 +204,9 @@ def _title(timeline: Timeline, preset: str | None) -> str:
     if preset is not None:
         words.append(timeline.lesson.preset(preset).title)
     else:
-        words += [f"{name} {value}" for name, value in list(knobs.changed(timeline.params).items())[:3]]
+        words += [
+            f"{name} {value}" for name, value in list(knobs.changed(timeline.params).items())[:3]
+        ]
     return ", ".join(words)
 
 
@@ -200,7 +220,9 @@ def _facts(timeline: Timeline, preset: str | None) -> dict[str, Any]:
         "seed": int(getattr(params, "seed", -1)),
         "format": FORMAT,
         "version": __version__,
-        "versions": json.dumps({"workbench": __version__, "rerun": rr.__version__, "numpy": np.__version__}),
+        "versions": json.dumps(
+            {"workbench": __version__, "rerun": rr.__version__, "numpy": np.__version__}
+        ),
     }
 
 

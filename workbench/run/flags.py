@@ -21,7 +21,9 @@ from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
 from workbench.run.loading import is_path, lesson_given
 
-_WORDS = "lesson preset step out force host port browser with native help params open behind workers key"
+_WORDS = (
+    "lesson preset step out force host port browser with native help params open behind workers key"
+)
 RESERVED = frozenset(_WORDS.split())
 """Flags of the commands, words of links, keywords of `record`: no Params field may have one of these names."""
 
@@ -42,7 +44,9 @@ class Option:
 class Serving:
     """Where a command serves."""
 
-    host: Annotated[str, Option("Address to listen on; 0.0.0.0 lets other machines in.", "HOST")] = "127.0.0.1"
+    host: Annotated[
+        str, Option("Address to listen on; 0.0.0.0 lets other machines in.", "HOST")
+    ] = "127.0.0.1"
     port: Annotated[int, Option("Port to listen on; 0 picks a free one.", "PORT")] = 8080
     browser: Annotated[bool, Option("Do not open a browser.")] = True
 
@@ -56,10 +60,12 @@ class ServingLive(Serving):
     """Where a command serves live pages, and who is let in."""
 
     open_to_all: Annotated[
-        bool, Option("With --host: let everybody in who reaches it, without a token.", flag="--open")
+        bool,
+        Option("With --host: let everybody in who reaches it, without a token.", flag="--open"),
     ] = False
     behind: Annotated[
-        str | None, Option("Name under which browsers find it, where it stands behind a proxy.", "NAME")
+        str | None,
+        Option("Name under which browsers find it, where it stands behind a proxy.", "NAME"),
     ] = None
     workers: Annotated[int, Option("One process serves a class; says where more is told.", "N")] = 1
 
@@ -102,17 +108,22 @@ def parse(
     parser = _Parser(prog, description=description, allow_abbrev=False, formatter_class=_layout)
     asked = _asked(words, signature.parameters.values())
     readers = {
-        name: _lesson_reader(parser, words, *asked) if one.annotation is Chosen else _reader(parser, one)
+        name: _lesson_reader(parser, words, *asked)
+        if one.annotation is Chosen
+        else _reader(parser, one)
         for name, one in signature.parameters.items()
     }
-    places = "".join(f"{action.metavar} " for action in parser._actions if not action.option_strings)
+    places = "".join(
+        f"{action.metavar} " for action in parser._actions if not action.option_strings
+    )
     parser.usage = f"{parser.prog} {places}[options]"
     values, unknown = parser.parse_known_intermixed_args(words)
     if unknown:
         flags = [flag for action in parser._actions for flag in action.option_strings]
         close = difflib.get_close_matches(unknown[0].partition("=")[0], flags, 1)
         parser.error(
-            f"unrecognized: {unknown[0]}; " + (f"did you mean {close[0]}?" if close else "--help lists all flags")
+            f"unrecognized: {unknown[0]}; "
+            + (f"did you mean {close[0]}?" if close else "--help lists all flags")
         )
     call = signature.bind_partial()
     call.arguments.update({name: read(values) for name, read in readers.items()})
@@ -134,13 +145,24 @@ def _spelled(args: Sequence[str]) -> list[str]:
 def _reader(parser: argparse.ArgumentParser, one: inspect.Parameter) -> Reader:
     """Add a parameter of a command to the parser, and return how its value is read."""
     if one.annotation not in (Serving, ServingLive):
-        return _option(parser, one.name, one.annotation, one.default, positional=one.kind is one.POSITIONAL_ONLY)
+        return _option(
+            parser,
+            one.name,
+            one.annotation,
+            one.default,
+            positional=one.kind is one.POSITIONAL_ONLY,
+        )
     group = parser.add_argument_group("serving options")
-    parts = {field.name: _option(group, field.name, field.type, field.default) for field in fields(one.annotation)}
+    parts = {
+        field.name: _option(group, field.name, field.type, field.default)
+        for field in fields(one.annotation)
+    }
     return lambda values: one.annotation(**{name: read(values) for name, read in parts.items()})
 
 
-def _option(group: Any, name: str, annotation: Any, default: Any, *, positional: bool = False) -> Reader:
+def _option(
+    group: Any, name: str, annotation: Any, default: Any, *, positional: bool = False
+) -> Reader:
     """Add an option of the command itself; a default of `Parameter.empty` means that it must be given."""
     kind, option = get_args(annotation)
     required, many = default is inspect.Parameter.empty, get_origin(kind) is tuple
@@ -149,7 +171,9 @@ def _option(group: Any, name: str, annotation: Any, default: Any, *, positional:
     names = [option.short, flag] if option.short else [flag]
     if kind is bool:
         names = [f"--no-{name}"] if default else names
-        group.add_argument(*names, dest=name, action="store_false" if default else "store_true", help=about)
+        group.add_argument(
+            *names, dest=name, action="store_false" if default else "store_true", help=about
+        )
         return lambda values: getattr(values, name)
     if not required and default not in (None, ()):
         about += f" (default: {default})"
@@ -173,7 +197,9 @@ def _option(group: Any, name: str, annotation: Any, default: Any, *, positional:
     return read
 
 
-def _asked(words: Sequence[str], parameters: Iterable[inspect.Parameter]) -> tuple[str | None, str | None]:
+def _asked(
+    words: Sequence[str], parameters: Iterable[inspect.Parameter]
+) -> tuple[str | None, str | None]:
     """Return the lesson that is named, and the preset: what stands behind another flag is its value, and never run."""
     finder = _Parser(add_help=False, allow_abbrev=False)
     for one in parameters:
@@ -184,13 +210,17 @@ def _asked(words: Sequence[str], parameters: Iterable[inspect.Parameter]) -> tup
     found, flags = finder.parse_known_intermixed_args([word for word in words if word not in HELP])
     name = found.lesson
     if name is not None and name != words[0] and name not in catalog():
-        behind = words[words.index(name) - 1]  # a flag of a lesson's params, whose value this may be
+        behind = words[
+            words.index(name) - 1
+        ]  # a flag of a lesson's params, whose value this may be
         if behind in flags or not is_path(name):
             name = next((word for word in flags if word in catalog()), None)
     return name, found.preset
 
 
-def _lesson_reader(parser: _Parser, words: list[str], name: str | None, preset: str | None) -> Reader:
+def _lesson_reader(
+    parser: _Parser, words: list[str], name: str | None, preset: str | None
+) -> Reader:
     """Take the lesson's name out of the words; its params become flags."""
     if name is None:
         names = ", ".join(catalog())
@@ -206,12 +236,19 @@ def _lesson_reader(parser: _Parser, words: list[str], name: str | None, preset: 
     parser.description = f"{parser.description}\n\n{lesson.title}: {lesson.summary}"
     presets = ", ".join(preset.name for preset in lesson.presets) or "none"
     parser.add_argument("--preset", metavar="NAME", help=f"Start from one of: {presets}.")
-    group, fields_ = parser.add_argument_group(f"{lesson.name} options"), knobs.fields_of(lesson.params)
+    group, fields_ = (
+        parser.add_argument_group(f"{lesson.name} options"),
+        knobs.fields_of(lesson.params),
+    )
     for field in fields_:
         _add_param(group, field, getattr(base, field.name))
 
     def read(values: argparse.Namespace) -> Chosen:
-        given = {field.name: value for field in fields_ if (value := getattr(values, field.name)) is not None}
+        given = {
+            field.name: value
+            for field in fields_
+            if (value := getattr(values, field.name)) is not None
+        }
         path = Path(name) if is_path(name) else None
         made = knobs.make(lesson.params, given, base=base)
         files = [field.name for field in fields_ if field.kind == "path" and field.name in given]

@@ -29,7 +29,9 @@ def write(place: Place) -> str:
     """Return the query of a place, starting with `?`; params at their defaults and file paths are left out."""
     private = knobs.paths_of(type(place.params))
     query = {"lesson": place.lesson.name}
-    query |= {name: text for name, text in knobs.changed(place.params).items() if name not in private}
+    query |= {
+        name: text for name, text in knobs.changed(place.params).items() if name not in private
+    }
     if place.step is not None:
         query["step"] = str(place.step)
     return "?" + urlencode(query, safe=",")
@@ -64,11 +66,17 @@ def read(query: str, *, here: Lesson | None = None) -> Place | None:
         raise InputError(f"this link names step {step[:20]!r}, which is no whole number")
     preset = values.pop("preset", None)
     fields = [field.name for field in knobs.fields_of(lesson.params)]
-    values = {key: value for key, value in values.items() if key in fields or get_close_matches(key, fields)}
+    values = {
+        key: value
+        for key, value in values.items()
+        if key in fields or get_close_matches(key, fields)
+    }
     base = None if preset is None else lesson.preset(preset).params
     for field in knobs.fields_of(lesson.params):
         if field.sensitive and field.name in values:
-            raise InputError(f"a link cannot name files: give {field.name} on the command line instead")
+            raise InputError(
+                f"a link cannot name files: give {field.name} on the command line instead"
+            )
     params = knobs.make(lesson.params, values, base=base)
     opens = lesson.preset(preset).step if preset is not None and not values else None
     return Place(lesson, params, opens if step is None else int(step))
@@ -84,7 +92,9 @@ def _quoted(word: str) -> str:
         return shlex.quote(word)
     signs = {"\\": "\\\\", "'": "\\'"}
     escaped = (
-        signs.get(sign, sign) if sign.isprintable() else "".join(f"\\x{byte:02x}" for byte in os.fsencode(sign))
+        signs.get(sign, sign)
+        if sign.isprintable()
+        else "".join(f"\\x{byte:02x}" for byte in os.fsencode(sign))
         for sign in word
     )
     return f"$'{''.join(escaped)}'"  # a terminal that shows it obeys none of its signs
@@ -97,7 +107,11 @@ def show_command(lesson: Lesson, params: Any) -> str:
     its place: what a person's folders are called is nobody else's business.
     """
     given = knobs.changed(params)
-    flags = [_flag_of(field, given[field.name]) for field in knobs.fields_of(type(params)) if field.name in given]
+    flags = [
+        _flag_of(field, given[field.name])
+        for field in knobs.fields_of(type(params))
+        if field.name in given
+    ]
     return command_line("show", word_for(lesson.name, lesson.params.__module__), *flags)
 
 

@@ -36,7 +36,11 @@ def _head(module: ast.Module) -> tuple[int, str, str] | None:
     for statement in module.body:
         value = statement.value if isinstance(statement, ast.Assign | ast.AnnAssign) else None
         if isinstance(value, ast.Call) and getattr(value.func, "id", "") == "Lesson":
-            given = {word.arg: word.value.value for word in value.keywords if isinstance(word.value, ast.Constant)}
+            given = {
+                word.arg: word.value.value
+                for word in value.keywords
+                if isinstance(word.value, ast.Constant)
+            }
             order, name, summary = (given.get(word) for word in ("order", "name", "summary"))
             if isinstance(order, int) and isinstance(name, str) and isinstance(summary, str):
                 return order, name, summary

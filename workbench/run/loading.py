@@ -38,7 +38,11 @@ def load(path: Path) -> Lesson:
     folder = path if path.is_dir() else path.parent if path.name == "lesson.py" else None
     file = path if folder is None else folder / "lesson.py"
     if not file.is_file():
-        missing = "no such file or folder" if folder is None or folder != path else "a folder without a lesson.py"
+        missing = (
+            "no such file or folder"
+            if folder is None or folder != path
+            else "a folder without a lesson.py"
+        )
         raise InputError(f"{path}: {missing}")
     try:
         return lesson_in(_run_file(path) if folder is None else _run_folder(folder.resolve()))
@@ -47,7 +51,9 @@ def load(path: Path) -> Lesson:
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
     except (Exception, SystemExit) as error:
-        raise AuthorError(f"{path}: {described(error, _Place(file.resolve()))}", traceback.format_exc()) from error
+        raise AuthorError(
+            f"{path}: {described(error, _Place(file.resolve()))}", traceback.format_exc()
+        ) from error
 
 
 def word_for(lesson: str, module: str) -> str:
@@ -62,13 +68,19 @@ def word_for(lesson: str, module: str) -> str:
     if lesson in catalog() or file is None:
         return lesson
     path = Path(file)
-    return path.parent.name if "." in package and path.with_name("lesson.py").is_file() else path.name
+    return (
+        path.parent.name if "." in package and path.with_name("lesson.py").is_file() else path.name
+    )
 
 
 def taken_by(lesson: Lesson) -> str | None:
     """Return which other lesson of the catalogue has the name of this one, with its file; None where none has."""
     other = catalog().get(lesson.name)
-    files = [getattr(sys.modules.get(one.params.__module__), "__file__", None) for one in (other, lesson) if one]
+    files = [
+        getattr(sys.modules.get(one.params.__module__), "__file__", None)
+        for one in (other, lesson)
+        if one
+    ]
     if other is None or other is lesson or files[0] == files[1]:
         return None
     return f"lesson {other.name} ({files[0] or other.params.__module__})"
@@ -93,7 +105,9 @@ def lesson_given(word: str) -> Lesson:
 
 def is_path(word: str) -> bool:
     """Tell whether a word names a lesson by its path: a Python file, a folder, or what has a slash in it."""
-    return word not in catalog() and (word.endswith(".py") or os.sep in word or "/" in word or Path(word).is_dir())
+    return word not in catalog() and (
+        word.endswith(".py") or os.sep in word or "/" in word or Path(word).is_dir()
+    )
 
 
 class _Place(ModuleType):
@@ -120,7 +134,9 @@ class _Folders:
 
     def find_spec(self, name: str, path: object = None, target: object = None) -> ModuleSpec | None:
         """Return the spec of a module of a loaded folder, None for all others."""
-        root = next((root for root in self.roots if name == root or name.startswith(f"{root}.")), None)
+        root = next(
+            (root for root in self.roots if name == root or name.startswith(f"{root}.")), None
+        )
         if root is None:
             return None
         place = self.roots[root].joinpath(*name.removeprefix(root).split(".")[1:])
@@ -152,7 +168,11 @@ def _run_folder(folder: Path) -> ModuleType:
     if _folders not in sys.meta_path:
         sys.meta_path.insert(0, _folders)
     _folders.roots[package] = folder
-    before = {name: module for name, module in sys.modules.items() if name == package or name.startswith(f"{package}.")}
+    before = {
+        name: module
+        for name, module in sys.modules.items()
+        if name == package or name.startswith(f"{package}.")
+    }
     for name in before:
         del sys.modules[name]
     try:
@@ -174,4 +194,6 @@ def _importable_as(folder: Path) -> str | None:
         spec = find_spec(name) if init.is_file() else None
     except (ImportError, ValueError):
         return None
-    return name if spec is not None and spec.origin and Path(spec.origin).resolve() == init else None
+    return (
+        name if spec is not None and spec.origin and Path(spec.origin).resolve() == init else None
+    )

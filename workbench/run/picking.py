@@ -10,7 +10,9 @@ from workbench.scene import Mesh, Picture, Points, Primitive, Scene
 WIDEST = np.radians(2.0)  # a click further than this from every point means none of them
 
 
-def picked_params(params: Any, scene: Scene, p_origin: np.ndarray, v_ray: np.ndarray) -> dict[str, Any]:
+def picked_params(
+    params: Any, scene: Scene, p_origin: np.ndarray, v_ray: np.ndarray
+) -> dict[str, Any]:
     """Return the params that a click sets: the first field with a Pick whose primitive is hit; nothing where none is.
 
     A field that holds several indices keeps its latest ones: the new one comes last, the oldest goes.
@@ -25,7 +27,9 @@ def picked_params(params: Any, scene: Scene, p_origin: np.ndarray, v_ray: np.nda
     return {}
 
 
-def picked(primitive: Primitive, p_origin: np.ndarray, v_ray: np.ndarray) -> int | tuple[int, int] | None:
+def picked(
+    primitive: Primitive, p_origin: np.ndarray, v_ray: np.ndarray
+) -> int | tuple[int, int] | None:
     """Return the index of the picked point or vertex, the pixel (u, v) of a picture in space, or None.
 
     Args:
@@ -47,7 +51,9 @@ def picked(primitive: Primitive, p_origin: np.ndarray, v_ray: np.ndarray) -> int
 
 def pickable(primitive: Primitive) -> bool:
     """Tell whether a click can pick something of a primitive: Points, a Mesh, or a Picture that stands in space."""
-    return isinstance(primitive, (Points, Mesh)) or (isinstance(primitive, Picture) and primitive.width is not None)
+    return isinstance(primitive, (Points, Mesh)) or (
+        isinstance(primitive, Picture) and primitive.width is not None
+    )
 
 
 def _nearest(p_world: np.ndarray, p_origin: np.ndarray, v_ray: np.ndarray) -> int | None:

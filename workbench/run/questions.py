@@ -53,7 +53,10 @@ def answer(lesson: Lesson, question: Question, given: Any, timelines: Timelines)
     if question.choices:
         right, truth = predicted == value, str(question.choices[int(value)])
     else:
-        right, truth = abs(predicted - value) <= question.tolerance, f"{value:.4g} {question.unit}".rstrip()
+        right, truth = (
+            abs(predicted - value) <= question.tolerance,
+            f"{value:.4g} {question.unit}".rstrip(),
+        )
     reply = "" if right or math.isnan(predicted) else question.reply(predicted)
     return Answer(right=right, value=value, truth=truth, why=why, step=step, reply=reply)
 

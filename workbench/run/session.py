@@ -63,9 +63,13 @@ class Session:
         self.lesson, self.slots = lesson, dict(slots or {})
         self.timelines = Timelines() if timelines is None else timelines
         self.message: str | None = None
-        self._shown: Timeline | None = None  # the run whose picture stays until the wanted one has a first step
+        self._shown: Timeline | None = (
+            None  # the run whose picture stays until the wanted one has a first step
+        )
         self._last_k = 0
-        self._aside: Any = None  # params with the person's own files, while a run without them is open
+        self._aside: Any = (
+            None  # params with the person's own files, while a run without them is open
+        )
         self.params = lesson.params()
         self.timeline = self._run(self.params)
         self._start(f"lesson {lesson.name}", lesson.first_step)
@@ -119,7 +123,11 @@ class Session:
         base, aside = self.params, self._aside
         try:
             if aside is not None:
-                files = {name: value for name, value in values.items() if name in knobs.paths_of(self.lesson.params)}
+                files = {
+                    name: value
+                    for name, value in values.items()
+                    if name in knobs.paths_of(self.lesson.params)
+                }
                 aside = knobs.make(self.lesson.params, files, base=aside)
                 base = knobs.with_own_files(base, aside) if any(files.values()) else base
             params = knobs.make(self.lesson.params, values, base=base, clamp=True)
@@ -130,7 +138,11 @@ class Session:
             return
         self.message = None
         if params != self.params:
-            at_end = self.timeline.finished and self._wanted >= len(self.timeline) - 1 and len(self.timeline) > 0
+            at_end = (
+                self.timeline.finished
+                and self._wanted >= len(self.timeline) - 1
+                and len(self.timeline) > 0
+            )
             self._go(params)
             self._want(-1 if at_end else self._wanted)
         self._aside = self._still_aside(aside)
@@ -234,13 +246,21 @@ class Session:
 
     def _still_aside(self, own: Any) -> Any:
         """Return params as what is put aside: None where what is wanted names files, or they name none themselves."""
-        return None if own is None or knobs.names_files(self.params) or not knobs.names_files(own) else own
+        return (
+            None
+            if own is None or knobs.names_files(self.params) or not knobs.names_files(own)
+            else own
+        )
 
     def _go(self, params: Any) -> None:
         self.params, self.timeline = params, self._run(params)
 
     def _run(self, params: Any) -> Timeline:
-        return Timeline(self.lesson, params, self.slots) if self.slots else self.timelines.get(self.lesson, params)
+        return (
+            Timeline(self.lesson, params, self.slots)
+            if self.slots
+            else self.timelines.get(self.lesson, params)
+        )
 
     def _want(self, step: int) -> None:
         self._wanted, self._opens = step, None

@@ -73,13 +73,17 @@ class Timeline:
     ):
         self.lesson, self.params = lesson, lesson.validated(params)
         self.finished = False
-        self.stopped: str | None = None  # why the run ended before its end, in one line for a person
+        self.stopped: str | None = (
+            None  # why the run ended before its end, in one line for a person
+        )
         self.failure: str | None = None  # the traceback of an error in the lesson's own code
         self.bytes = 0
         self._steps: list[Step] = []
         self._series = Columns()
         self._slots = dict(slots or {})
-        self._generator: Iterator[Any] | None = None  # made with the first step: whatever `run` raises is told there
+        self._generator: Iterator[Any] | None = (
+            None  # made with the first step: whatever `run` raises is told there
+        )
         self._shown: dict[str, Primitive] = {}  # by path, what a step showed last
         self._lock = threading.Lock()
         self._owners: dict[int, np.ndarray] = {}
@@ -164,7 +168,9 @@ class Timeline:
         """
         n = len(self)
         if self.finished and self.stopped is None and not -n <= step < n:
-            raise AuthorError(f"{who} opens at step {step}, but its run has {n} steps: 0 to {n - 1}, or -1 to -{n}")
+            raise AuthorError(
+                f"{who} opens at step {step}, but its run has {n} steps: 0 to {n - 1}, or -1 to -{n}"
+            )
         return step if step >= 0 else max(0, n + step)
 
     def series(self, steps: int | None = None) -> dict[str, Series]:
@@ -205,7 +211,11 @@ class Timeline:
 
     def _notes(self) -> str:
         """Return what is to be said of the person's own files, such as how many rows of them were left out."""
-        own = [path for name in paths_of(type(self.params)) if (path := getattr(self.params, name)) is not None]
+        own = [
+            path
+            for name in paths_of(type(self.params))
+            if (path := getattr(self.params, name)) is not None
+        ]
         return " ".join(words for path in own for words in told(path))
 
     def _incomplete(self) -> str | None:
@@ -216,7 +226,14 @@ class Timeline:
         if self._slots or self.params != lesson.params():
             return None
         picked = (_not_picked(field, self._shown) for field in fields_of(lesson.params))
-        return next((f"lesson {lesson.name}: {lesson.params.__name__}.{wrong}" for wrong in picked if wrong), None)
+        return next(
+            (
+                f"lesson {lesson.name}: {lesson.params.__name__}.{wrong}"
+                for wrong in picked
+                if wrong
+            ),
+            None,
+        )
 
     def _end(self, why: str | None = None) -> bool:
         self.finished, self.stopped = True, why
@@ -239,7 +256,9 @@ class Columns:
 
     def __init__(self) -> None:
         self._first: dict[str, Scalar] = {}
-        self._values: dict[str, np.ndarray] = {}  # longer than what is known; NaN where a step has none
+        self._values: dict[
+            str, np.ndarray
+        ] = {}  # longer than what is known; NaN where a step has none
         self._steps = 0
 
     def add(self, scene: Scene) -> None:
@@ -286,9 +305,7 @@ def _not_picked(field: Field, shown: Mapping[str, Primitive]) -> str | None:
         return None
     can = ", ".join(path for path, primitive in shown.items() if pickable(primitive)) or "nothing"
     there = f"shows {_kind(shown[pick.path])} at" if pick.path in shown else "shows nothing at"
-    return (
-        f"{field.name} is picked at {pick.path!r}, but the default run {there} {pick.path!r}; what can be picked: {can}"
-    )
+    return f"{field.name} is picked at {pick.path!r}, but the default run {there} {pick.path!r}; what can be picked: {can}"
 
 
 def _kind(value: object) -> str:
@@ -329,7 +346,9 @@ class Timelines:
                 timeline = self._alive[key] = Timeline(lesson, params)
             self._kept[key] = timeline
             self._kept.move_to_end(key)
-            while len(self._kept) > 1 and (len(self._kept) > self._most_runs or self.bytes > self._most_bytes):
+            while len(self._kept) > 1 and (
+                len(self._kept) > self._most_runs or self.bytes > self._most_bytes
+            ):
                 self._kept.popitem(last=False)
             return timeline
 

@@ -7,7 +7,16 @@ A path such as `"source/points"` names a thing for the length of a run: a sink m
 A thing that moves keeps its arrays (the same objects) and changes `T_world_object`, so that sinks send a pose.
 """
 
-from workbench.scene.colors import PALETTE, UNKNOWN, Classes, Color, Field, Role, color_map, color_rows
+from workbench.scene.colors import (
+    PALETTE,
+    UNKNOWN,
+    Classes,
+    Color,
+    Field,
+    Role,
+    color_map,
+    color_rows,
+)
 from workbench.scene.comparing import (
     PRIMITIVES,
     Primitive,
@@ -20,7 +29,17 @@ from workbench.scene.comparing import (
     same_but_for_pose,
 )
 from workbench.scene.side_panels import Caption, Chart, Curve, Scalar, Table
-from workbench.scene.spatial import Axes, Camera, Label, Mesh, Picture, Points, Segments, Spatial, is_rigid
+from workbench.scene.spatial import (
+    Axes,
+    Camera,
+    Label,
+    Mesh,
+    Picture,
+    Points,
+    Segments,
+    Spatial,
+    is_rigid,
+)
 
 __all__ = [
     "PALETTE",

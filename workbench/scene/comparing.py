@@ -12,7 +12,19 @@ from workbench.scene.spatial import Axes, Camera, Label, Mesh, Picture, Points, 
 
 Primitive: TypeAlias = Spatial | Scalar | Curve | Table | Caption
 Scene: TypeAlias = Mapping[str, Primitive]
-PRIMITIVES: tuple[type, ...] = (Points, Segments, Mesh, Axes, Camera, Label, Picture, Scalar, Curve, Table, Caption)
+PRIMITIVES: tuple[type, ...] = (
+    Points,
+    Segments,
+    Mesh,
+    Axes,
+    Camera,
+    Label,
+    Picture,
+    Scalar,
+    Curve,
+    Table,
+    Caption,
+)
 HOLD_NOTHING = frozenset((str, float, int, bool, type(None)))
 PALE = 0.25
 """How opaque a ghost is beside what it is of."""
@@ -29,7 +41,9 @@ def caption_of(scene: Scene) -> Caption:
     """Return the caption of a scene; every scene has exactly one, at the path `caption`."""
     caption = scene.get("caption")
     if not isinstance(caption, Caption):
-        raise ValueError("a scene needs a Caption at the path 'caption': say what happened in this step")
+        raise ValueError(
+            "a scene needs a Caption at the path 'caption': say what happened in this step"
+        )
     return caption
 
 
@@ -50,7 +64,9 @@ def ghost(scene: Scene, beside: Scene) -> dict[str, Primitive]:
 
 def _faint(primitive: Spatial) -> Spatial:
     if isinstance(primitive, Picture) and not in_space(primitive):
-        return replace(primitive, title=f"{primitive.title}, pinned" if primitive.title else "pinned")
+        return replace(
+            primitive, title=f"{primitive.title}, pinned" if primitive.title else "pinned"
+        )
     faint = replace(primitive, opacity=PALE * primitive.opacity)
     if isinstance(faint, Points):
         return replace(faint, radius=0.4 * faint.radius)
@@ -65,13 +81,21 @@ def _same_place(a: Primitive, b: Primitive | None) -> bool:
     if isinstance(a, Camera) or (isinstance(a, Picture) and in_space(a)):
         looks.add("image")
     return type(a) is type(b) and all(
-        _near(getattr(a, field.name), getattr(b, field.name)) for field in fields(a) if field.name not in looks
+        _near(getattr(a, field.name), getattr(b, field.name))
+        for field in fields(a)
+        if field.name not in looks
     )
 
 
 def _near(a: Any, b: Any) -> bool:
-    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray) and a.dtype.kind == b.dtype.kind == "f":
-        return a is b or (a.shape == b.shape and np.allclose(a, b, rtol=1e-9, atol=1e-9, equal_nan=True))
+    if (
+        isinstance(a, np.ndarray)
+        and isinstance(b, np.ndarray)
+        and a.dtype.kind == b.dtype.kind == "f"
+    ):
+        return a is b or (
+            a.shape == b.shape and np.allclose(a, b, rtol=1e-9, atol=1e-9, equal_nan=True)
+        )
     return same(a, b)
 
 
@@ -82,7 +106,11 @@ def same(a: object, b: object) -> bool:
     if type(a) is not type(b):
         return False
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
-        return a.dtype == b.dtype and a.shape == b.shape and np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+        return (
+            a.dtype == b.dtype
+            and a.shape == b.shape
+            and np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+        )
     if isinstance(a, (*PRIMITIVES, Field, Classes)):
         return all(same(getattr(a, f.name), getattr(b, f.name)) for f in fields(a))  # type: ignore[arg-type]
     if isinstance(a, Mapping) and isinstance(b, Mapping):
@@ -97,7 +125,11 @@ def same_but_for_pose(a: Primitive, b: Primitive | None) -> bool:
     return (
         in_space(a)
         and type(a) is type(b)
-        and all(same(getattr(a, f.name), getattr(b, f.name)) for f in fields(a) if f.name != "T_world_object")
+        and all(
+            same(getattr(a, f.name), getattr(b, f.name))
+            for f in fields(a)
+            if f.name != "T_world_object"
+        )
     )
 
 

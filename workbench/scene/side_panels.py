@@ -25,8 +25,12 @@ class Scalar:
     log: bool = False
 
     def __post_init__(self) -> None:
-        number = isinstance(self.value, (int, float, np.number)) and not isinstance(self.value, np.complexfloating)
-        need(number, f"Scalar.value is one real number, not {what(self.value)}: float(...) makes one")
+        number = isinstance(self.value, (int, float, np.number)) and not isinstance(
+            self.value, np.complexfloating
+        )
+        need(
+            number, f"Scalar.value is one real number, not {what(self.value)}: float(...) makes one"
+        )
         check_role(self.color)
 
 
@@ -51,7 +55,10 @@ class Curve:
         check_array("Curve.x", self.x)
         check_array("Curve.y", self.y)
         good = self.x.ndim == 1 and self.x.shape == self.y.shape and len(self.x) > 0
-        need(good, f"Curve.x and y are (n,), n > 0, as long as each other, not {self.x.shape} and {self.y.shape}")
+        need(
+            good,
+            f"Curve.x and y are (n,), n > 0, as long as each other, not {self.x.shape} and {self.y.shape}",
+        )
         check_role(self.color)
         check_finite("Curve.x", self.x)
 
@@ -71,13 +78,25 @@ class Chart:
     unit: str = ""
 
     def curve(
-        self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "source", *, marks: tuple[float, ...] = ()
+        self,
+        x: np.ndarray,
+        y: np.ndarray,
+        name: str,
+        color: Role = "source",
+        *,
+        marks: tuple[float, ...] = (),
     ) -> Curve:
         """Return y over x as a line."""
         return Curve(x, y, name, self.title, self.x_label, self.unit, color, "line", marks)
 
     def dots(
-        self, x: np.ndarray, y: np.ndarray, name: str, color: Role = "source", *, marks: tuple[float, ...] = ()
+        self,
+        x: np.ndarray,
+        y: np.ndarray,
+        name: str,
+        color: Role = "source",
+        *,
+        marks: tuple[float, ...] = (),
     ) -> Curve:
         """Return y over x as dots."""
         return Curve(x, y, name, self.title, self.x_label, self.unit, color, "dots", marks)
@@ -98,9 +117,13 @@ class Chart:
         """Return how many of the values lie in each of so many bins, or between edges, as bars at their middles."""
         counts, edges = np.histogram(values, bins)
         x = (edges[1:] + edges[:-1]) / 2
-        return Curve(x, counts.astype(float), name, self.title, self.x_label, self.unit, color, "bars", marks)
+        return Curve(
+            x, counts.astype(float), name, self.title, self.x_label, self.unit, color, "bars", marks
+        )
 
-    def scalar(self, value: float, name: str, color: Role = "source", *, log: bool = False) -> Scalar:
+    def scalar(
+        self, value: float, name: str, color: Role = "source", *, log: bool = False
+    ) -> Scalar:
         """Return the number of this step."""
         return Scalar(value, name, self.title, self.unit, color, log)
 
@@ -114,14 +137,21 @@ class Table:
     rows: tuple[tuple[str, ...], ...]
 
     def __post_init__(self) -> None:
-        need(all(len(row) == len(self.header) for row in self.rows), "every Table row is as long as the header")
+        need(
+            all(len(row) == len(self.header) for row in self.rows),
+            "every Table row is as long as the header",
+        )
         for cell in (*self.header, *(cell for row in self.rows for cell in row)):
             check_text(f"each cell of the Table {self.title!r}", cell)
 
     @classmethod
-    def of_matrix(cls, title: str, header: tuple[str, ...], matrix: np.ndarray, places: int = 2) -> "Table":
+    def of_matrix(
+        cls, title: str, header: tuple[str, ...], matrix: np.ndarray, places: int = 2
+    ) -> "Table":
         """Return a matrix as a table, every number with so many decimals; the header names its columns."""
-        return cls(title, header, tuple(tuple(fixed(value, places) for value in row) for row in matrix))
+        return cls(
+            title, header, tuple(tuple(fixed(value, places) for value in row) for row in matrix)
+        )
 
 
 @dataclass(frozen=True, eq=False)

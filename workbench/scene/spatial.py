@@ -5,7 +5,15 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from workbench.scene.checks import check_array, check_finite, check_image, check_rows, check_text, need, what
+from workbench.scene.checks import (
+    check_array,
+    check_finite,
+    check_image,
+    check_rows,
+    check_text,
+    need,
+    what,
+)
 from workbench.scene.colors import Classes, Color, Field, Role, check_role
 
 
@@ -43,7 +51,8 @@ class Segments:
     def __post_init__(self) -> None:
         check_array("Segments.ends", self.ends)
         need(
-            self.ends.ndim == 3 and self.ends.shape[1:] == (2, 3), f"Segments.ends is (n, 2, 3), not {self.ends.shape}"
+            self.ends.ndim == 3 and self.ends.shape[1:] == (2, 3),
+            f"Segments.ends is (n, 2, 3), not {self.ends.shape}",
         )
         check_finite("Segments.ends", self.ends)
         _check_common(self, len(self.ends))
@@ -65,10 +74,16 @@ class Mesh:
     def __post_init__(self) -> None:
         check_rows("Mesh.p", self.p, 3)
         check_array("Mesh.faces", self.faces)
-        need(self.faces.ndim == 2 and self.faces.shape[1] == 3, f"Mesh.faces is (f, 3), not {self.faces.shape}")
+        need(
+            self.faces.ndim == 2 and self.faces.shape[1] == 3,
+            f"Mesh.faces is (f, 3), not {self.faces.shape}",
+        )
         need(self.faces.dtype.kind in "iu", "Mesh.faces are whole numbers")
         need(len(self.faces) > 0 and len(self.p) > 0, "a Mesh has at least one face")
-        need(int(self.faces.min()) >= 0 and int(self.faces.max()) < len(self.p), "a face index is out of range")
+        need(
+            int(self.faces.min()) >= 0 and int(self.faces.max()) < len(self.p),
+            "a face index is out of range",
+        )
         _check_common(self, len(self.p))
 
 
@@ -148,7 +163,10 @@ class Picture:
 
     def __post_init__(self) -> None:
         if isinstance(self.image, Field):
-            need(self.image.values.ndim == 2 and self.image.values.size > 0, "a Picture's Field holds (h, w) values")
+            need(
+                self.image.values.ndim == 2 and self.image.values.size > 0,
+                "a Picture's Field holds (h, w) values",
+            )
         else:
             check_image("Picture.image", self.image)
         need(self.width is None or self.width > 0, "Picture.width is positive")
@@ -196,10 +214,14 @@ def is_rigid(T: np.ndarray) -> bool:
     rows, last = T[:3, :3].tolist(), T[3].tolist()
     if last != [0.0, 0.0, 0.0, 1.0]:
         return False
-    (a, b, c), (d, e, f), (g, h, i) = rows  # in plain numbers: numpy takes 70 times as long for so few
+    (a, b, c), (d, e, f), (g, h, i) = (
+        rows  # in plain numbers: numpy takes 70 times as long for so few
+    )
     lengths = a * a + b * b + c * c, d * d + e * e + f * f, g * g + h * h + i * i
     products = a * d + b * e + c * f, a * g + b * h + c * i, d * g + e * h + f * i
-    orthonormal = all(abs(one - 1.0) <= 1e-5 for one in lengths) and all(abs(one) <= 1e-6 for one in products)
+    orthonormal = all(abs(one - 1.0) <= 1e-5 for one in lengths) and all(
+        abs(one) <= 1e-6 for one in products
+    )
     return orthonormal and a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) > 0
 
 
@@ -219,8 +241,13 @@ def _check_common(primitive: Any, n: int | None) -> None:
             f"colours are ({n}, 3) uint8, not {color.dtype} {color.shape}",
         )
     elif isinstance(color, Field):
-        need(color.values.shape == (n,), f"the Field holds {color.values.shape} values for {n} items")
+        need(
+            color.values.shape == (n,), f"the Field holds {color.values.shape} values for {n} items"
+        )
     elif isinstance(color, Classes):
         need(color.ids.shape == (n,), f"Classes holds {color.ids.shape} ids for {n} items")
     else:
-        need(False, f"a colour is a role, a Field, Classes or an array ({n}, 3) uint8, not {what(color)}")
+        need(
+            False,
+            f"a colour is a role, a Field, Classes or an array ({n}, 3) uint8, not {what(color)}",
+        )

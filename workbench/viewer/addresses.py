@@ -24,7 +24,9 @@ class Doors:
         self._token = token
         key = "" if token is None else f"/?{KEY}={token}"
         self.address = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::', '') else addresses(host)[0]}:{port}{key}"
-        self.links = [] if is_loopback(host) else [f"http://{name}:{port}{key}" for name in addresses(host)]
+        self.links = (
+            [] if is_loopback(host) else [f"http://{name}:{port}{key}" for name in addresses(host)]
+        )
 
     def welcome(self) -> str:
         """Return what whoever started the server is told: where browsers find it, and who is let in."""
@@ -43,7 +45,11 @@ def addresses(host: str) -> list[str]:
     if host not in ("0.0.0.0", "::", ""):
         return [f"[{host}]" if ":" in host else host]
     found = dict.fromkeys([_outward(), *(str(info[4][0]) for info in _own_infos())])
-    shown = [f"[{one}]" if ":" in one else one for one in found if one and not is_loopback(one) and "%" not in one]
+    shown = [
+        f"[{one}]" if ":" in one else one
+        for one in found
+        if one and not is_loopback(one) and "%" not in one
+    ]
     return [one for one in shown if host != "0.0.0.0" or ":" not in one] or [socket.gethostname()]
 
 

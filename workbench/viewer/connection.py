@@ -46,13 +46,20 @@ class PageConnection:
         send: Sends a text to the page, and returns when it may be sent more; says nothing where the page has left.
     """
 
-    def __init__(self, lessons: Mapping[str, Lesson], runs: Runs, send: Callable[[str | bytes], Awaitable[None]]):
+    def __init__(
+        self,
+        lessons: Mapping[str, Lesson],
+        runs: Runs,
+        send: Callable[[str | bytes], Awaitable[None]],
+    ):
         self.lessons, self.runs, self._send = lessons, runs, send
         self._loop = asyncio.get_running_loop()
         self.start: links.Place | None = None  # where browsers begin; its own files are kept
         self.following: Following | None = None
         self.files = OwnFiles()
-        self._news: list[Mapping[str, Any]] = []  # what the page is told next, of the files behind its lesson
+        self._news: list[
+            Mapping[str, Any]
+        ] = []  # what the page is told next, of the files behind its lesson
         self.session: Session | None = None
         self.acted = self._loop.time()  # when something was last wished for
         self.asleep = False  # whether its run was let go to make room
@@ -105,8 +112,15 @@ class PageConnection:
             try:
                 await self._do_what_is_wished()
             except Exception as error:  # a defect of ours: it is told, and the page goes on
-                tell_terminal(AuthorError(f"a request could not be fulfilled: {error!r}", traceback.format_exc()))
-                await self._tell(tell="trouble", text="Something went wrong; the terminal of the server says what.")
+                tell_terminal(
+                    AuthorError(
+                        f"a request could not be fulfilled: {error!r}", traceback.format_exc()
+                    )
+                )
+                await self._tell(
+                    tell="trouble",
+                    text="Something went wrong; the terminal of the server says what.",
+                )
 
     async def _do_what_is_wished(self) -> None:
         requests = self._requests.take()
@@ -126,11 +140,15 @@ class PageConnection:
         if session is None or self.asleep:
             return
         self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
-        crew = self.runs.stepping if session.timeline is self._updates.timeline else self.runs.showing
+        crew = (
+            self.runs.stepping if session.timeline is self._updates.timeline else self.runs.showing
+        )
         for part in await crew.do(self._show, session, bool(requests)):
             await self._send(part)
         timeline = session.timeline
-        self._waits = bool(self._requests) or not (timeline.finished or 0 <= session.wanted < len(timeline))
+        self._waits = bool(self._requests) or not (
+            timeline.finished or 0 <= session.wanted < len(timeline)
+        )
 
     def _show(self, session: Session, tell: bool) -> list[str | bytes]:
         """Return what the page is to be sent so that it shows what is to be seen now. Not on the event loop."""
@@ -194,7 +212,9 @@ class PageConnection:
         values = message.get("values")
         if self.session is not None and isinstance(values, dict):
             private = paths_of(self.session.lesson.params)
-            self.session.change(**{name: value for name, value in values.items() if name not in private})
+            self.session.change(
+                **{name: value for name, value in values.items() if name not in private}
+            )
 
     async def reset(self, message: Mapping[str, Any]) -> None:
         """Go back to the default run."""
@@ -214,13 +234,17 @@ class PageConnection:
         if session is None:
             return
         lesson = session.lesson
-        question = next((one for one in lesson.questions if one.name == message.get("question")), None)
+        question = next(
+            (one for one in lesson.questions if one.name == message.get("question")), None
+        )
         if question is None:
             return
         await self._computed(self.runs.timelines.get(lesson, question.params))
         try:
             with Blaming(f"lesson {lesson.name}, question {question.name!r}", question.answer):
-                found = await self.runs.asking.do(answer, lesson, question, message.get("given"), self.runs.timelines)
+                found = await self.runs.asking.do(
+                    answer, lesson, question, message.get("given"), self.runs.timelines
+                )
         except InputError as error:
             tell_terminal(error)
             await self._tell(tell="answer", question=question.name, trouble=str(error))
@@ -303,7 +327,11 @@ def _ray(message: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray] | None:
     found = []
     for name in ("p_origin", "v_ray"):
         values = message.get(name)
-        is_vector = isinstance(values, list) and len(values) == 3 and all(type(x) in (int, float) for x in values)
+        is_vector = (
+            isinstance(values, list)
+            and len(values) == 3
+            and all(type(x) in (int, float) for x in values)
+        )
         if not is_vector or not all(math.isfinite(x) and abs(x) < LARGEST for x in values):  # type: ignore[union-attr]
             return None
         found.append(np.array(values, float))

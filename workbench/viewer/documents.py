@@ -40,29 +40,52 @@ class LessonPages:
     def __init__(self) -> None:
         self._made: dict[str, tuple[Lesson, str, tuple[str, ...], str]] = {}
 
-    def page(self, lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None) -> str:
+    def page(
+        self, lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None
+    ) -> str:
         """Return the document of a lesson, as `lesson_page` does."""
         try:
             text = lesson.text()
         except InputError:  # told in its place
             text = "!["
-        if watched is not None or "![" in text:  # what else may have changed: a student's file, a picture's
+        if (
+            watched is not None or "![" in text
+        ):  # what else may have changed: a student's file, a picture's
             return lesson_page(lesson, lessons, watched)
         made = self._made.get(lesson.name)
         if made is None or made[0] is not lesson or made[1:3] != (text, tuple(lessons)):
-            made = self._made[lesson.name] = lesson, text, tuple(lessons), lesson_page(lesson, lessons)
+            made = self._made[lesson.name] = (
+                lesson,
+                text,
+                tuple(lessons),
+                lesson_page(lesson, lessons),
+            )
         return made[3]
 
 
-def lesson_page(lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None) -> str:
+def lesson_page(
+    lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None
+) -> str:
     """Return the document of a lesson, with what drives it where a student's file does."""
-    article = _told(lesson, "page", lambda: article_html(lesson, lambda run, step: address(lesson, run, step), "live"))
+    article = _told(
+        lesson,
+        "page",
+        lambda: article_html(lesson, lambda run, step: address(lesson, run, step), "live"),
+    )
     exercises = _told(lesson, "exercises", lambda: _exercises(lesson, watched))
     own = watched is not None and watched.lesson is lesson
-    course = [{"name": one.name, "title": one.title, "needs": one.needs} for one in in_order(lessons)]
+    course = [
+        {"name": one.name, "title": one.title, "needs": one.needs} for one in in_order(lessons)
+    ]
     opening, ending = (exercises, "") if own else ("", exercises)
     return lesson_document(
-        lesson, article, home="live", root=ROOT, opening=opening, ending=ending, more={"COURSE": course}
+        lesson,
+        article,
+        home="live",
+        root=ROOT,
+        opening=opening,
+        ending=ending,
+        more={"COURSE": course},
     )
 
 
@@ -84,7 +107,9 @@ def start_address(start: links.Place, query: str) -> str:
 
 def _exercises(lesson: Lesson, watched: Watched | None) -> str:
     if watched is not None and watched.lesson is lesson:
-        return watched_html(watched.exercise, watched.path.name, lesson, lambda run: address(lesson, run, None))
+        return watched_html(
+            watched.exercise, watched.path.name, lesson, lambda run: address(lesson, run, None)
+        )
     return exercises_html(exercises_of(lesson))
 
 
@@ -95,4 +120,6 @@ def _told(lesson: Lesson, what: str, make: Callable[[], str]) -> str:
             return make()
     except InputError as error:
         tell_terminal(error)
-        return f'<p class="trouble" role="alert">{escape(str(error))}</p>' + (PLACE if what == "page" else "")
+        return f'<p class="trouble" role="alert">{escape(str(error))}</p>' + (
+            PLACE if what == "page" else ""
+        )

@@ -72,7 +72,9 @@ class Following:
         if lesson is not self._lesson:
             return []
         told = [] if self.watched is None else [exercise_news(self.watched)]
-        return told + ([] if self._trouble is None else [{"tell": "notice", "text": str(self._trouble)}])
+        return told + (
+            [] if self._trouble is None else [{"tell": "notice", "text": str(self._trouble)}]
+        )
 
     def _look(self) -> None:
         while not self._ended.wait(POLL):
@@ -133,7 +135,12 @@ class Following:
 def exercise_news(watched: Watched) -> dict[str, Any]:
     """Return what a page is told of a student's file: its name, its source, and what the checks found."""
     source = {"name": watched.path.name, "html": text_html(watched.source)}
-    return {"tell": "exercise", "name": watched.exercise.name, "source": source, "report": report_of(watched)}
+    return {
+        "tell": "exercise",
+        "name": watched.exercise.name,
+        "source": source,
+        "report": report_of(watched),
+    }
 
 
 def report_of(watched: Watched) -> dict[str, Any]:

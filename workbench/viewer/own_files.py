@@ -39,7 +39,9 @@ class OwnFiles:
             handed_to_a_page(self._folder)
         self._number += 1
         ending = _ENDING.search(name)
-        place = self._folder / str(self._number)  # a path of its own: equal params mean an equal run
+        place = self._folder / str(
+            self._number
+        )  # a path of its own: equal params mean an equal run
         place.mkdir()
         path = place / f"{field}{ending[0].lower() if ending else ''}"
         size = 0
@@ -48,7 +50,9 @@ class OwnFiles:
                 async for part in parts:
                     size += len(part)
                     if size > MOST_BYTES:
-                        raise InputError(f"this file is larger than the {MOST_BYTES >> 20} MB that a page takes")
+                        raise InputError(
+                            f"this file is larger than the {MOST_BYTES >> 20} MB that a page takes"
+                        )
                     await run_in_threadpool(file.write, part)
             if not size:
                 raise InputError("this file is empty")

@@ -64,7 +64,9 @@ class Rules:
 
     def knows(self, host: str) -> bool:
         """Tell whether a browser that names this host has come to the right place."""
-        return self._hosts.know(host) or (name_in(host) is not None and self._is_behind(host.lower()))
+        return self._hosts.know(host) or (
+            name_in(host) is not None and self._is_behind(host.lower())
+        )
 
     def same_origin(self, origin: str, host: str) -> bool:
         """Tell whether a page of an origin is one that this server gave a browser that names this host."""
@@ -83,7 +85,10 @@ class Rules:
             return "A page says where it comes from."
         if origin is not None and not self.same_origin(origin, host):
             return "A page of another origin is not let in."
-        if asked.headers.get("sec-fetch-site") == "cross-site" and asked.headers.get("sec-fetch-mode") != "navigate":
+        if (
+            asked.headers.get("sec-fetch-site") == "cross-site"
+            and asked.headers.get("sec-fetch-mode") != "navigate"
+        ):
             return "A page of another origin is not let in."
         return None
 
@@ -99,12 +104,16 @@ class Rules:
         return cookie in cookies and self._is_token(cookies[cookie].value)
 
     def _is_token(self, given: str) -> bool:
-        return self.token is not None and secrets.compare_digest(given.encode(), self.token.encode())
+        return self.token is not None and secrets.compare_digest(
+            given.encode(), self.token.encode()
+        )
 
     def with_key(self, request: Request) -> str | None:
         """Return the address without the key of a request that brings the right one, None of any other."""
         given = parse_qsl(request.url.query[:4000], keep_blank_values=True)
-        if request.method != "GET" or not any(name == KEY and self._is_token(value) for name, value in given):
+        if request.method != "GET" or not any(
+            name == KEY and self._is_token(value) for name, value in given
+        ):
             return None
         rest = urlencode([(name, value) for name, value in given if name != KEY], safe=",")
         return f"?{rest}"
@@ -140,7 +149,9 @@ class Gate:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
                 headers.update(_HEADERS)
-                headers["content-security-policy"] = _SCENE if is_scene else _PAGE.format(nonce=nonce)
+                headers["content-security-policy"] = (
+                    _SCENE if is_scene else _PAGE.format(nonce=nonce)
+                )
             await send(message)
 
         return await self._admitted(Request(scope, receive), refused)(scope, receive, answer)
@@ -178,5 +189,6 @@ def page_response(request: Request, html: str) -> HTMLResponse:
     nonce = request.scope["nonce"]
     html = html.replace("<head>", f"<head>{_SLASH}", 1)
     return HTMLResponse(
-        re.sub(r"<script(?=[ >])", f'<script nonce="{nonce}"', html), headers={"cache-control": "no-store"}
+        re.sub(r"<script(?=[ >])", f'<script nonce="{nonce}"', html),
+        headers={"cache-control": "no-store"},
     )

@@ -94,7 +94,9 @@ class Runs:
         self.timelines, self.maker = Timelines(most_bytes=most_bytes), Maker()
         self.stepping, self.showing = Crew("stepping", 2), Crew("showing", 2)
         self.asking, self.keeping = Crew("asking", 1), Crew("keeping", 1)
-        self.scheduler = Scheduler(threads, busy=lambda: self.stepping.is_behind() or self.showing.is_behind())
+        self.scheduler = Scheduler(
+            threads, busy=lambda: self.stepping.is_behind() or self.showing.is_behind()
+        )
         self._most_bytes = most_bytes
         self._steps: weakref.WeakKeyDictionary[Timeline, Steps] = weakref.WeakKeyDictionary()
         self._lock = threading.Lock()
@@ -143,7 +145,9 @@ class Runs:
             sleepers: Let go of the run of one page each, in this order, and tell whether they did.
         """
         lessons, freed = tuple(lessons), False
-        at_most = self.timelines.bytes + self.maker.held()  # arrays that two runs share are counted twice
+        at_most = (
+            self.timelines.bytes + self.maker.held()
+        )  # arrays that two runs share are counted twice
         if at_most < self._most_bytes // 2:
             return at_most
         while (held := self.held(lessons)) > self._most_bytes and self.timelines.drop():
@@ -164,12 +168,17 @@ class Runs:
 
 def caches(lessons: Iterable[Lesson]) -> list[Any]:
     """Return the caches (`functools.lru_cache`) of the modules that lessons are made of."""
-    homes = {lesson.params.__module__.rpartition(".")[0] or lesson.params.__module__ for lesson in lessons}
+    homes = {
+        lesson.params.__module__.rpartition(".")[0] or lesson.params.__module__
+        for lesson in lessons
+    }
     found: dict[int, Any] = {}
     for name, module in tuple(sys.modules.items()):
         if name in homes or name.rpartition(".")[0] in homes:
             for value in tuple(vars(module).values()):
-                if callable(getattr(value, "cache_clear", None)) and callable(getattr(value, "cache_info", None)):
+                if callable(getattr(value, "cache_clear", None)) and callable(
+                    getattr(value, "cache_info", None)
+                ):
                     found[id(value)] = value
     return list(found.values())
 

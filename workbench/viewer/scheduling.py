@@ -80,7 +80,11 @@ class Scheduler:
         """
         with self._changed:
             before = self._of.get(who)
-            if before is not None and before[0].timeline is timeline and before[0].wanted.get(who) == k:
+            if (
+                before is not None
+                and before[0].timeline is timeline
+                and before[0].wanted.get(who) == k
+            ):
                 self._of[who] = before[0], tell
                 return True
             self._forget(who)
@@ -211,7 +215,9 @@ class Scheduler:
         here = threading.current_thread()
         with self._changed:
             if self._began.get(here, -STUCK) > 0 and self._stuck < MOST_STUCK:
-                self._began[here] = -STUCK  # counts as one that is held up, and ends when it is done
+                self._began[
+                    here
+                ] = -STUCK  # counts as one that is held up, and ends when it is done
                 self._stuck += 1
                 self._start_thread()
 

@@ -88,7 +88,9 @@ class Server:
         most_bytes: int = MOST_BYTES,
         most_pages: int = MOST_PAGES,
     ):
-        self.lessons: dict[str, Lesson] = dict(catalog()) | ({start.lesson.name: start.lesson} if start else {})
+        self.lessons: dict[str, Lesson] = dict(catalog()) | (
+            {start.lesson.name: start.lesson} if start else {}
+        )
         self.rules = Rules(host, open_to_all=open_to_all, behind=behind)
         listener = listening(host, port)
         more_files()
@@ -99,7 +101,9 @@ class Server:
         self._lesson_pages = LessonPages()
         self.students: dict[str, PageConnection] = {}
         self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
-        self.following = start and Following(start.lesson, watched, edited, self._replace, self._pages)
+        self.following = start and Following(
+            start.lesson, watched, edited, self._replace, self._pages
+        )
         config = uvicorn.Config(
             Gate(self._app(), self.rules, f"workbench-{self.port}"),
             http="h11",
@@ -153,7 +157,8 @@ class Server:
     async def _lifespan(self, app: Starlette) -> AsyncIterator[None]:
         self._loop = asyncio.get_running_loop()
         keeping = [
-            asyncio.create_task(one) for one in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
+            asyncio.create_task(one)
+            for one in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
         ]
         yield
         for task in keeping:
@@ -177,12 +182,16 @@ class Server:
                 await self.runs.asking.do(self.runs.let_go, list(self.lessons.values()))
             longest_ago = sorted(self.students.values(), key=lambda student: student.acted)
             await self.runs.asking.do(
-                self.runs.make_room, list(self.lessons.values()), [student.sleep for student in longest_ago]
+                self.runs.make_room,
+                list(self.lessons.values()),
+                [student.sleep for student in longest_ago],
             )
 
     async def _page(self, request: Request) -> Response:
         if len(self.students) >= self._most_pages:
-            return PlainTextResponse("As many pages are open as this server can bear. Try again in a while.", 503)
+            return PlainTextResponse(
+                "As many pages are open as this server can bear. Try again in a while.", 503
+            )
         named, trouble = request.query_params.get("lesson"), None
         if named is None and self._start is not None and "course" not in request.query_params:
             return RedirectResponse(
@@ -195,10 +204,14 @@ class Server:
         except InputError as error:
             trouble = str(error)  # of a lesson that is here, the page's websocket tells it
         if lesson is None:
-            return page_response(request, await self.runs.stepping.do(course_page, self.lessons, trouble))
+            return page_response(
+                request, await self.runs.stepping.do(course_page, self.lessons, trouble)
+            )
         watched = self.following.watched if self.following else None
         page = await self.runs.stepping.do(self._lesson_pages.page, lesson, self.lessons, watched)
-        return page_response(request, page.replace("<body ", f'<body data-token="{self._new_token()}" ', 1))
+        return page_response(
+            request, page.replace("<body ", f'<body data-token="{self._new_token()}" ', 1)
+        )
 
     def _new_token(self) -> str:
         return secrets.token_hex(12)
@@ -240,15 +253,23 @@ class Server:
 
     async def _file(self, request: Request) -> Response:
         name = request.path_params["file"]
-        return FileResponse(STATIC / name) if name in FILES else PlainTextResponse("no such file", 404)
+        return (
+            FileResponse(STATIC / name) if name in FILES else PlainTextResponse("no such file", 404)
+        )
 
     async def _live(self, socket: WebSocket) -> None:
         await socket.accept()
         token = socket.query_params.get("token", "")
-        if not _TOKEN.fullmatch(token) or token in self.students or len(self.students) >= self._most_pages:
+        if (
+            not _TOKEN.fullmatch(token)
+            or token in self.students
+            or len(self.students) >= self._most_pages
+        ):
             await socket.close(4409)
             return
-        student = self.students[token] = PageConnection(self.lessons, self.runs, functools.partial(_send, socket))
+        student = self.students[token] = PageConnection(
+            self.lessons, self.runs, functools.partial(_send, socket)
+        )
         student.start, student.following = self._start, self.following
         working = asyncio.create_task(student.work())
         try:

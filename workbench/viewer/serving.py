@@ -36,12 +36,24 @@ def serve(
     Raises:
         InputError: If the port is taken or may not be used, or several processes are wanted.
     """
-    start = None if lesson is None else links.Place(lesson, params if params is not None else lesson.params(), step)
+    start = (
+        None
+        if lesson is None
+        else links.Place(lesson, params if params is not None else lesson.params(), step)
+    )
     if workers != 1:
-        raise InputError(f"--workers {workers}: one process serves a hundred students; more servers: docs/classroom.md")
+        raise InputError(
+            f"--workers {workers}: one process serves a hundred students; more servers: docs/classroom.md"
+        )
     with _ended_as_by_ctrl_c():
         server = Server(
-            start, host=host, port=port, open_to_all=open_to_all, behind=behind, watched=watched, edited=edited
+            start,
+            host=host,
+            port=port,
+            open_to_all=open_to_all,
+            behind=behind,
+            watched=watched,
+            edited=edited,
         )
         settle()
         try:

@@ -18,6 +18,10 @@ def tell_terminal(error: Exception) -> None:
         if str(error) in _told:
             return
         _told.add(str(error))
-    trace = error.trace if isinstance(error, AuthorError) else "".join(traceback.format_exception(error))
+    trace = (
+        error.trace
+        if isinstance(error, AuthorError)
+        else "".join(traceback.format_exception(error))
+    )
     sys.stderr.write(written_out(f"{trace}workbench: {error}\n"))
     sys.stderr.flush()

@@ -14,10 +14,15 @@ from workbench.viewer.terminal import tell_terminal
 def scene_response(request: Request, plain: bytes, compressed: bytes, etag: str) -> Response:
     """Return viser's client: nothing where the browser has it already, else compressed where it can read that."""
     headers = {"etag": etag, "cache-control": "no-cache", "vary": "accept-encoding"}
-    if etag in (one.strip().removeprefix("W/") for one in request.headers.get("if-none-match", "").split(",")):
+    if etag in (
+        one.strip().removeprefix("W/")
+        for one in request.headers.get("if-none-match", "").split(",")
+    ):
         return Response(status_code=304, headers=headers)
     if "gzip" in request.headers.get("accept-encoding", ""):
-        return Response(compressed, headers=headers | {"content-encoding": "gzip"}, media_type="text/html")
+        return Response(
+            compressed, headers=headers | {"content-encoding": "gzip"}, media_type="text/html"
+        )
     return Response(plain, headers=headers, media_type="text/html")
 
 
@@ -31,7 +36,10 @@ async def recording(student: PageConnection | None) -> Response:
     except InputError as error:
         tell_terminal(error)
         return PlainTextResponse(str(error), 422)
-    headers = {"content-disposition": f"attachment; filename*=utf-8''{quote(name)}", "cache-control": "no-store"}
+    headers = {
+        "content-disposition": f"attachment; filename*=utf-8''{quote(name)}",
+        "cache-control": "no-store",
+    }
     return Response(content, media_type="application/octet-stream", headers=headers)
 
 

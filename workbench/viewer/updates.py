@@ -48,7 +48,9 @@ class PageUpdates:
         """Hold no run any more."""
         self.timeline = self._steps = self._seen = self._drawn = None
 
-    def show(self, session: Session, look: Look, *, tell: bool, watched: Watched | None) -> list[str | bytes]:
+    def show(
+        self, session: Session, look: Look, *, tell: bool, watched: Watched | None
+    ) -> list[str | bytes]:
         """Return what the page is to be sent so that it shows a look: its scene as bytes, and texts.
 
         Args:
@@ -65,7 +67,9 @@ class PageUpdates:
             self._sent, self._told, self._told_steps, self._run = set(), None, 0, self._run + 1
         now = self._run, look.k, look.known > 0, look.caption, timeline is session.timeline
         new = now != self._seen
-        drawn, trouble = self._scene(look, current=timeline is session.timeline) if new else (None, None)
+        drawn, trouble = (
+            self._scene(look, current=timeline is session.timeline) if new else (None, None)
+        )
         told = [self._run_told(self._steps, look, watched)]
         again = new or tell or trouble is not None
         if look.known and again:
@@ -73,7 +77,10 @@ class PageUpdates:
         elif not look.known and trouble is None and look.caption.text and again:
             told.append({"tell": "trouble", "text": look.caption.text})
         self._seen = now if trouble is None else None
-        return [*([] if drawn is None else [drawn]), *(packed(message) for message in told if message is not None)]
+        return [
+            *([] if drawn is None else [drawn]),
+            *(packed(message) for message in told if message is not None),
+        ]
 
     def _scene(self, look: Look, *, current: bool) -> tuple[bytes | None, str | None]:
         """Return the bytes that the page lacks of a scene, or what went wrong; its view is of the run that is wanted.
@@ -101,7 +108,9 @@ class PageUpdates:
         params, lesson = look.params, look.lesson
         is_watched = watched is not None and watched.lesson is lesson
         said = {
-            "name": "default" if params == lesson.params() else getattr(lesson.preset_of(params), "name", ""),
+            "name": "default"
+            if params == lesson.params()
+            else getattr(lesson.preset_of(params), "name", ""),
             "params": values_of(params),
             "known": look.known,
             "finished": look.finished,
@@ -124,12 +133,17 @@ class PageUpdates:
     def _step_told(self, steps: Steps, look: Look, trouble: str | None) -> dict[str, Any]:
         step = dict(steps.step(look.k))
         if look.caption.text != step["caption"] or trouble:
-            step |= {"caption": trouble or look.caption.text, "tone": "wrong" if trouble else look.caption.tone}
+            step |= {
+                "caption": trouble or look.caption.text,
+                "tone": "wrong" if trouble else look.caption.tone,
+            }
         wanted = [*step["shown"], step["legend"]]
         code = steps.code(look.k)
         if code is not None:
             state = look.timeline[look.k].state
-            step["code"] = code | ({"wrong": state.line} if isinstance(state, Pair) and state.line else {})
+            step["code"] = code | (
+                {"wrong": state.line} if isinstance(state, Pair) and state.line else {}
+            )
             wanted.append(code["source"])
         new = {n: steps.things[n] for n in wanted if n not in self._sent}
         self._sent |= set(new)

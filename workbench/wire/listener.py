@@ -49,7 +49,9 @@ class Listener:
             self._scene = viser.SceneApi(self._wire, None, None)  # type: ignore[arg-type]
             self.at_first = self._taken()
         except (AttributeError, TypeError) as error:
-            raise InputError(f"viser {viser.__version__} makes scenes in another way: install viser 1.1.1") from error
+            raise InputError(
+                f"viser {viser.__version__} makes scenes in another way: install viser 1.1.1"
+            ) from error
 
     def heard(self, add: Callable[[viser.SceneApi], Any]) -> list[tuple[Said, list[memoryview]]]:
         """Return what viser says when something is added to its scene: each message, and its arrays."""

@@ -27,7 +27,9 @@ def packed(head: Mapping[str, Any], kinds: Iterable[Kind], arrays: Iterable[Cont
     """Return one message."""
     arrays = list(arrays)
     text = json.dumps(
-        {**head, "arrays": [[one.key, len(one.data)] for one in arrays]}, separators=(",", ":"), allow_nan=False
+        {**head, "arrays": [[one.key, len(one.data)] for one in arrays]},
+        separators=(",", ":"),
+        allow_nan=False,
     )
     listed = ",".join(f'"{kind.key}":{kind.text}' for kind in kinds)
     start = f'{text[:-1]},"kinds":{{{listed}}}}}'.encode()
@@ -72,7 +74,12 @@ class PageWire:
             said["fresh"] = True
         nodes = self._maker.nodes(scene, view)
         kinds = {kind.key: kind for kind, _ in nodes.values() if kind.key not in self._kinds}
-        arrays = {one.key: one for kind in kinds.values() for one in kind.arrays if one.key not in self._arrays}
+        arrays = {
+            one.key: one
+            for kind in kinds.values()
+            for one in kind.arrays
+            if one.key not in self._arrays
+        }
         self._kinds |= kinds.keys()
         self._arrays |= arrays.keys()
         self._held += sum(len(one.data) for one in arrays.values())

@@ -165,7 +165,9 @@ def _camera(scene: viser.SceneApi, camera: Camera) -> None:
 def _corners(camera: Camera) -> np.ndarray:
     """Return the corners of a camera's picture at its depth, (4, 3), from the upper left clockwise, in its frame."""
     right, bottom = camera.width - 0.5, camera.height - 0.5
-    uv1 = np.array([[-0.5, -0.5, 1.0], [right, -0.5, 1.0], [right, bottom, 1.0], [-0.5, bottom, 1.0]])
+    uv1 = np.array(
+        [[-0.5, -0.5, 1.0], [right, -0.5, 1.0], [right, bottom, 1.0], [-0.5, bottom, 1.0]]
+    )
     return camera.depth * uv1 @ np.linalg.inv(camera.K).T
 
 

@@ -64,7 +64,9 @@ def add_stage(scene: viser.SceneApi, view: View) -> None:
         _add_grid(scene, view, view.grid)
     if view.axes:
         length = length_of_axes(view)
-        scene.add_frame("/axes", axes_length=length, axes_radius=0.012 * length, origin_radius=0.02 * length)
+        scene.add_frame(
+            "/axes", axes_length=length, axes_radius=0.012 * length, origin_radius=0.02 * length
+        )
 
 
 def _add_grid(scene: viser.SceneApi, view: View, spacing: float) -> None:
@@ -90,5 +92,9 @@ def _add_light(scene: viser.SceneApi, view: View) -> None:
     scene.configure_default_lights(cast_shadow=False)
     scene.configure_environment_map(hdri=None)
     scene.add_light_hemisphere(
-        "/sky", sky_color=(255, 255, 255), ground_color=(165, 165, 165), intensity=2.2, position=view.up
+        "/sky",
+        sky_color=(255, 255, 255),
+        ground_color=(165, 165, 165),
+        intensity=2.2,
+        position=view.up,
     )

@@ -46,7 +46,9 @@ def value_axis(columns: Iterable[np.ndarray], from_zero: bool = False, most: int
         from_zero: Whether zero is on the axis in any case, as bars need it.
         most: At most so many ticks.
     """
-    known = settled(np.concatenate([np.zeros(0), *(column[np.isfinite(column)] for column in columns)]))
+    known = settled(
+        np.concatenate([np.zeros(0), *(column[np.isfinite(column)] for column in columns)])
+    )
     if not len(known):
         return axis(0.0, 1.06, most)
     low, high = float(known.min()), float(known.max())

@@ -110,10 +110,20 @@ def _picture_data(page: Path, name: str) -> str:
     """Return a picture below a page's folder as a data address; names are looked up, one part after the other."""
     place: Path | None = page.parent.resolve()
     for part in name.removeprefix("./").split("/"):
-        entries = {entry.name: entry for entry in place.iterdir()} if place is not None and place.is_dir() else {}
+        entries = (
+            {entry.name: entry for entry in place.iterdir()}
+            if place is not None and place.is_dir()
+            else {}
+        )
         place = entries.get(part)
-    if place is None or not place.is_file() or not place.resolve().is_relative_to(page.parent.resolve()):
-        raise AuthorError(f"{page}: there is no picture {name!r} in the page's folder; name it relative to the page")
+    if (
+        place is None
+        or not place.is_file()
+        or not place.resolve().is_relative_to(page.parent.resolve())
+    ):
+        raise AuthorError(
+            f"{page}: there is no picture {name!r} in the page's folder; name it relative to the page"
+        )
     kind = PICTURES.get(place.suffix.lower())
     if kind is None:
         raise AuthorError(f"{page}: the picture {name!r} is none of {', '.join(PICTURES)}")
@@ -134,12 +144,17 @@ def math_html(tex: str, block: bool = False) -> str:
 
     try:
         mathml = convert(
-            re.sub(r"\\arg(?![a-zA-Z])", r"\\operatorname{arg}", tex.strip()), display="block" if block else "inline"
+            re.sub(r"\\arg(?![a-zA-Z])", r"\\operatorname{arg}", tex.strip()),
+            display="block" if block else "inline",
         )
-    except Exception:  # the converter raises many kinds; the text itself is the best answer to all of them
+    except (
+        Exception
+    ):  # the converter raises many kinds; the text itself is the best answer to all of them
         return f"<code>{html.escape(tex)}</code>"
     # bars written without \\left and \\right keep the height of a letter
-    return re.sub(r"<mo>(&#x02016;|&#x0007C;|&#x02225;|\\||‖|∥)</mo>", r'<mo stretchy="false">\1</mo>', mathml)
+    return re.sub(
+        r"<mo>(&#x02016;|&#x0007C;|&#x02225;|\\||‖|∥)</mo>", r'<mo stretchy="false">\1</mo>', mathml
+    )
 
 
 @functools.cache
@@ -175,23 +190,51 @@ def _subset() -> bytes:
     from fontTools.ttLib import TTFont
 
     package = importlib.util.find_spec("ziamath")  # found, not imported: only its font is wanted
-    path = next(Path(package.origin).parent.rglob("STIXTwoMath*.ttf")) if package and package.origin else None
+    path = (
+        next(Path(package.origin).parent.rglob("STIXTwoMath*.ttf"))
+        if package and package.origin
+        else None
+    )
     if path is None:
         raise FileNotFoundError("no font with a MATH table")
     # letters, Greek, signs, and the styles that formulas have: bold, italic, and capitals in script and double-struck
-    chosen = [*range(0x20, 0x7F), *range(0xA0, 0x100), *range(0x391, 0x3D7), 0x3F5, *range(0x2010, 0x2040)]
+    chosen = [
+        *range(0x20, 0x7F),
+        *range(0xA0, 0x100),
+        *range(0x391, 0x3D7),
+        0x3F5,
+        *range(0x2010, 0x2040),
+    ]
     chosen += [
         *range(0x2C6, 0x2DE),
         *range(0x2070, 0x20A0),
         *range(0x20D0, 0x20DD),
         *map(ord, "ℂℋℌℍℎℏℐℑℒℓℕ℘ℙℚℛℜℝ™ℤℨÅℬℰℱℳℵ"),
     ]
-    chosen += [*range(0x2190, 0x21A0), 0x21A6, *range(0x21D0, 0x21D5), *range(0x2200, 0x2300), *range(0x2308, 0x230C)]
-    chosen += [0x27E8, 0x27E9, *range(0x1D400, 0x1D468), *range(0x1D49C, 0x1D4B6), *range(0x1D538, 0x1D552)]
+    chosen += [
+        *range(0x2190, 0x21A0),
+        0x21A6,
+        *range(0x21D0, 0x21D5),
+        *range(0x2200, 0x2300),
+        *range(0x2308, 0x230C),
+    ]
+    chosen += [
+        0x27E8,
+        0x27E9,
+        *range(0x1D400, 0x1D468),
+        *range(0x1D49C, 0x1D4B6),
+        *range(0x1D538, 0x1D552),
+    ]
     chosen += [*range(0x1D6A4, 0x1D71C)]
     features = ["ssty", "flac", "dtls"]  # what a browser asks of a math font
-    options = subset.Options(layout_features=features, hinting=False, notdef_outline=True, drop_tables=["DSIG"])
-    options.name_IDs += [7, 13, 14]  # trademark, licence and its address: who hands the font on has to
+    options = subset.Options(
+        layout_features=features, hinting=False, notdef_outline=True, drop_tables=["DSIG"]
+    )
+    options.name_IDs += [
+        7,
+        13,
+        14,
+    ]  # trademark, licence and its address: who hands the font on has to
     subsetter = subset.Subsetter(options)
     with TTFont(path) as font:
         subsetter.populate(unicodes=chosen)

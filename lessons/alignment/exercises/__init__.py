@@ -5,7 +5,10 @@ import numpy as np
 from workbench.exercise import HiddenSeed
 from workbench.geometry.motions import exp_so3
 
-STUDENTS, GRADERS = 53, HiddenSeed(7310)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    53,
+    HiddenSeed(7310),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 def a_rotation(rng: np.random.Generator) -> np.ndarray:
@@ -14,7 +17,9 @@ def a_rotation(rng: np.random.Generator) -> np.ndarray:
     return exp_so3(rng.uniform(0.3, 3.1) * axis / np.linalg.norm(axis))
 
 
-def a_lopsided_cloud(rng: np.random.Generator, n: int = 200, *, mirrored: bool = False) -> np.ndarray:
+def a_lopsided_cloud(
+    rng: np.random.Generator, n: int = 200, *, mirrored: bool = False
+) -> np.ndarray:
     """Return points with a long tail along each of three slanted directions, aside from the origin.
 
     Args:

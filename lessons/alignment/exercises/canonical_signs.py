@@ -6,7 +6,18 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.alignment.exercises import GRADERS, STUDENTS, a_lopsided_cloud, a_rotation
-from workbench.exercise import Function, Verdict, alternative, check, contract, fail, full, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    fail,
+    full,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.motions import principal_axes as geometry
 
 
@@ -19,7 +30,9 @@ from workbench.geometry.motions import principal_axes as geometry
          "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"),
     ),
 )  # fmt: skip
-def canonical_signs(axes: Float[np.ndarray, "3 3"], p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "3 3"]:
+def canonical_signs(
+    axes: Float[np.ndarray, "3 3"], p: Float[np.ndarray, "n 3"]
+) -> Float[np.ndarray, "3 3"]:
     """Return the axes of a cloud with signs that the cloud decides.
 
     Axes 1 and 2 point to where the third moment about the centroid, the sum of (axis . (p - centroid))^3, is positive;
@@ -38,7 +51,9 @@ def canonical_signs(axes: Float[np.ndarray, "3 3"], p: Float[np.ndarray, "n 3"])
 SIGNS_HINT = "Sign of the mean of ((p - centroid) @ axis)**3 for axes 1 and 2; the third is np.cross of the two."
 
 
-def signs_verdict(got: np.ndarray, axes: np.ndarray, p: np.ndarray, hint: str = SIGNS_HINT) -> Verdict:
+def signs_verdict(
+    got: np.ndarray, axes: np.ndarray, p: np.ndarray, hint: str = SIGNS_HINT
+) -> Verdict:
     """Judge axes by their signs."""
     right = geometry.canonical_signs(axes, p)
     for k in range(3):
@@ -51,10 +66,14 @@ def signs_verdict(got: np.ndarray, axes: np.ndarray, p: np.ndarray, hint: str = 
     turned = [k + 1 for k in range(3) if got[:, k] @ right[:, k] < 0]
     if not turned:
         return full("All three axes point where they should.")
-    moments = ", ".join(f"{value:.2g}" for value in geometry.third_moments(axes, p) / np.std(p) ** 3)
+    moments = ", ".join(
+        f"{value:.2g}" for value in geometry.third_moments(axes, p) / np.std(p) ** 3
+    )
     said = f"The third moments of what came in are {moments} (over the cube of the spread)"
     names = " and ".join(map(str, turned))
-    return fail(f"Of the three axes {len(turned)} are turned round (axis {names}), right is 0. {said}. {hint}")
+    return fail(
+        f"Of the three axes {len(turned)} are turned round (axis {names}), right is 0. {said}. {hint}"
+    )
 
 
 def of_any_signs(rng: np.random.Generator, p: np.ndarray) -> np.ndarray:
@@ -88,7 +107,9 @@ def the_frame_turns_with_the_cloud(candidate: Function) -> Verdict:
     for _ in range(4):
         p = p @ a_rotation(rng).T
         axes = of_any_signs(rng, p)
-        verdicts.append(signs_verdict(candidate(axes, p), axes, p, f"The cloud was turned. {SIGNS_HINT}"))
+        verdicts.append(
+            signs_verdict(candidate(axes, p), axes, p, f"The cloud was turned. {SIGNS_HINT}")
+        )
     return worst(verdicts)
 
 
@@ -115,7 +136,9 @@ def far_and_small(candidate: Function) -> Verdict:
         rng = np.random.default_rng(GRADERS() + 20 + k)
         p = size * a_lopsided_cloud(rng, 300, mirrored=bool(k % 2)) + away
         axes = of_any_signs(rng, p)
-        verdicts.append(signs_verdict(candidate(axes, p), axes, p, f"Far away, or small. {SIGNS_HINT}"))
+        verdicts.append(
+            signs_verdict(candidate(axes, p), axes, p, f"Far away, or small. {SIGNS_HINT}")
+        )
     return worst(verdicts)
 
 
@@ -125,10 +148,14 @@ def few_outvote_many(candidate: Function) -> Verdict:
     verdicts = []
     for k in range(4):
         rng = np.random.default_rng(GRADERS() + 40 + k)
-        levels = rng.choice([0.4, -1.0, 2.2], (400, 3), p=[0.6, 0.35, 0.05]) + 0.05 * rng.normal(size=(400, 3))
+        levels = rng.choice([0.4, -1.0, 2.2], (400, 3), p=[0.6, 0.35, 0.05]) + 0.05 * rng.normal(
+            size=(400, 3)
+        )
         p = levels * [0.6, 0.35, 0.2] @ a_rotation(rng).T + 0.3
         axes = of_any_signs(rng, p)
-        verdicts.append(signs_verdict(candidate(axes, p), axes, p, f"Few points far away. {SIGNS_HINT}"))
+        verdicts.append(
+            signs_verdict(candidate(axes, p), axes, p, f"Few points far away. {SIGNS_HINT}")
+        )
     return worst(verdicts)
 
 
@@ -136,8 +163,14 @@ def few_outvote_many(candidate: Function) -> Verdict:
 def against_the_farthest_point(candidate: Function) -> Verdict:
     """One point far away does not outvote a tail of many; where the third moment is 0 an axis stays as it is."""
     rng = np.random.default_rng(GRADERS() + 60)
-    along = np.concatenate([np.tile([[-0.7], [0.2]], (1, 3)).repeat([60, 240], axis=0), np.full((30, 3), 1.4)])
-    along = np.concatenate([along + 0.02 * rng.normal(size=along.shape), np.full((1, 3), -2.0)]) * [0.6, 0.35, 0.2]
+    along = np.concatenate(
+        [np.tile([[-0.7], [0.2]], (1, 3)).repeat([60, 240], axis=0), np.full((30, 3), 1.4)]
+    )
+    along = np.concatenate([along + 0.02 * rng.normal(size=along.shape), np.full((1, 3), -2.0)]) * [
+        0.6,
+        0.35,
+        0.2,
+    ]
     p = along @ a_rotation(rng).T
     axes = of_any_signs(rng, p)
     verdicts = [signs_verdict(candidate(axes, p), axes, p, f"One point is far away. {SIGNS_HINT}")]
@@ -161,7 +194,9 @@ def largest_entry(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     return geometry.largest_entry_signs(axes)
 
 
-@mistake("Your third moments are about the origin. Subtract the centroid first, or they tell where the cloud is.")
+@mistake(
+    "Your third moments are about the origin. Subtract the centroid first, or they tell where the cloud is."
+)
 def about_the_origin(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Does not centre."""
     return geometry.right_handed(axes * np.where(((p @ axes) ** 3).sum(axis=0) < 0, -1.0, 1.0))
@@ -176,7 +211,9 @@ def each_by_its_own_moment(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     return axes * np.where(geometry.third_moments(axes, p) < 0, -1.0, 1.0)
 
 
-@mistake("Axes 1 and 2 are right, and axis 3 stays as it came in. Take the cross product of axes 1 and 2.")
+@mistake(
+    "Axes 1 and 2 are right, and axis 3 stays as it came in. Take the cross product of axes 1 and 2."
+)
 def third_axis_kept(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Leaves the third axis alone."""
     signs = np.where(geometry.third_moments(axes, p) < 0, -1.0, 1.0)
@@ -184,7 +221,9 @@ def third_axis_kept(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     return axes * signs
 
 
-@mistake("Your axes point away from the long tails: their third moments are negative. Turn axes 1 and 2 round.")
+@mistake(
+    "Your axes point away from the long tails: their third moments are negative. Turn axes 1 and 2 round."
+)
 def to_the_negative_side(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Makes the moments negative."""
     return geometry.right_handed(axes * np.where(geometry.third_moments(axes, p) < 0, 1.0, -1.0))
@@ -197,7 +236,9 @@ def to_the_negative_side(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
 def to_more_points(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Counts points on either side of the centroid."""
     along = (p - p.mean(axis=0)) @ axes
-    return geometry.right_handed(axes * np.where((along > 0).sum(axis=0) < (along < 0).sum(axis=0), -1.0, 1.0))
+    return geometry.right_handed(
+        axes * np.where((along > 0).sum(axis=0) < (along < 0).sum(axis=0), -1.0, 1.0)
+    )
 
 
 @mistake("You took the rows of `axes` for its axes. Axis k is column k: axes[:, k].")

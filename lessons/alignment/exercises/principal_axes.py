@@ -88,7 +88,14 @@ def axes_verdict(axes: np.ndarray, p: np.ndarray, hint: str = AXES_HINT, first: 
         hint = "Your rows are the axes: transpose the matrix."
     x, y, z = right[:, worst_axis]
     said = f"right is ({x:.3f}, {y:.3f}, {z:.3f}), or the opposite. {hint}"
-    return band(f"Axis {worst_axis + 1} is off by", float(degrees.max()), "degrees", good=0.1, fair=2.0, hint=said)
+    return band(
+        f"Axis {worst_axis + 1} is off by",
+        float(degrees.max()),
+        "degrees",
+        good=0.1,
+        fair=2.0,
+        hint=said,
+    )
 
 
 def a_cloud(rng: np.random.Generator, n: int = 80) -> np.ndarray:
@@ -123,7 +130,9 @@ def other_lumps(candidate: Function) -> Verdict:
     verdicts = []
     for k, size in enumerate((1e-3, 0.1, 1.0, 100.0)):
         p = size * a_cloud(np.random.default_rng(GRADERS() + k), 30 + 200 * k)
-        verdicts.append(axes_verdict(candidate(p), p, f"A cloud {size:g} times as large. {AXES_HINT}"))
+        verdicts.append(
+            axes_verdict(candidate(p), p, f"A cloud {size:g} times as large. {AXES_HINT}")
+        )
     return worst(verdicts)
 
 
@@ -131,7 +140,9 @@ def other_lumps(candidate: Function) -> Verdict:
 def far_away(candidate: Function) -> Verdict:
     """A cloud a thousand kilometres away has the same axes."""
     p = a_cloud(np.random.default_rng(GRADERS() + 10), 300) + np.array([1e6, -2e6, 3e6])
-    return axes_verdict(candidate(p), p, "Far from the origin. Subtract the centroid before you multiply.")
+    return axes_verdict(
+        candidate(p), p, "Far from the origin. Subtract the centroid before you multiply."
+    )
 
 
 @check(1, public=False)
@@ -140,7 +151,11 @@ def flat_and_thin(candidate: Function) -> Verdict:
     rng = np.random.default_rng(GRADERS() + 20)
     flat = rng.normal(size=(50, 3)) * [0.5, 0.2, 0.0] @ a_rotation(rng).T + 1.0
     line = np.outer(np.linspace(-1, 1, 9), [0.6, 0.0, 0.8]) + 0.3
-    cases = [("A flat cloud", flat, 3), ("Points on a line", line, 1), ("A single point", line[:1], 0)]
+    cases = [
+        ("A flat cloud", flat, 3),
+        ("Points on a line", line, 1),
+        ("A single point", line[:1], 0),
+    ]
     cases += [
         ("Two points", flat[:2], 1),
         ("Three points", flat[:3], 3),
@@ -148,11 +163,21 @@ def flat_and_thin(candidate: Function) -> Verdict:
     ]
     for k in range(3):  # along an axis, and across one
         cases.append(("Points on a line", np.linspace(-2, 1, 6)[:, None] * np.eye(3)[[k]], 1))
-        cases.append(("A flat cloud", (rng.normal(size=(40, 3)) * [0.5, 0.2, 0.0])[:, np.roll([0, 1, 2], k)], 3))
+        cases.append(
+            (
+                "A flat cloud",
+                (rng.normal(size=(40, 3)) * [0.5, 0.2, 0.0])[:, np.roll([0, 1, 2], k)],
+                3,
+            )
+        )
     verdicts = [refused(candidate, np.empty((0, 3)), what="A cloud without points")]
     for what, p, first in cases:
         axes = candidate(p)
-        verdicts.append(axes_verdict(axes, p, f"{what}. {AXES_HINT}", max(first, 1)) if first else frame_only(axes))
+        verdicts.append(
+            axes_verdict(axes, p, f"{what}. {AXES_HINT}", max(first, 1))
+            if first
+            else frame_only(axes)
+        )
     return worst(verdicts)
 
 
@@ -174,13 +199,17 @@ def covariance(p: np.ndarray) -> np.ndarray:
     return centred.T @ centred / len(p)
 
 
-@mistake("Your axes go from the least variance to the largest: eigh sorts that way. Reverse the columns.")
+@mistake(
+    "Your axes go from the least variance to the largest: eigh sorts that way. Reverse the columns."
+)
 def ascending(p: np.ndarray) -> np.ndarray:
     """Leaves the order of eigh."""
     return geometry.largest_entry_signs(np.linalg.eigh(covariance(p))[1])
 
 
-@mistake("You did not subtract the centroid, so that your first axis points at the cloud from the origin.")
+@mistake(
+    "You did not subtract the centroid, so that your first axis points at the cloud from the origin."
+)
 def not_centred(p: np.ndarray) -> np.ndarray:
     """Takes the moments about the origin."""
     if len(p) == 0:
@@ -194,7 +223,9 @@ def rows_for_columns(p: np.ndarray) -> np.ndarray:
     return principal_axes(p).T
 
 
-@mistake("Your axes are right but where their determinant is −1: turn one column round there, to be right-handed.")
+@mistake(
+    "Your axes are right but where their determinant is −1: turn one column round there, to be right-handed."
+)
 def left_handed(p: np.ndarray) -> np.ndarray:
     """Leaves the handedness as eigh gives it."""
     return np.linalg.eigh(covariance(p))[1][:, ::-1]
@@ -208,7 +239,9 @@ def standardised(p: np.ndarray) -> np.ndarray:
     """Takes the correlation instead of the covariance."""
     C = covariance(p)
     spread = np.sqrt(np.maximum(np.diag(C), 1e-300))
-    return geometry.largest_entry_signs(geometry.ordered(*np.linalg.eigh(C / np.outer(spread, spread)))[1])
+    return geometry.largest_entry_signs(
+        geometry.ordered(*np.linalg.eigh(C / np.outer(spread, spread)))[1]
+    )
 
 
 @mistake(
@@ -220,7 +253,9 @@ def moments_cancel(p: np.ndarray) -> np.ndarray:
     if len(p) == 0:
         raise ValueError("no points")
     mean = p.mean(axis=0)
-    return geometry.largest_entry_signs(geometry.ordered(*np.linalg.eigh(p.T @ p / len(p) - np.outer(mean, mean)))[1])
+    return geometry.largest_entry_signs(
+        geometry.ordered(*np.linalg.eigh(p.T @ p / len(p) - np.outer(mean, mean)))[1]
+    )
 
 
 @alternative
@@ -244,7 +279,11 @@ def axes_by_power_iteration(p: np.ndarray) -> np.ndarray:
             A = A @ A / (np.linalg.norm(A @ A) or 1.0)
         column = A[:, np.linalg.norm(A, axis=0).argmax()]
         length = np.linalg.norm(column)
-        axis = column / length if length > 0.5 else np.eye(3)[np.abs(found).sum(axis=0).argmin() if k else 0]
+        axis = (
+            column / length
+            if length > 0.5
+            else np.eye(3)[np.abs(found).sum(axis=0).argmin() if k else 0]
+        )
         axis = axis - sum((axis @ other) * other for other in found) if found else axis
         axis = axis / np.linalg.norm(axis)
         found.append(axis * np.sign(axis[np.abs(axis).argmax()]))

@@ -32,7 +32,9 @@ from workbench.geometry.motions import alignment
          "1"),
     ),
 )  # fmt: skip
-def similarity_scale(p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]) -> float:
+def similarity_scale(
+    p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]
+) -> float:
     """Return the scale s of the similarity p_target = s R p_source + t that leaves the least sum of squared distances.
 
     R is a rotation (determinant +1), also where a mirror image would fit better, and s, R and t are the best together.
@@ -51,14 +53,20 @@ def similarity_scale(p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndar
     return alignment.similarity_scale(p_target, p_source)
 
 
-SCALE_HINT = "s = tr(D S) / variance of the source (Umeyama, eq. 42), with S = diag(1, 1, det U det V)."
+SCALE_HINT = (
+    "s = tr(D S) / variance of the source (Umeyama, eq. 42), with S = diag(1, 1, det U det V)."
+)
 
 
-def scale_verdict(candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = SCALE_HINT) -> Verdict:
+def scale_verdict(
+    candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = SCALE_HINT
+) -> Verdict:
     """Judge a scale in per cent of the least-squares one."""
     right, got = alignment.similarity_scale(p_target, p_source), candidate(p_target, p_source)
     said = f"Scale {against(got, right, 5)}. {hint}"
-    return band("The scale is off by", 100 * abs(got / right - 1), "%", good=0.01, fair=0.2, hint=said)
+    return band(
+        "The scale is off by", 100 * abs(got / right - 1), "%", good=0.01, fair=0.2, hint=said
+    )
 
 
 def pairs(
@@ -75,7 +83,10 @@ def pairs(
 @check(2)
 def exact_pairs(candidate: Function) -> Verdict:
     """Exact pairs of scale 0.4, 1 and 2.5 tell their scale."""
-    return worst(scale_verdict(candidate, *pairs(STUDENTS + k, scale)) for k, scale in enumerate((0.4, 1.0, 2.5)))
+    return worst(
+        scale_verdict(candidate, *pairs(STUDENTS + k, scale))
+        for k, scale in enumerate((0.4, 1.0, 2.5))
+    )
 
 
 @check(2)
@@ -84,7 +95,10 @@ def noisy_pairs(candidate: Function) -> Verdict:
     verdicts = []
     for k, scale in enumerate((0.7, 1.5)):
         p_target, p_source = pairs(STUDENTS + 10 + k, scale, 0.1)
-        verdicts += [scale_verdict(candidate, p_target, p_source), scale_verdict(candidate, p_source, p_target)]
+        verdicts += [
+            scale_verdict(candidate, p_target, p_source),
+            scale_verdict(candidate, p_source, p_target),
+        ]
     return worst(verdicts)
 
 
@@ -104,9 +118,15 @@ def mirror_images(candidate: Function) -> Verdict:
         if k % 2 == 0:
             rng = np.random.default_rng(GRADERS() + 50 + k)
             p_source = (p_source - p_source.mean(axis=0)) * [1.0, 1.0, 0.0]
-            p_target = (1.0 + 0.2 * k) * p_source @ a_rotation(rng).T + 0.05 * rng.normal(size=p_source.shape)
+            p_target = (1.0 + 0.2 * k) * p_source @ a_rotation(rng).T + 0.05 * rng.normal(
+                size=p_source.shape
+            )
             p_source = p_source + 0.05 * rng.normal(size=p_source.shape)
-        verdicts.append(scale_verdict(candidate, p_target, p_source, f"Mirrored, or flat and noisy. {SCALE_HINT}"))
+        verdicts.append(
+            scale_verdict(
+                candidate, p_target, p_source, f"Mirrored, or flat and noisy. {SCALE_HINT}"
+            )
+        )
     return worst(verdicts)
 
 
@@ -124,8 +144,16 @@ def small_and_large(candidate: Function) -> Verdict:
     verdicts = []
     for k, size in enumerate((0.01, 1000.0)):
         p_target, p_source = pairs(GRADERS() + 40 + k, 0.8, 0.05)
-        verdicts.append(scale_verdict(candidate, size * p_target, size * p_source, f"Small, or large. {SCALE_HINT}"))
-        verdicts.append(scale_verdict(candidate, *pairs(GRADERS() + 44 + k, (0.01, 100.0)[k]), f"Scaled. {SCALE_HINT}"))
+        verdicts.append(
+            scale_verdict(
+                candidate, size * p_target, size * p_source, f"Small, or large. {SCALE_HINT}"
+            )
+        )
+        verdicts.append(
+            scale_verdict(
+                candidate, *pairs(GRADERS() + 44 + k, (0.01, 100.0)[k]), f"Scaled. {SCALE_HINT}"
+            )
+        )
     return worst(verdicts)
 
 
@@ -134,7 +162,10 @@ def no_scale_to_see(candidate: Function) -> Verdict:
     """Source points that coincide, and a single pair, give 1; two pairs have a scale; no pairs are refused."""
     p_target, p_source = pairs(GRADERS() + 30, 1.2)
     verdicts = [refused(candidate, np.empty((0, 3)), np.empty((0, 3)), what="A call without pairs")]
-    for what, q in (("Source points that coincide", np.full(p_target.shape, 0.5)), ("A single pair", p_source[:1])):
+    for what, q in (
+        ("Source points that coincide", np.full(p_target.shape, 0.5)),
+        ("A single pair", p_source[:1]),
+    ):
         verdicts.append(scale_verdict(candidate, p_target[: len(q)], q, f"{what}. {SCALE_HINT}"))
     line = np.outer(np.linspace(-1, 1, 7), [0.6, 0.0, 0.8])
     for what, p, q in (
@@ -203,7 +234,9 @@ def upside_down(p_target: np.ndarray, p_source: np.ndarray) -> float:
     return 1.0 / alignment.similarity_scale(p_target, p_source)
 
 
-@mistake("You did not subtract the centroids: about the origin the shift between the scans counts as size.")
+@mistake(
+    "You did not subtract the centroids: about the origin the shift between the scans counts as size."
+)
 def not_centred(p_target: np.ndarray, p_source: np.ndarray) -> float:
     """Takes moments about the origin."""
     if len(p_source) == 0:
@@ -222,11 +255,17 @@ def without_the_rotation(p_target: np.ndarray, p_source: np.ndarray) -> float:
     return float((a * b).sum() / (b**2).sum()) if b.any() else 1.0
 
 
-@mistake("You divide only one of the two sums by the number of pairs. Both or none: the number cancels.")
+@mistake(
+    "You divide only one of the two sums by the number of pairs. Both or none: the number cancels."
+)
 def divided_once(p_target: np.ndarray, p_source: np.ndarray) -> float:
     """Takes the mean above and the sum below."""
     centred(p_target, p_source)
-    return alignment.similarity_scale(p_target, p_source) / len(p_source) if np.ptp(p_source, axis=0).any() else 1.0
+    return (
+        alignment.similarity_scale(p_target, p_source) / len(p_source)
+        if np.ptp(p_source, axis=0).any()
+        else 1.0
+    )
 
 
 @alternative

@@ -6,7 +6,16 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.calibration.exercises import GRADERS, STUDENTS, rows_verdict, views
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.cameras import calibration
 
 
@@ -97,7 +106,9 @@ def _v(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     )
 
 
-@mistake("You took rows of H for columns. r1 and r2 go with its columns: h1 = H[:, 0] and h2 = H[:, 1].")
+@mistake(
+    "You took rows of H for columns. r1 and r2 go with its columns: h1 = H[:, 0] and h2 = H[:, 1]."
+)
 def rows_for_columns(H: np.ndarray) -> np.ndarray:
     """H[0] and H[1]."""
     return calibration.constraint_rows(H.T)
@@ -109,13 +120,17 @@ def no_difference(H: np.ndarray) -> np.ndarray:
     return np.stack([_v(H[:, 0], H[:, 1]), _v(H[:, 0], H[:, 0])])
 
 
-@mistake("Your second row adds v(h1, h1) and v(h2, h2). Equal lengths mean that their difference is 0.")
+@mistake(
+    "Your second row adds v(h1, h1) and v(h2, h2). Equal lengths mean that their difference is 0."
+)
 def added(H: np.ndarray) -> np.ndarray:
     """v11 + v22."""
     return np.stack([_v(H[:, 0], H[:, 1]), _v(H[:, 0], H[:, 0]) + _v(H[:, 1], H[:, 1])])
 
 
-@mistake("Your two rows are in the other order: the contract has h1ᵀ B h2 first, and the difference of lengths second.")
+@mistake(
+    "Your two rows are in the other order: the contract has h1ᵀ B h2 first, and the difference of lengths second."
+)
 def swapped(H: np.ndarray) -> np.ndarray:
     """The second row first."""
     return calibration.constraint_rows(H)[::-1].copy()
@@ -127,24 +142,32 @@ def other_sign(H: np.ndarray) -> np.ndarray:
     return calibration.constraint_rows(H) * np.array([[1.0], [-1.0]])
 
 
-@mistake("Your mixed products count once. B is symmetric: B12 gets a1 b2 + a2 b1, and so do B13 and B23.")
+@mistake(
+    "Your mixed products count once. B is symmetric: B12 gets a1 b2 + a2 b1, and so do B13 and B23."
+)
 def mixed_once(H: np.ndarray) -> np.ndarray:
     """a1 b2 without a2 b1."""
 
     def v(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        return np.array([a[0] * b[0], a[0] * b[1], a[1] * b[1], a[0] * b[2], a[1] * b[2], a[2] * b[2]])
+        return np.array(
+            [a[0] * b[0], a[0] * b[1], a[1] * b[1], a[0] * b[2], a[1] * b[2], a[2] * b[2]]
+        )
 
     h1, h2 = H[:, 0], H[:, 1]
     return np.stack([v(h1, h2), v(h1, h1) - v(h2, h2)])
 
 
-@mistake("Your entries are ordered along the rows of B: B11, B12, B13, B22, ... The contract has B22 before B13.")
+@mistake(
+    "Your entries are ordered along the rows of B: B11, B12, B13, B22, ... The contract has B22 before B13."
+)
 def row_by_row(H: np.ndarray) -> np.ndarray:
     """B13 before B22."""
     return calibration.constraint_rows(H)[:, [0, 1, 3, 2, 4, 5]]
 
 
-@mistake("You took columns 2 and 3 of H. The third one is t, of which nothing is known: r1 and r2 are columns 1 and 2.")
+@mistake(
+    "You took columns 2 and 3 of H. The third one is t, of which nothing is known: r1 and r2 are columns 1 and 2."
+)
 def columns_one_too_far(H: np.ndarray) -> np.ndarray:
     """h2 and h3."""
     return calibration.constraint_rows(H[:, [1, 2, 0]])

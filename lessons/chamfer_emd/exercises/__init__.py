@@ -2,10 +2,24 @@
 
 import numpy as np
 
-from workbench.exercise import Function, HiddenSeed, Verdict, against, fail, full, number, partial, refused, worst
+from workbench.exercise import (
+    Function,
+    HiddenSeed,
+    Verdict,
+    against,
+    fail,
+    full,
+    number,
+    partial,
+    refused,
+    worst,
+)
 from workbench.geometry.motions import apply, exp_so3, motion
 
-STUDENTS, GRADERS = 53, HiddenSeed(7718)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    53,
+    HiddenSeed(7718),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 Cloud = np.ndarray
@@ -33,7 +47,11 @@ def value_verdict(got: float, right: float, unit: str, hint: str, what: str = ""
 def two_clouds(seed: int, n: int, m: int) -> tuple[Cloud, Cloud]:
     """Return n and m points of two lumps, half a metre in size, that overlap."""
     rng = np.random.default_rng(seed)
-    return rng.normal(size=(n, 3)) * [0.5, 0.3, 0.2], rng.normal(size=(m, 3)) * [0.3, 0.5, 0.2] + [0.3, -0.1, 0.2]
+    return rng.normal(size=(n, 3)) * [0.5, 0.3, 0.2], rng.normal(size=(m, 3)) * [0.3, 0.5, 0.2] + [
+        0.3,
+        -0.1,
+        0.2,
+    ]
 
 
 def moved_together(seed: int, p_a: Cloud, p_b: Cloud, metres: float) -> tuple[Cloud, Cloud]:
@@ -51,7 +69,11 @@ def reordered(seed: int, p: Cloud) -> Cloud:
 def no_points_refused(candidate: Function) -> Verdict:
     """Judge calls with an empty cloud on either side, or on both."""
     none, some = np.empty((0, 3)), np.ones((4, 3))
-    calls = ((none, some, "An empty p_a"), (some, none, "An empty p_b"), (none, none, "Two empty clouds"))
+    calls = (
+        (none, some, "An empty p_a"),
+        (some, none, "An empty p_b"),
+        (none, none, "Two empty clouds"),
+    )
     return worst(refused(candidate, p_a, p_b, what=what) for p_a, p_b, what in calls)
 
 

@@ -18,7 +18,16 @@ from lessons.chamfer_emd.exercises import (
     value_verdict,
 )
 from lessons.chamfer_emd.exercises import one_sided as one
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.points import shape_distances
 
 
@@ -54,21 +63,27 @@ CHAMFER_HINT = "Each side is a mean over its own points of squared nearest dista
 
 def chamfer_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -> Verdict:
     """Judge both sides by ours."""
-    return value_verdict(candidate(p_a, p_b), shape_distances.chamfer(p_a, p_b), "m²", CHAMFER_HINT, what)
+    return value_verdict(
+        candidate(p_a, p_b), shape_distances.chamfer(p_a, p_b), "m²", CHAMFER_HINT, what
+    )
 
 
 @check(2)
 def both_sides_of_few_points(candidate: Function) -> Verdict:
     """Three points and two: 2 m² from a to b and 2.5 m² from b to a are 4.5 m²."""
     p_a, p_b = np.array([[1.0, 0, 0], [0, 0, 1], [5, 2, 0]]), np.array([[0.0, 0, 0], [5, 0, 0]])
-    return value_verdict(candidate(p_a, p_b), 4.5, "m²", f"From b to a the squares are 1 and 4. {CHAMFER_HINT}")
+    return value_verdict(
+        candidate(p_a, p_b), 4.5, "m²", f"From b to a the squares are 1 and 4. {CHAMFER_HINT}"
+    )
 
 
 @check(2)
 def both_ways_round(candidate: Function) -> Verdict:
     """Clouds of 40 and 90 points have one distance, whichever comes first."""
     p_a, p_b = two_clouds(STUDENTS + 10, 40, 90)
-    return worst((chamfer_found(candidate, p_a, p_b, "a, b: "), chamfer_found(candidate, p_b, p_a, "b, a: ")))
+    return worst(
+        (chamfer_found(candidate, p_a, p_b, "a, b: "), chamfer_found(candidate, p_b, p_a, "b, a: "))
+    )
 
 
 @check(1)
@@ -122,7 +137,9 @@ def moved_clouds(candidate: Function) -> Verdict:
     return worst(
         (
             value_verdict(mixed, right, "m²", CHAMFER_HINT, "Other order: "),
-            value_verdict(away, right, "m²", "Subtract before you square. " + CHAMFER_HINT, "Far away: "),
+            value_verdict(
+                away, right, "m²", "Subtract before you square. " + CHAMFER_HINT, "Far away: "
+            ),
         )
     )
 
@@ -133,19 +150,25 @@ def clouds_without_points(candidate: Function) -> Verdict:
     return no_points_refused(candidate)
 
 
-@mistake("You measured from a to b only. This side does not see what a lacks; add the side from b to a.")
+@mistake(
+    "You measured from a to b only. This side does not see what a lacks; add the side from b to a."
+)
 def only_from_a(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Leaves out the way back."""
     return one.side(p_a, p_b)
 
 
-@mistake("You measured from b to a only. This side does not see what a has too much; add the side from a to b.")
+@mistake(
+    "You measured from b to a only. This side does not see what a has too much; add the side from a to b."
+)
 def only_from_b(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Leaves out the way there."""
     return one.other_side(p_a, p_b)
 
 
-@mistake("You took means of distances, in metres. The definition asked for takes means of squares, in square metres.")
+@mistake(
+    "You took means of distances, in metres. The definition asked for takes means of squares, in square metres."
+)
 def not_squared(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Metres."""
     return one.not_squared(p_a, p_b) + one.not_squared(p_b, p_a)
@@ -160,7 +183,9 @@ def sums_for_means(p_a: np.ndarray, p_b: np.ndarray) -> float:
     return one.sum_for_mean(p_a, p_b) + one.sum_for_mean(p_b, p_a)
 
 
-@mistake("You summed distances. That definition exists too, but the one asked for takes means of squares.")
+@mistake(
+    "You summed distances. That definition exists too, but the one asked for takes means of squares."
+)
 def sums_of_distances(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Both at once."""
     D = all_distances(p_a, p_b)
@@ -176,19 +201,25 @@ def one_mean_of_all(p_a: np.ndarray, p_b: np.ndarray) -> float:
     return sums_for_means(p_a, p_b) / (len(p_a) + len(p_b))
 
 
-@mistake("You divided each side by the count of the other cloud. The side from a to b has n terms, the one back has m.")
+@mistake(
+    "You divided each side by the count of the other cloud. The side from a to b has n terms, the one back has m."
+)
 def counts_swapped(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Divides each side by the other's count."""
     return one.divided_by_the_other_count(p_a, p_b) + one.divided_by_the_other_count(p_b, p_a)
 
 
-@mistake("Your number is half of the right one: you took the mean of both sides. The definition asked for adds them.")
+@mistake(
+    "Your number is half of the right one: you took the mean of both sides. The definition asked for adds them."
+)
 def halved(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The mean of the sides."""
     return one.both_sides(p_a, p_b) / 2
 
 
-@mistake("You took the larger of the two sides, as Hausdorff does. The definition asked for adds them.")
+@mistake(
+    "You took the larger of the two sides, as Hausdorff does. The definition asked for adds them."
+)
 def larger_side(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The maximum of the sides."""
     return max(one.side(p_a, p_b), one.side(p_b, p_a))
@@ -202,13 +233,17 @@ def same_side_twice(p_a: np.ndarray, p_b: np.ndarray) -> float:
     return 2 * one.side(p_a, p_b)
 
 
-@mistake("You took the root of each side's mean square. The definition asked for stays in square metres.")
+@mistake(
+    "You took the root of each side's mean square. The definition asked for stays in square metres."
+)
 def roots_of_the_means(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The root of the sides' mean squares."""
     return np.sqrt(one.side(p_a, p_b)) + np.sqrt(one.side(p_b, p_a))
 
 
-@mistake("You returned the square of the largest nearest distance: that is Hausdorff's. Chamfer takes means.")
+@mistake(
+    "You returned the square of the largest nearest distance: that is Hausdorff's. Chamfer takes means."
+)
 def largest_for_mean(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The largest nearest distance, squared."""
     return max(one.largest_for_mean(p_a, p_b), one.largest_for_mean(p_b, p_a))

@@ -22,7 +22,16 @@ from lessons.chamfer_emd.exercises import (
 from lessons.chamfer_emd.exercises import chamfer as two
 from lessons.chamfer_emd.exercises import one_sided as one
 from workbench.algorithms.transport import exact as transport
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 
 
 @contract(
@@ -60,7 +69,9 @@ MOVER_HINT = "The one-to-one matching with the least total of plain distances; t
 
 def mover_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -> Verdict:
     """Judge by ours, which is exact."""
-    return value_verdict(candidate(p_a, p_b), transport.earth_movers(p_a, p_b), "m", MOVER_HINT, what)
+    return value_verdict(
+        candidate(p_a, p_b), transport.earth_movers(p_a, p_b), "m", MOVER_HINT, what
+    )
 
 
 @check(2)
@@ -74,7 +85,9 @@ def short_pairs_can_cost(candidate: Function) -> Verdict:
 def two_lumps(candidate: Function) -> Verdict:
     """Two clouds of 40 points have the distance of their best matching, whichever comes first."""
     p_a, p_b = two_clouds(STUDENTS + 20, 40, 40)
-    return worst((mover_found(candidate, p_a, p_b, "a, b: "), mover_found(candidate, p_b, p_a, "b, a: ")))
+    return worst(
+        (mover_found(candidate, p_a, p_b, "a, b: "), mover_found(candidate, p_b, p_a, "b, a: "))
+    )
 
 
 @check(1)
@@ -89,7 +102,9 @@ def shares_are_split(candidate: Function) -> Verdict:
 def twice_as_large(candidate: Function) -> Verdict:
     """Twice the size is twice the distance."""
     p_a, p_b = two_clouds(STUDENTS + 21, 25, 25)
-    return value_verdict(candidate(2 * p_a, 2 * p_b), 2 * transport.earth_movers(p_a, p_b), "m", MOVER_HINT)
+    return value_verdict(
+        candidate(2 * p_a, 2 * p_b), 2 * transport.earth_movers(p_a, p_b), "m", MOVER_HINT
+    )
 
 
 @check(1)
@@ -105,7 +120,9 @@ def shifted_copies(candidate: Function) -> Verdict:
     copy = reordered(GRADERS(), p)
     v = 0.7 * np.array([2.0, -1.0, 2.0]) / 3
     shifted = value_verdict(candidate(p, copy + v), 0.7, "m", MOVER_HINT, "Shifted: ")
-    return worst((shifted, value_verdict(candidate(p, copy), 0.0, "m", MOVER_HINT, "Other order: ")))
+    return worst(
+        (shifted, value_verdict(candidate(p, copy), 0.0, "m", MOVER_HINT, "Other order: "))
+    )
 
 
 @check(2, public=False)
@@ -127,7 +144,10 @@ def unequal_counts(candidate: Function) -> Verdict:
         verdicts.append(mover_found(candidate, p_a, p_b, f"{n} and {m} points: "))
     p, _ = two_clouds(GRADERS() + 90, 7, 1)
     more = np.vstack([p, p[:1]])
-    twice = [mover_found(candidate, *pair, "A point twice: ") for pair in ((p, more), (more, p), (more, p[::-1] + 0.5))]
+    twice = [
+        mover_found(candidate, *pair, "A point twice: ")
+        for pair in ((p, more), (more, p), (more, p[::-1] + 0.5))
+    ]
     return worst((*verdicts, *twice))
 
 
@@ -136,7 +156,9 @@ def movers_far_away(candidate: Function) -> Verdict:
     """Turned, and a thousand kilometres away, the distance is the same."""
     p_a, p_b = two_clouds(GRADERS() + 100, 30, 30)
     right = transport.earth_movers(p_a, p_b)
-    return value_verdict(candidate(*moved_together(GRADERS(), p_a, p_b, 1e6)), right, "m", MOVER_HINT)
+    return value_verdict(
+        candidate(*moved_together(GRADERS(), p_a, p_b, 1e6)), right, "m", MOVER_HINT
+    )
 
 
 @check(1, public=False)
@@ -179,7 +201,9 @@ def nearest_neighbours(p_a: np.ndarray, p_b: np.ndarray) -> float:
     return one.not_squared(p_a, p_b)
 
 
-@mistake("You took nearest neighbours both ways: that is a Chamfer distance, blind to density. Match one to one.")
+@mistake(
+    "You took nearest neighbours both ways: that is a Chamfer distance, blind to density. Match one to one."
+)
 def nearest_both_ways(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Chamfer of distances, halved."""
     return two.not_squared(p_a, p_b) / 2
@@ -215,14 +239,18 @@ def closest_pair_first(p_a: np.ndarray, p_b: np.ndarray) -> float:
     return total / len(a)
 
 
-@mistake("You sorted both clouds along x and paired them. That is the best matching on a line only; in space, assign.")
+@mistake(
+    "You sorted both clouds along x and paired them. That is the best matching on a line only; in space, assign."
+)
 def sorted_along_x(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """What is right on a line."""
     a, b = repeated(p_a, p_b)
     return np.linalg.norm(a[np.argsort(a[:, 0])] - b[np.argsort(b[:, 0])], axis=1).mean()
 
 
-@mistake("You returned the total distance. Each cloud has mass 1, each point of a carries 1 / n of it: divide by n.")
+@mistake(
+    "You returned the total distance. Each cloud has mass 1, each point of a carries 1 / n of it: divide by n."
+)
 def sum_for_mean(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The sum over the points of a."""
     return len(p_a) * earth_movers_of_copies(p_a, p_b)
@@ -248,7 +276,9 @@ def root_mean_square(p_a: np.ndarray, p_b: np.ndarray) -> float:
     return np.sqrt(squares(p_a, p_b))
 
 
-@mistake("You measure distances, but of the matching that is best for squares. Minimise what you measure: distances.")
+@mistake(
+    "You measure distances, but of the matching that is best for squares. Minimise what you measure: distances."
+)
 def matched_by_squares(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The matching of least squares, measured in metres."""
     a, b = repeated(p_a, p_b)
@@ -341,5 +371,7 @@ def earth_movers_by_programme(p_a: np.ndarray, p_b: np.ndarray) -> float:
     sums = np.zeros((n + m, n * m))
     for i, j in itertools.product(range(n), range(m)):
         sums[i, i * m + j] = sums[n + j, i * m + j] = 1.0
-    found = linprog(D.ravel(), A_eq=sums, b_eq=np.r_[np.full(n, 1 / n), np.full(m, 1 / m)], method="highs")
+    found = linprog(
+        D.ravel(), A_eq=sums, b_eq=np.r_[np.full(n, 1 / n), np.full(m, 1 / m)], method="highs"
+    )
     return float(found.fun or 0.0)

@@ -18,7 +18,16 @@ from lessons.chamfer_emd.exercises import (
     two_clouds,
     value_verdict,
 )
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.points import shape_distances
 
 
@@ -54,7 +63,9 @@ SIDE_HINT = "Mean over the points of a of the squared distance to the nearest po
 
 def side_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -> Verdict:
     """Judge one side by ours."""
-    return value_verdict(candidate(p_a, p_b), shape_distances.one_sided(p_a, p_b), "m²", SIDE_HINT, what)
+    return value_verdict(
+        candidate(p_a, p_b), shape_distances.one_sided(p_a, p_b), "m²", SIDE_HINT, what
+    )
 
 
 @check(2)
@@ -68,7 +79,12 @@ def side_of_few_points(candidate: Function) -> Verdict:
 def there_and_back(candidate: Function) -> Verdict:
     """From a to b and from b to a are two numbers, and both are right."""
     p_a, p_b = two_clouds(STUDENTS, 40, 90)
-    return worst((side_found(candidate, p_a, p_b, "From a to b: "), side_found(candidate, p_b, p_a, "From b to a: ")))
+    return worst(
+        (
+            side_found(candidate, p_a, p_b, "From a to b: "),
+            side_found(candidate, p_b, p_a, "From b to a: "),
+        )
+    )
 
 
 @check(1)
@@ -76,7 +92,12 @@ def a_part_lies_on_the_whole(candidate: Function) -> Verdict:
     """A part of a cloud is 0 from the whole; the whole is not 0 from its part."""
     whole, _ = two_clouds(STUDENTS + 1, 60, 1)
     part = reordered(STUDENTS, whole[whole[:, 0] < 0])
-    return worst((side_found(candidate, part, whole, "Part: "), side_found(candidate, whole, part, "Whole: ")))
+    return worst(
+        (
+            side_found(candidate, part, whole, "Part: "),
+            side_found(candidate, whole, part, "Whole: "),
+        )
+    )
 
 
 @check(1)
@@ -100,11 +121,23 @@ def side_grows_with_the_square(candidate: Function) -> Verdict:
     """Three times the size is nine times the distance; points of a that are twice count twice, those of b once."""
     p_a, p_b = two_clouds(GRADERS() + 10, 50, 40)
     right = shape_distances.one_sided(p_a, p_b)
-    three = value_verdict(candidate(3 * p_a, 3 * p_b), 9 * right, "m²", SIDE_HINT, "Three times the size: ")
-    twice = value_verdict(candidate(np.vstack([p_a, p_a]), p_b), right, "m²", SIDE_HINT, "Points of a twice: ")
+    three = value_verdict(
+        candidate(3 * p_a, 3 * p_b), 9 * right, "m²", SIDE_HINT, "Three times the size: "
+    )
+    twice = value_verdict(
+        candidate(np.vstack([p_a, p_a]), p_b), right, "m²", SIDE_HINT, "Points of a twice: "
+    )
     some = side_found(candidate, np.vstack([p_a, p_a[:20]]), p_b, "Some points of a twice: ")
     equal = side_found(candidate, p_a, np.vstack([p_b[:9], p_b]), "Some points of b twice: ")
-    return worst((three, twice, some, equal, side_found(candidate, 0.01 * p_a, 0.01 * p_b, "Of a centimetre: ")))
+    return worst(
+        (
+            three,
+            twice,
+            some,
+            equal,
+            side_found(candidate, 0.01 * p_a, 0.01 * p_b, "Of a centimetre: "),
+        )
+    )
 
 
 @check(2, public=False)
@@ -117,7 +150,9 @@ def side_of_moved_clouds(candidate: Function) -> Verdict:
     return worst(
         (
             value_verdict(mixed, right, "m²", SIDE_HINT, "Other order: "),
-            value_verdict(away, right, "m²", "Subtract before you square. " + SIDE_HINT, "Far away: "),
+            value_verdict(
+                away, right, "m²", "Subtract before you square. " + SIDE_HINT, "Far away: "
+            ),
         )
     )
 
@@ -137,7 +172,9 @@ def other_side(p_a: np.ndarray, p_b: np.ndarray) -> float:
     return np.mean(all_distances(p_a, p_b).min(axis=0) ** 2)
 
 
-@mistake("You added both sides. That is the two-sided Chamfer distance; here only the side from a to b is asked for.")
+@mistake(
+    "You added both sides. That is the two-sided Chamfer distance; here only the side from a to b is asked for."
+)
 def both_sides(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The two-sided distance."""
     return side(p_a, p_b) + side(p_b, p_a)

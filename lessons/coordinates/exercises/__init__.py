@@ -7,7 +7,10 @@ import numpy as np
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.numerals import brief
 
-STUDENTS, GRADERS = 61, HiddenSeed(8410)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    61,
+    HiddenSeed(8410),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 def numbers(values: np.ndarray) -> str:
@@ -25,11 +28,22 @@ def one(value: float) -> str:
 def told(got: np.ndarray, right: np.ndarray) -> str:
     """Write an answer and the right one, with more digits where these few would not tell them apart."""
     yours, wanted = numbers(got), numbers(right)
-    return against(np.atleast_1d(got), np.atleast_1d(right), 5) if yours == wanted else f"{yours}, right is {wanted}"
+    return (
+        against(np.atleast_1d(got), np.atleast_1d(right), 5)
+        if yours == wanted
+        else f"{yours}, right is {wanted}"
+    )
 
 
 def row_by_row(
-    asked: Sequence[str], got: np.ndarray, right: np.ndarray, off: np.ndarray, hint: str, *, good: float, fair: float
+    asked: Sequence[str],
+    got: np.ndarray,
+    right: np.ndarray,
+    off: np.ndarray,
+    hint: str,
+    *,
+    good: float,
+    fair: float,
 ) -> Verdict:
     """Judge the row that is farthest off, or is no number at all, and say what was asked, what came and what is right.
 

@@ -8,7 +8,16 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.coordinates.exercises import GRADERS, STUDENTS, numbers, row_by_row
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.shapes import curvilinear
 
 
@@ -36,7 +45,11 @@ def spherical_from_cartesian(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "
 
 
 ANGLES = "r = |p|, polar = atan2(√(x² + y²), z), azimuth = atan2(y, x)."
-LOST = (1.02e-8, 1.03e-8, 1.04e-8)  # radians: about the largest angles whose cosine is 1 in double precision
+LOST = (
+    1.02e-8,
+    1.03e-8,
+    1.04e-8,
+)  # radians: about the largest angles whose cosine is 1 in double precision
 AXIS = "Near the axis arccos has no digits left: atan2(√(x² + y²), z) has."
 
 
@@ -45,7 +58,9 @@ def judged(candidate: Function, p: np.ndarray, hint: str = ANGLES) -> Verdict:
     got, right = candidate(p), curvilinear.spherical_from_cartesian(p)
     size = np.column_stack([np.maximum(right[:, 0], 1e-12), np.ones((len(p), 2))])
     off = (np.abs(got - right) / size).max(axis=1)
-    return row_by_row([f"The point {numbers(row)}" for row in p], got, right, off, hint, good=1e-6, fair=1e-3)
+    return row_by_row(
+        [f"The point {numbers(row)}" for row in p], got, right, off, hint, good=1e-6, fair=1e-3
+    )
 
 
 def all_round(seed: int, n: int = 24, radius: float = 2.0) -> np.ndarray:
@@ -65,7 +80,9 @@ def points_all_round(candidate: Function) -> Verdict:
 def half_planes_and_axes(candidate: Function) -> Verdict:
     """On -x the azimuth is pi, on the z axis 0; the origin is (0, 0, 0)."""
     p = np.array([[-2.0, 0, 0], [0, 0, 3], [0, 0, -0.5], [0, 0, 0], [0, -1, 0], [1, 0, 0]])
-    return judged(candidate, p, f"On the z axis take 0 for the azimuth, at the origin 0 for all. {ANGLES}")
+    return judged(
+        candidate, p, f"On the z axis take 0 for the azimuth, at the origin 0 for all. {ANGLES}"
+    )
 
 
 @check(1)
@@ -95,7 +112,10 @@ def near(candidate: Function, polar: np.ndarray, r: float, azimuth: float = 0.0)
 def other_points_all_round(candidate: Function) -> Verdict:
     """Other points, near and far, have their coordinates too."""
     return judged(
-        candidate, np.concatenate([all_round(GRADERS() + k, radius=r) for k, r in enumerate((1e-2, 1e4, 1e-6))])
+        candidate,
+        np.concatenate(
+            [all_round(GRADERS() + k, radius=r) for k, r in enumerate((1e-2, 1e4, 1e-6))]
+        ),
     )
 
 
@@ -120,7 +140,15 @@ def a_single_point(candidate: Function) -> Verdict:
 @check(1, public=False)
 def zeros_of_either_sign(candidate: Function) -> Verdict:
     """-0.0 is 0: on -x the azimuth is pi and not -pi, and on the axis it is 0."""
-    p = np.array([[-1.0, -0.0, 0.5], [-0.0, -0.0, -2.0], [-0.0, 0.0, 1.0], [2.0, -0.0, 0.0], [-0.0, -0.0, -0.0]])
+    p = np.array(
+        [
+            [-1.0, -0.0, 0.5],
+            [-0.0, -0.0, -2.0],
+            [-0.0, 0.0, 1.0],
+            [2.0, -0.0, 0.0],
+            [-0.0, -0.0, -0.0],
+        ]
+    )
     return judged(candidate, p, "atan2 listens to the sign of a zero, and x + 0.0 takes it away.")
 
 
@@ -169,7 +197,9 @@ def arccos_with_care(p: np.ndarray) -> np.ndarray:
     return columns(r, np.arccos(np.divide(p[:, 2], r, out=np.ones(len(p)), where=r > 0)), azimuth)
 
 
-@mistake("Your second angle is the elevation above the x-y plane. The polar angle starts at +z: the two add up to π/2.")
+@mistake(
+    "Your second angle is the elevation above the x-y plane. The polar angle starts at +z: the two add up to π/2."
+)
 def elevation(p: np.ndarray) -> np.ndarray:
     """Measures from the plane."""
     r, _, azimuth = curvilinear.spherical_from_cartesian(p).T
@@ -188,7 +218,9 @@ def in_degrees(p: np.ndarray) -> np.ndarray:
     return curvilinear.spherical_from_cartesian(p) * [1.0, 180 / np.pi, 180 / np.pi]
 
 
-@mistake("Your azimuth runs from 0 to 2π. Here it is in (−π, π]: what atan2 gives, without anything added.")
+@mistake(
+    "Your azimuth runs from 0 to 2π. Here it is in (−π, π]: what atan2 gives, without anything added."
+)
 def from_zero_to_two_pi(p: np.ndarray) -> np.ndarray:
     """Adds a turn to negative ones."""
     r, polar, azimuth = curvilinear.spherical_from_cartesian(p).T
@@ -202,7 +234,9 @@ def atan2_of_x_y(p: np.ndarray) -> np.ndarray:
     return columns(r, polar, np.arctan2(p[:, 0], p[:, 1]))
 
 
-@mistake("Your r is √(x² + y²), the distance from the axis. r is the distance from the origin, with z.")
+@mistake(
+    "Your r is √(x² + y²), the distance from the axis. r is the distance from the origin, with z."
+)
 def distance_from_the_axis(p: np.ndarray) -> np.ndarray:
     """Leaves z out."""
     _, polar, azimuth = curvilinear.spherical_from_cartesian(p).T

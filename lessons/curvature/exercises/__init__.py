@@ -8,7 +8,10 @@ from workbench.exercise import HiddenSeed, Verdict, against, band, fail, partial
 from workbench.geometry.meshes import face_areas, on_boundary
 from workbench.geometry.motions import exp_so3
 
-STUDENTS, GRADERS = 21, HiddenSeed(8123)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    21,
+    HiddenSeed(8123),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 Mesh = tuple[np.ndarray, np.ndarray]
@@ -40,7 +43,14 @@ def some_rotation(seed: int) -> np.ndarray:
 
 
 def curvature_verdict(
-    got: np.ndarray, right: np.ndarray, hint: str, *, good: float, fair: float, size: float = 0.0, what: str = ""
+    got: np.ndarray,
+    right: np.ndarray,
+    hint: str,
+    *,
+    good: float,
+    fair: float,
+    size: float = 0.0,
+    what: str = "",
 ) -> Verdict:
     """Judge numbers or vectors at the vertices in per cent; where `right` is nan, nan is asked for.
 
@@ -75,10 +85,13 @@ def curvature_verdict(
     )
     stray = int((~np.isnan(got[~inside])).any(axis=1).sum())
     if stray and verdict.share > 0:
-        said = (
-            f"{what}{stray} of {(~inside).sum()} border vertices have a value; the contract asks for nan on the border."
+        said = f"{what}{stray} of {(~inside).sum()} border vertices have a value; the contract asks for nan on the border."
+        return partial(
+            0.5,
+            f"{said} The others are right."
+            if verdict.share == 1.0
+            else f"{said} {verdict.message}",
         )
-        return partial(0.5, f"{said} The others are right." if verdict.share == 1.0 else f"{said} {verdict.message}")
     return verdict
 
 

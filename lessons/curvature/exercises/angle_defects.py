@@ -41,7 +41,12 @@ def renumbered(p: np.ndarray, faces: np.ndarray, rng: np.random.Generator) -> Me
     place = rng.permutation(len(p))
     moved = np.empty_like(p)
     moved[place] = p
-    turned = np.array([np.roll(face, k) for face, k in zip(place[faces], rng.integers(0, 3, len(faces)), strict=True)])
+    turned = np.array(
+        [
+            np.roll(face, k)
+            for face, k in zip(place[faces], rng.integers(0, 3, len(faces)), strict=True)
+        ]
+    )
     return moved, turned[rng.permutation(len(faces))]
 
 
@@ -63,7 +68,9 @@ def defects_verdict(candidate: Function, mesh: Mesh, hint: str) -> Verdict:
         (f"angle_defects({TRIANGLE})", "[2.0944, 2.0944, 2.0944]"),
     ),
 )
-def angle_defects(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Float[np.ndarray, " v"]:
+def angle_defects(
+    p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]
+) -> Float[np.ndarray, " v"]:
     """Return how much the angles around each vertex miss a flat turn, in radians.
 
     At a vertex inside the mesh that is 2 pi less the sum of the angles of its faces there, at a vertex on the border pi
@@ -84,20 +91,26 @@ def angle_defects(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) ->
 DEFECT_HINT = "Inside the mesh: 2 pi less the angles at the vertex; on the border: pi less them."
 
 
-FLAT_HINT = "If a face without area gives nan: clip cosines to [-1, 1], or take arctan2(|a x b|, a . b)."
+FLAT_HINT = (
+    "If a face without area gives nan: clip cosines to [-1, 1], or take arctan2(|a x b|, a . b)."
+)
 
 
 @check(2)
 def corners_of_a_box(candidate: Function) -> Verdict:
     """Each corner of a box misses a quarter turn, however long its edges are and however its sides are cut."""
-    return defects_verdict(candidate, box(STUDENTS), f"Three right angles are there, of four. {DEFECT_HINT}")
+    return defects_verdict(
+        candidate, box(STUDENTS), f"Three right angles are there, of four. {DEFECT_HINT}"
+    )
 
 
 @check(2)
 def flat_sheet(candidate: Function) -> Verdict:
     """A flat sheet has no defect inside nor along its straight border, and a quarter turn at its corners."""
     sheet = irregular("plane", STUDENTS, 60)
-    return defects_verdict(candidate, (sheet.p @ some_rotation(STUDENTS).T, sheet.faces), DEFECT_HINT)
+    return defects_verdict(
+        candidate, (sheet.p @ some_rotation(STUDENTS).T, sheet.faces), DEFECT_HINT
+    )
 
 
 @check(1)
@@ -117,7 +130,9 @@ def gauss_bonnet(candidate: Function) -> Verdict:
         total = float(np.degrees(candidate(p, mesh.faces).sum()))
         what = f"On a {name} with noise your sum is {number(total, 6)} degrees, right is {360 * chi}: error"
         said = band(what, abs(total - 360 * chi), "degrees", good=0.01, fair=1.0, hint=DEFECT_HINT)
-        verdicts.append(full("The four sums are 720, 0, 0 and 360 degrees.") if said.share == 1.0 else said)
+        verdicts.append(
+            full("The four sums are 720, 0, 0 and 360 degrees.") if said.share == 1.0 else said
+        )
     return worst(verdicts)
 
 
@@ -127,8 +142,16 @@ def defects_go_with_the_mesh(candidate: Function) -> Verdict:
     rng = np.random.default_rng(GRADERS())
     mesh = irregular("catenoid", GRADERS(), 120)
     p = 3.0 * mesh.p @ some_rotation(GRADERS()).T + rng.normal(size=3)
-    cases = [(mesh.p, mesh.faces), (p, mesh.faces), (p, mesh.faces[:, ::-1].copy()), renumbered(p, mesh.faces, rng)]
-    return worst(defects_verdict(candidate, case, DEFECT_HINT) for case in (*cases, (1e-3 * mesh.p, mesh.faces)))
+    cases = [
+        (mesh.p, mesh.faces),
+        (p, mesh.faces),
+        (p, mesh.faces[:, ::-1].copy()),
+        renumbered(p, mesh.faces, rng),
+    ]
+    return worst(
+        defects_verdict(candidate, case, DEFECT_HINT)
+        for case in (*cases, (1e-3 * mesh.p, mesh.faces))
+    )
 
 
 ALONG_THE_DIAGONAL = (
@@ -145,9 +168,15 @@ def flat_faces_and_lone_vertices(candidate: Function) -> Verdict:
     verdicts = []
     for k in range(16):  # which cosines rounding takes beyond 1 depends on how the mesh is turned
         p, faces = with_a_flat_face(ball.p @ some_rotation(GRADERS() + k).T, ball.faces)
-        verdicts.append(defects_verdict(candidate, (np.concatenate([p, [[3.0, 0.0, 0.0]]]), faces), FLAT_HINT))
-    first = np.concatenate([[[3.0, 0, 0]], ball.p[:7], [[0, 3.0, 0]], ball.p[7:], [[0, 0, 3.0], [1, 3.0, 0]]])
-    shifted = ball.faces + np.where(ball.faces < 7, 1, 2)  # four vertices without faces, wherever they stand
+        verdicts.append(
+            defects_verdict(candidate, (np.concatenate([p, [[3.0, 0.0, 0.0]]]), faces), FLAT_HINT)
+        )
+    first = np.concatenate(
+        [[[3.0, 0, 0]], ball.p[:7], [[0, 3.0, 0]], ball.p[7:], [[0, 0, 3.0], [1, 3.0, 0]]]
+    )
+    shifted = ball.faces + np.where(
+        ball.faces < 7, 1, 2
+    )  # four vertices without faces, wherever they stand
     verdicts.append(defects_verdict(candidate, (first, shifted), DEFECT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*box(GRADERS())), FLAT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*ALONG_THE_DIAGONAL), FLAT_HINT))

@@ -20,7 +20,16 @@ from lessons.curvature.exercises import (
 )
 from lessons.curvature.exercises.angle_defects import sum_of_the_angles
 from workbench.data.shapes import surfaces
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.meshes import curvature, on_boundary
 from workbench.geometry.meshes.laplacian import mixed_areas
 
@@ -32,7 +41,9 @@ from workbench.geometry.meshes.laplacian import mixed_areas
         (f"gaussian_curvature({TRIANGLE})", "[nan, nan, nan]"),
     ),
 )
-def gaussian_curvature(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Float[np.ndarray, " v"]:
+def gaussian_curvature(
+    p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]
+) -> Float[np.ndarray, " v"]:
     """Return Gaussian curvature K at each vertex: its angle defect over its mixed area, 1/m^2.
 
     The defect is 2 pi less the angles at the vertex. The mixed area is made of a part of each face around:
@@ -63,7 +74,9 @@ def spheres(candidate: Function) -> Verdict:
     for radius in (0.5, 3.0):
         ball = surfaces.sphere(162, radius)
         got, what = candidate(ball.p, ball.faces), f"Radius {radius:g} m: "
-        verdicts.append(curvature_verdict(got, ball.gaussian, GAUSSIAN_HINT, good=3, fair=12, what=what))
+        verdicts.append(
+            curvature_verdict(got, ball.gaussian, GAUSSIAN_HINT, good=3, fair=12, what=what)
+        )
     return worst(verdicts)
 
 
@@ -72,7 +85,9 @@ def tube(candidate: Function) -> Verdict:
     """A cylinder can be rolled out flat: K = 0 inside, nan on its border."""
     pipe = surfaces.cylinder(150)
     right = without_border(pipe, pipe.gaussian)
-    return curvature_verdict(candidate(pipe.p, pipe.faces), right, GAUSSIAN_HINT, good=0.1, fair=2, size=4.0)
+    return curvature_verdict(
+        candidate(pipe.p, pipe.faces), right, GAUSSIAN_HINT, good=0.1, fair=2, size=4.0
+    )
 
 
 @check(1)
@@ -81,7 +96,8 @@ def mesh_of_K_is_left_alone(candidate: Function) -> Verdict:
     ball = surfaces.sphere(42)
     right = curvature.gaussian_curvature(ball.p, ball.faces)
     return left_alone(
-        candidate, curvature_verdict(candidate(ball.p, ball.faces), right, GAUSSIAN_HINT, good=0.1, fair=5)
+        candidate,
+        curvature_verdict(candidate(ball.p, ball.faces), right, GAUSSIAN_HINT, good=0.1, fair=5),
     )
 
 
@@ -94,7 +110,9 @@ def obtuse_faces(candidate: Function) -> Verdict:
         mesh = irregular(name, GRADERS() + k)
         right = curvature.gaussian_curvature(mesh.p, mesh.faces)
         got = candidate(mesh.p, mesh.faces)
-        verdicts.append(curvature_verdict(got, right, hint, good=0.1, fair=5, what=f"{name.capitalize()}: "))
+        verdicts.append(
+            curvature_verdict(got, right, hint, good=0.1, fair=5, what=f"{name.capitalize()}: ")
+        )
     return worst(verdicts)
 
 
@@ -128,7 +146,9 @@ def face_without_area(candidate: Function) -> Verdict:
     return worst(verdicts)
 
 
-@mistake("You returned the angle defect. It is curvature times area: divide it by the area that belongs to the vertex.")
+@mistake(
+    "You returned the angle defect. It is curvature times area: divide it by the area that belongs to the vertex."
+)
 def defect_not_divided(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The angle defect."""
     return np.where(on_boundary(faces, len(p)), np.nan, curvature.angle_defects(p, faces))
@@ -239,7 +259,9 @@ def gaussian_by_circumcentres(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
         angles = [np.arctan2(2 * whole, x @ y) for x, y in ends]
         np.subtract.at(defect, face, angles)
         if max(angles) > np.pi / 2:
-            np.add.at(area, face, [whole / 2 if angle > np.pi / 2 else whole / 4 for angle in angles])
+            np.add.at(
+                area, face, [whole / 2 if angle > np.pi / 2 else whole / 4 for angle in angles]
+            )
             continue
         u, v = b - a, c - a
         centre = a + ((u @ u) * np.cross(v, n) + (v @ v) * np.cross(n, u)) / (2 * n @ n)

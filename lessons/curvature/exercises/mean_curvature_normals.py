@@ -18,7 +18,16 @@ from lessons.curvature.exercises import (
 )
 from workbench.data.shapes import surfaces
 from workbench.data.shapes.surfaces import Surface
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.meshes import curvature, on_boundary, vertex_normals
 from workbench.geometry.meshes.laplacian import mixed_areas
 
@@ -33,7 +42,9 @@ from workbench.geometry.meshes.laplacian import mixed_areas
         (f"mean_curvature_normals({TRIANGLE})", "np.full((3, 3), nan)"),
     ),
 )
-def mean_curvature_normals(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Float[np.ndarray, "v 3"]:
+def mean_curvature_normals(
+    p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]
+) -> Float[np.ndarray, "v 3"]:
     """Return the mean-curvature normal 2 H n at each vertex, 1/m.
 
     For vertex i it is 1 / (2 A_i) times the sum over its edges ij of (cot a_ij + cot b_ij) (p_i - p_j). a_ij and b_ij are
@@ -62,7 +73,9 @@ NORMAL_HINT = "Add up (cot a + cot b) (p_i - p_j) over the edges and divide by 2
 def _pulled(candidate: Function, mesh: Surface, hint: str = NORMAL_HINT, what: str = "") -> Verdict:
     """Judge 2 H n against the right answer on the same mesh."""
     right = curvature.mean_curvature_normals(mesh.p, mesh.faces)
-    return curvature_verdict(candidate(mesh.p, mesh.faces), right, hint, good=0.1, fair=5, what=what)
+    return curvature_verdict(
+        candidate(mesh.p, mesh.faces), right, hint, good=0.1, fair=5, what=what
+    )
 
 
 @check(3)
@@ -72,7 +85,11 @@ def outward_on_spheres(candidate: Function) -> Verdict:
     for radius in (0.5, 3.0):
         ball = surfaces.sphere(162, radius)
         got, right = candidate(ball.p, ball.faces), 2 / radius * ball.normals
-        verdicts.append(curvature_verdict(got, right, NORMAL_HINT, good=3, fair=12, what=f"Radius {radius:g} m: "))
+        verdicts.append(
+            curvature_verdict(
+                got, right, NORMAL_HINT, good=3, fair=12, what=f"Radius {radius:g} m: "
+            )
+        )
     return worst(verdicts)
 
 
@@ -145,13 +162,17 @@ def inward(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     return -curvature.mean_curvature_normals(p, faces)
 
 
-@mistake("Your vectors are half as long as asked: you returned H n. The contract asks for 2 H n, 2/r on a sphere.")
+@mistake(
+    "Your vectors are half as long as asked: you returned H n. The contract asks for 2 H n, 2/r on a sphere."
+)
 def h_n(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """H n."""
     return curvature.mean_curvature_normals(p, faces) / 2
 
 
-@mistake("Your vectors are twice too long. The sum over the edges is divided by twice the area: 1 / (2 A).")
+@mistake(
+    "Your vectors are twice too long. The sum over the edges is divided by twice the area: 1 / (2 A)."
+)
 def four_h_n(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Divides by the area, not by twice the area."""
     return 2 * curvature.mean_curvature_normals(p, faces)
@@ -175,14 +196,18 @@ def a_third_of_each_face(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     return area_forgotten(p, faces) / thirds(p, faces)[:, None]
 
 
-def cotangent_pull(p: np.ndarray, faces: np.ndarray, *, opposite: bool = True, both: bool = True) -> np.ndarray:
+def cotangent_pull(
+    p: np.ndarray, faces: np.ndarray, *, opposite: bool = True, both: bool = True
+) -> np.ndarray:
     """Every edge pulls its two ends by a cotangent."""
     total = np.zeros_like(p)
     for k in range(3):
         i, j, o = (faces[:, (k + m) % 3] for m in range(3))
         at, one, two = (o, i, j) if opposite else (i, j, o)
         a, b = p[one] - p[at], p[two] - p[at]
-        pull = ((a * b).sum(axis=1) / np.linalg.norm(np.cross(a, b), axis=1))[:, None] * (p[i] - p[j])
+        pull = ((a * b).sum(axis=1) / np.linalg.norm(np.cross(a, b), axis=1))[:, None] * (
+            p[i] - p[j]
+        )
         np.add.at(total, i, pull)
         if both:
             np.subtract.at(total, j, pull)
@@ -242,7 +267,9 @@ def a_value_on_the_border(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     for k in range(3):
         i, j, o = (faces[:, (k + m) % 3] for m in range(3))
         a, b = p[i] - p[o], p[j] - p[o]
-        pull = ((a * b).sum(axis=1) / np.linalg.norm(np.cross(a, b), axis=1))[:, None] * (p[i] - p[j])
+        pull = ((a * b).sum(axis=1) / np.linalg.norm(np.cross(a, b), axis=1))[:, None] * (
+            p[i] - p[j]
+        )
         np.add.at(total, i, pull)
         np.subtract.at(total, j, pull)
     return total / (2 * mixed_areas(p, faces)[:, None])
@@ -261,9 +288,13 @@ def gradient_of_area(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
         here = ((one - at) * (two - at)).sum(axis=1)
         there = ((at - one) * (two - one)).sum(axis=1)
         far = ((at - two) * (one - two)).sum(axis=1)
-        voronoi = (((one - at) ** 2).sum(axis=1) * far + ((two - at) ** 2).sum(axis=1) * there) / (8 * double)
+        voronoi = (((one - at) ** 2).sum(axis=1) * far + ((two - at) ** 2).sum(axis=1) * there) / (
+            8 * double
+        )
         obtuse = np.minimum(there, far) < 0
-        np.add.at(area, faces[:, k], np.where(here < 0, double / 4, np.where(obtuse, double / 8, voronoi)))
+        np.add.at(
+            area, faces[:, k], np.where(here < 0, double / 4, np.where(obtuse, double / 8, voronoi))
+        )
     edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
     edges, times = np.unique(edges, axis=0, return_counts=True)
     total[np.unique(edges[times == 1])] = np.nan
@@ -279,4 +310,6 @@ def by_the_laplacian(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
             u, v = p[i] - p[o], p[j] - p[o]
             weights[[i, j], [j, i]] += u @ v / np.linalg.norm(np.cross(u, v)) / 2
     pull = np.diag(weights.sum(axis=1)) @ p - weights @ p
-    return np.where(border_of(len(p), faces)[:, None], np.nan, pull / mixed_areas(p, faces)[:, None])
+    return np.where(
+        border_of(len(p), faces)[:, None], np.nan, pull / mixed_areas(p, faces)[:, None]
+    )

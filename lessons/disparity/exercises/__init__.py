@@ -4,7 +4,10 @@ import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = 31, HiddenSeed(9241)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    31,
+    HiddenSeed(9241),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 Pair = tuple[np.ndarray, np.ndarray]
@@ -19,7 +22,11 @@ def textures(seed: int, h: int = 12, w: int = 20, shift: int = 4) -> Pair:
 
 
 def cells_verdict(
-    got: np.ndarray, right: np.ndarray, where: np.ndarray | None = None, what: str = "", hint: str = VOLUME_HINT
+    got: np.ndarray,
+    right: np.ndarray,
+    where: np.ndarray | None = None,
+    what: str = "",
+    hint: str = VOLUME_HINT,
 ) -> Verdict:
     """Judge costs by the share of wrong cells, per cent, and name the first of them.
 

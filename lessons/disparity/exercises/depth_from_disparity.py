@@ -35,7 +35,9 @@ from workbench.geometry.cameras import stereo
         ),
     ),
 )
-def depth_from_disparity(d: Float[np.ndarray, "..."], f: float, baseline: float) -> Float[np.ndarray, "..."]:
+def depth_from_disparity(
+    d: Float[np.ndarray, "..."], f: float, baseline: float
+) -> Float[np.ndarray, "..."]:
     """Return the depth that each disparity stands for, metres along the optical axis.
 
     Two cameras look along the same direction, the right one `baseline` to the right of the left one. A point at depth Z is
@@ -63,14 +65,21 @@ def depth_verdict(got: np.ndarray, right: np.ndarray, what: str = "") -> Verdict
     i = np.unravel_index(np.argmax(np.where(np.isfinite(off), off, np.inf)), off.shape)
     hint = f"Yours is {against(got[i], right[i], unit='m')}. {DEPTH_HINT}"
     return band(
-        f"{what}largest error" if what else "Largest error", 100 * float(off[i]), "%", good=0.01, fair=5, hint=hint
+        f"{what}largest error" if what else "Largest error",
+        100 * float(off[i]),
+        "%",
+        good=0.01,
+        fair=5,
+        hint=hint,
     )
 
 
 @check(2)
 def near_and_far(candidate: Function) -> Verdict:
     """With f = 700 px and a baseline of 0.12 m, 84, 16.8 and 4.2 px are 1, 5 and 20 m."""
-    return depth_verdict(candidate(np.array([84.0, 16.8, 4.2]), 700.0, 0.12), np.array([1.0, 5.0, 20.0]))
+    return depth_verdict(
+        candidate(np.array([84.0, 16.8, 4.2]), 700.0, 0.12), np.array([1.0, 5.0, 20.0])
+    )
 
 
 @check(2)
@@ -78,7 +87,12 @@ def half_the_shift(candidate: Function) -> Verdict:
     """Over a whole map, half the disparity is twice the depth."""
     d = np.random.default_rng(STUDENTS).uniform(2.0, 60.0, (6, 8))
     Z = candidate(d, 400.0, 0.2)
-    return worst((depth_verdict(Z, 80.0 / d), depth_verdict(candidate(d / 2, 400.0, 0.2), 160.0 / d, "Half: ")))
+    return worst(
+        (
+            depth_verdict(Z, 80.0 / d),
+            depth_verdict(candidate(d / 2, 400.0, 0.2), 160.0 / d, "Half: "),
+        )
+    )
 
 
 @check(1)
@@ -106,18 +120,33 @@ def smaller_pictures(candidate: Function) -> Verdict:
     d = np.random.default_rng(GRADERS() + 1).uniform(3.0, 80.0, (3, 4, 2))
     if candidate(np.empty(0), 900.0, 0.15).size:
         return fail("No disparities came in, and depths came out; right are 0 of them.")
-    return worst(depth_verdict(candidate(d / k, 900.0 / k, 0.15), 135.0 / d, f"1/{k} size: ") for k in (1, 4))
+    return worst(
+        depth_verdict(candidate(d / k, 900.0 / k, 0.15), 135.0 / d, f"1/{k} size: ") for k in (1, 4)
+    )
 
 
 @check(3, public=False)
 def infinite_and_unknown(candidate: Function) -> Verdict:
     """0 is infinitely far, nan stays nan, a negative disparity is nan, and a hundredth of a pixel is far away."""
-    wanted = [(0.0, np.inf), (np.nan, np.nan), (-3.5, np.nan), (0.01, 5000.0), (-0.01, np.nan), (1e-6, 5e7)]
-    wrong, lots = [], candidate(np.array([[d for d, _ in wanted], [d for d, _ in wanted]]), 500.0, 0.1)[1]
+    wanted = [
+        (0.0, np.inf),
+        (np.nan, np.nan),
+        (-3.5, np.nan),
+        (0.01, 5000.0),
+        (-0.01, np.nan),
+        (1e-6, 5e7),
+    ]
+    wrong, lots = (
+        [],
+        candidate(np.array([[d for d, _ in wanted], [d for d, _ in wanted]]), 500.0, 0.1)[1],
+    )
     for (d, right), in_a_map in zip(wanted, lots, strict=True):
         got = float(candidate(np.array([d, 10.0]), 500.0, 0.1)[0])
         alone = float(candidate(np.full(3, d), 500.0, 0.1)[1])
-        got = next((one for one in (alone, float(in_a_map)) if not np.isclose(one, right, equal_nan=True)), got)
+        got = next(
+            (one for one in (alone, float(in_a_map)) if not np.isclose(one, right, equal_nan=True)),
+            got,
+        )
         if not np.isclose(got, right, rtol=1e-6, equal_nan=True):
             wrong.append(f"for d = {number(d)} yours is {number(got)} m, right is {number(right)}")
     if not wrong:
@@ -126,7 +155,9 @@ def infinite_and_unknown(candidate: Function) -> Verdict:
     return partial((3 - len(wrong)) / 3, said) if len(wrong) < 3 else fail(said)
 
 
-@mistake("Your depth grows with the disparity. It is the other way round: near things jump further. Z = f B / d.")
+@mistake(
+    "Your depth grows with the disparity. It is the other way round: near things jump further. Z = f B / d."
+)
 def proportional(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Depth grows with the disparity."""
     return baseline * d / f
@@ -138,13 +169,17 @@ def upside_down(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     return d / (f * baseline)
 
 
-@mistake("You returned f / d: the depth in baselines. Multiply by the baseline, and it is in metres.")
+@mistake(
+    "You returned f / d: the depth in baselines. Multiply by the baseline, and it is in metres."
+)
 def baseline_forgotten(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Depth in baselines."""
     return np.where(d >= 0, f / np.abs(d), np.nan)
 
 
-@mistake("You returned B / d, metres per pixel. Multiply by the focal length, which is in pixels too: Z = f B / d.")
+@mistake(
+    "You returned B / d, metres per pixel. Multiply by the focal length, which is in pixels too: Z = f B / d."
+)
 def f_forgotten(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Metres over pixels."""
     return np.where(d >= 0, baseline / np.abs(d), np.nan)

@@ -7,7 +7,18 @@ from jaxtyping import Int, Real
 
 from lessons.disparity.exercises import GRADERS, STUDENTS, textures
 from workbench.algorithms.stereo import cost_volume, disparity_map
-from workbench.exercise import Function, Verdict, alternative, band, check, contract, full, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    band,
+    check,
+    contract,
+    full,
+    left_alone,
+    mistake,
+    worst,
+)
 
 
 @contract(
@@ -43,7 +54,9 @@ def valleys(seed: int, shape: tuple[int, int, int]) -> tuple[np.ndarray, np.ndar
     return cost, d
 
 
-def map_verdict(got: np.ndarray, right: np.ndarray, what: str = "", hint: str = WINNER_HINT) -> Verdict:
+def map_verdict(
+    got: np.ndarray, right: np.ndarray, what: str = "", hint: str = WINNER_HINT
+) -> Verdict:
     """Judge disparities by the share of wrong pixels, per cent, and name the first of them."""
     wrong = got != right
     if not wrong.any():
@@ -51,7 +64,12 @@ def map_verdict(got: np.ndarray, right: np.ndarray, what: str = "", hint: str = 
     y, x = (int(i) for i in np.argwhere(wrong)[0])
     said = f"At (y, x) = ({y}, {x}) yours is {got[y, x]}, right is {right[y, x]}. {hint}"
     return band(
-        f"{what}wrong pixels" if what else "Wrong pixels", 100 * float(wrong.mean()), "%", good=0, fair=5, hint=said
+        f"{what}wrong pixels" if what else "Wrong pixels",
+        100 * float(wrong.mean()),
+        "%",
+        good=0,
+        fair=5,
+        hint=said,
     )
 
 
@@ -66,7 +84,9 @@ def deepest_valley(candidate: Function) -> Verdict:
 def equal_costs(candidate: Function) -> Verdict:
     """Of several equal costs the smallest disparity wins."""
     cost = np.random.default_rng(STUDENTS + 1).integers(1, 4, (8, 5, 6)).astype(float)
-    return map_verdict(candidate(cost), np.argmin(cost, axis=0), hint="Of equal costs the first one wins.")
+    return map_verdict(
+        candidate(cost), np.argmin(cost, axis=0), hint="Of equal costs the first one wins."
+    )
 
 
 @check(1)
@@ -96,9 +116,16 @@ def infinite_costs(candidate: Function) -> Verdict:
     d, _, x = np.indices(cost.shape)
     cost[x < d] = np.inf
     cost[:, 2, 3:5] = np.inf
-    hint, single = "inf is worse than any number.", np.where(np.arange(12).reshape(1, 3, 4) % 3 == 0, np.inf, 1.0)
-    verdicts = [map_verdict(candidate(c), np.argmin(c, axis=0), hint=hint) for c in (cost, 1e12 * cost)]
-    return worst([*verdicts, map_verdict(candidate(single), np.zeros((3, 4), int), "A single slice: ", hint)])
+    hint, single = (
+        "inf is worse than any number.",
+        np.where(np.arange(12).reshape(1, 3, 4) % 3 == 0, np.inf, 1.0),
+    )
+    verdicts = [
+        map_verdict(candidate(c), np.argmin(c, axis=0), hint=hint) for c in (cost, 1e12 * cost)
+    ]
+    return worst(
+        [*verdicts, map_verdict(candidate(single), np.zeros((3, 4), int), "A single slice: ", hint)]
+    )
 
 
 @check(2, public=False)
@@ -119,11 +146,19 @@ def only_the_order_counts(candidate: Function) -> Verdict:
 def whole_numbers_and_one_slice(candidate: Function) -> Verdict:
     """Whole numbers up to 65,535, negative ones, equal ones, and a volume of a single slice, are fine."""
     cost = np.random.default_rng(GRADERS() + 3).integers(250, 2**16, (20, 6, 4)).astype(np.uint16)
-    single = map_verdict(candidate(cost[:1].astype(float)), np.zeros((6, 4), int), "A single slice: ")
+    single = map_verdict(
+        candidate(cost[:1].astype(float)), np.zeros((6, 4), int), "A single slice: "
+    )
     signed = np.random.default_rng(GRADERS() + 4).integers(-9, 9, (6, 5, 7))
     few = np.random.default_rng(GRADERS() + 5).integers(0, 3, (9, 6, 5)).astype(np.uint8)
-    cases = ((cost, "Whole numbers: "), (signed, "Whole numbers of either sign: "), (few, "Equal whole numbers: "))
-    return worst([*(map_verdict(candidate(c), np.argmin(c, axis=0), what) for c, what in cases), single])
+    cases = (
+        (cost, "Whole numbers: "),
+        (signed, "Whole numbers of either sign: "),
+        (few, "Equal whole numbers: "),
+    )
+    return worst(
+        [*(map_verdict(candidate(c), np.argmin(c, axis=0), what) for c, what in cases), single]
+    )
 
 
 @mistake("You took the highest cost, the worst match. A cost is low where two pixels fit.")
@@ -153,7 +188,9 @@ def counted_from_1(cost: np.ndarray) -> np.ndarray:
     return np.argmin(cost, axis=0) + 1
 
 
-@mistake("You never choose 0. That is a disparity as good as any, of what is very far away; it does not mean missing.")
+@mistake(
+    "You never choose 0. That is a disparity as good as any, of what is very far away; it does not mean missing."
+)
 def zero_left_out(cost: np.ndarray) -> np.ndarray:
     """Never chooses 0."""
     return np.argmin(cost[1:], axis=0) + 1 if len(cost) > 1 else np.zeros(cost.shape[1:], int)
@@ -180,13 +217,17 @@ def first_valley(cost: np.ndarray) -> np.ndarray:
     return winner
 
 
-@mistake("You looked for the lowest cost along a row of the picture. The disparity is the first axis: axis=0.")
+@mistake(
+    "You looked for the lowest cost along a row of the picture. The disparity is the first axis: axis=0."
+)
 def along_columns(cost: np.ndarray) -> np.ndarray:
     """The best column of every row of every slice."""
     return np.argmin(cost, axis=2)
 
 
-@mistake("You looked for the lowest cost of the whole volume. Each pixel has its own: np.argmin(cost, axis=0).")
+@mistake(
+    "You looked for the lowest cost of the whole volume. Each pixel has its own: np.argmin(cost, axis=0)."
+)
 def one_for_all_pixels(cost: np.ndarray) -> np.ndarray:
     """The best cell of the whole volume."""
     return np.full(cost.shape[1:], np.unravel_index(np.argmin(cost), cost.shape)[0])

@@ -7,7 +7,16 @@ from jaxtyping import Float
 
 from lessons.distances.exercises import GRADERS, STUDENTS, values_verdict
 from workbench.algorithms.surfaces import fast_marching
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 
 Values = Float[np.ndarray, " n"]
 
@@ -105,10 +114,14 @@ def smaller_and_h(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
     return np.minimum(a, b) + h
 
 
-@mistake("You added h to the mean of both neighbours. A front that leans needs (u − a)² + (u − b)² = h².")
+@mistake(
+    "You added h to the mean of both neighbours. A front that leans needs (u − a)² + (u − b)² = h²."
+)
 def mean_and_h(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
     """The mean, plus h."""
-    return np.where(np.abs(a - b) < h, (np.minimum(a, 1e9) + np.minimum(b, 1e9)) / 2 + h, np.minimum(a, b) + h)
+    return np.where(
+        np.abs(a - b) < h, (np.minimum(a, 1e9) + np.minimum(b, 1e9)) / 2 + h, np.minimum(a, b) + h
+    )
 
 
 @mistake(

@@ -8,7 +8,10 @@ from workbench.exercise import HiddenSeed
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import apply, exp_so3, motion
 
-STUDENTS, GRADERS = 67, HiddenSeed(9127)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    67,
+    HiddenSeed(9127),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -33,7 +36,9 @@ def a_pair(seed: int, n: int = 60, sigma: float = 1.0, *, ahead: float = 0.3) ->
     R = exp_so3(np.array([0.0, 0.1, 0.02]) + rng.normal(size=3) * 0.03)
     T_second_first = motion(R, -R @ p_center)
     K_first, K_second = intrinsics(900.0, 512.0, 341.0), intrinsics(880.0, 500.0, 350.0, fy=885.0)
-    clean = [pixels_of(K, p) for K, p in ((K_first, p_first), (K_second, apply(T_second_first, p_first)))]
+    clean = [
+        pixels_of(K, p) for K, p in ((K_first, p_first), (K_second, apply(T_second_first, p_first)))
+    ]
     noisy = [uv + sigma * rng.normal(size=uv.shape) for uv in clean]
     return Pair(
         K_first=K_first, K_second=K_second, T_second_first=T_second_first, p_first=p_first,

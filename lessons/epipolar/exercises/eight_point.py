@@ -40,7 +40,9 @@ from workbench.geometry.two_views import epipolar
     ),
     either=lambda F: -np.asarray(F),
 )
-def eight_point(uv_first: Float[np.ndarray, "n 2"], uv_second: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "3 3"]:
+def eight_point(
+    uv_first: Float[np.ndarray, "n 2"], uv_second: Float[np.ndarray, "n 2"]
+) -> Float[np.ndarray, "3 3"]:
     """Return the fundamental matrix F of matches, (u', v', 1) F (u, v, 1)^T = 0, of rank two.
 
     The normalised eight-point algorithm: shift and scale the pixels of each picture to mean 0 and a mean distance of about
@@ -61,12 +63,18 @@ def eight_point(uv_first: Float[np.ndarray, "n 2"], uv_second: Float[np.ndarray,
     return epipolar.fit_fundamental(uv_first, uv_second)
 
 
-HINT = "Normalise both pictures, solve, drop the smallest singular value, and only then F = T'^T F T."
+HINT = (
+    "Normalise both pictures, solve, drop the smallest singular value, and only then F = T'^T F T."
+)
 
 
 def judged(candidate: Function, pair: Pair, good: float, fair: float) -> Verdict:
     """Judge F by how far points without noise are from their lines in both pictures, and tell of the farthest."""
-    F, x, y = candidate(pair.uv_first, pair.uv_second), homogeneous(pair.clean_first), homogeneous(pair.clean_second)
+    F, x, y = (
+        candidate(pair.uv_first, pair.uv_second),
+        homogeneous(pair.clean_first),
+        homogeneous(pair.clean_second),
+    )
     offs, feet = [], []
     with np.errstate(all="ignore"):
         for lines, p in ((y @ F, x), (x @ F.T, y)):
@@ -80,9 +88,19 @@ def judged(candidate: Function, pair: Pair, good: float, fair: float) -> Verdict
         )
     k = int(np.abs(offs[1]).argmax())
     told = beside(
-        feet[1][k], pair.clean_second[k], HINT, f"The place on the line of {number(x[k, :2])} nearest to its partner"
+        feet[1][k],
+        pair.clean_second[k],
+        HINT,
+        f"The place on the line of {number(x[k, :2])} nearest to its partner",
     )
-    return band("Points without noise are from their lines", off, "px (rms)", good=good, fair=fair, hint=told)
+    return band(
+        "Points without noise are from their lines",
+        off,
+        "px (rms)",
+        good=good,
+        fair=fair,
+        hint=told,
+    )
 
 
 def ranked(candidate: Function, pair: Pair) -> Verdict:
@@ -154,7 +172,14 @@ def the_last_entry_is_zero(candidate: Function) -> Verdict:
             f"F33 is 0 here, and the largest entry of F is {number(largest)}, right is 1 or so: scale F by its norm."
         )
     told = beside(unit, right, HINT, "F over its norm")
-    return band("F over its norm is off by", float(np.abs(unit - right).max()), "", good=1e-6, fair=1e-3, hint=told)
+    return band(
+        "F over its norm is off by",
+        float(np.abs(unit - right).max()),
+        "",
+        good=1e-6,
+        fair=1e-3,
+        hint=told,
+    )
 
 
 def similarity(uv: np.ndarray) -> np.ndarray:
@@ -177,7 +202,9 @@ def dropped(F: np.ndarray) -> np.ndarray:
     return U @ np.diag([s[0], s[1], 0]) @ Vt
 
 
-def normalised(uv_first: np.ndarray, uv_second: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def normalised(
+    uv_first: np.ndarray, uv_second: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return F of rank two in normalised coordinates, and both similarities."""
     T, S = similarity(uv_first), similarity(uv_second)
     return dropped(solved(homogeneous(uv_first) @ T.T, homogeneous(uv_second) @ S.T)), T, S
@@ -207,7 +234,9 @@ def rank_three(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     return S.T @ solved(homogeneous(uv_first) @ T.T, homogeneous(uv_second) @ S.T) @ T
 
 
-@mistake("You went back to pixels with inverses. With x = T u it is y^T F x = u'^T (T'^T F T) u: no inverse is needed.")
+@mistake(
+    "You went back to pixels with inverses. With x = T u it is y^T F x = u'^T (T'^T F T) u: no inverse is needed."
+)
 def denormalised_with_inverses(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Takes T'^-T F T^-1."""
     F, T, S = normalised(uv_first, uv_second)
@@ -223,7 +252,9 @@ def similarities_swapped(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndar
     return T.T @ F @ S
 
 
-@mistake("You did not go back to pixels: your F belongs to the normalised coordinates. Return T'^T F T.")
+@mistake(
+    "You did not go back to pixels: your F belongs to the normalised coordinates. Return T'^T F T."
+)
 def not_denormalised(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Forgets the way back."""
     return normalised(uv_first, uv_second)[0]
@@ -253,7 +284,9 @@ def by_eigenvectors(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     for uv in (uv_first, uv_second):
         mean = uv.mean(axis=0)
         scale = np.sqrt(2) / np.linalg.norm(uv - mean, axis=1).mean()
-        maps.append(np.array([[scale, 0, -scale * mean[0]], [0, scale, -scale * mean[1]], [0, 0, 1]]))
+        maps.append(
+            np.array([[scale, 0, -scale * mean[0]], [0, scale, -scale * mean[1]], [0, 0, 1]])
+        )
     A = []
     for first, second in zip(uv_first, uv_second, strict=True):
         u, v, _ = maps[0] @ [*first, 1]
@@ -274,7 +307,13 @@ def scaled_by_axes(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     for uv in (uv_first, uv_second):
         mean, spread = uv.mean(axis=0), uv.std(axis=0)
         maps.append(
-            np.array([[1 / spread[0], 0, -mean[0] / spread[0]], [0, 1 / spread[1], -mean[1] / spread[1]], [0, 0, 1]])
+            np.array(
+                [
+                    [1 / spread[0], 0, -mean[0] / spread[0]],
+                    [0, 1 / spread[1], -mean[1] / spread[1]],
+                    [0, 0, 1],
+                ]
+            )
         )
     T, S = maps
     F = S.T @ dropped(solved(homogeneous(uv_first) @ T.T, homogeneous(uv_second) @ S.T)) @ T

@@ -76,7 +76,10 @@ def apart(T: np.ndarray, right: np.ndarray) -> float:
     """Return by how many degrees the rotations differ, or by how many hundredths the translations, if that is more."""
     if np.linalg.det(T[:3, :3]) < 0:
         return 180.0
-    return max(degrees_between(T[:3, :3], right[:3, :3]), 100 * float(np.linalg.norm(T[:3, 3] - right[:3, 3])))
+    return max(
+        degrees_between(T[:3, :3], right[:3, :3]),
+        100 * float(np.linalg.norm(T[:3, 3] - right[:3, 3])),
+    )
 
 
 def judged(Ts: np.ndarray, rights: np.ndarray, good: float = 0.01, fair: float = 0.5) -> Verdict:
@@ -85,8 +88,14 @@ def judged(Ts: np.ndarray, rights: np.ndarray, good: float = 0.01, fair: float =
         if not is_motion(T):
             if np.isfinite(T).all() and np.allclose(T[:3, :3].T @ T[:3, :3], np.eye(3), atol=1e-6):
                 last = ", ".join(number(value) for value in T[3])
-                return fail(f"The last row of one of yours is ({last}), right is (0, 0, 0, 1). {HINT}")
-            told = beside(T[:3, :3].T @ T[:3, :3], np.eye(3), HINT, "R^T R") if np.isfinite(T).all() else HINT
+                return fail(
+                    f"The last row of one of yours is ({last}), right is (0, 0, 0, 1). {HINT}"
+                )
+            told = (
+                beside(T[:3, :3].T @ T[:3, :3], np.eye(3), HINT, "R^T R")
+                if np.isfinite(T).all()
+                else HINT
+            )
             return fail(f"One of yours is no motion. {told}")
         det = float(np.linalg.det(T[:3, :3]))
         if det < 0:
@@ -108,13 +117,18 @@ def judged(Ts: np.ndarray, rights: np.ndarray, good: float = 0.01, fair: float =
 @check(3)
 def the_true_motion(candidate: Function) -> Verdict:
     """The motion that E was made of is among the four, and so is the one with t turned round."""
-    return worst(judged(candidate(E), np.stack([T, motion(T[:3, :3], -T[:3, 3])])) for E, T in some_motions(STUDENTS))
+    return worst(
+        judged(candidate(E), np.stack([T, motion(T[:3, :3], -T[:3, 3])]))
+        for E, T in some_motions(STUDENTS)
+    )
 
 
 @check(3)
 def all_four(candidate: Function) -> Verdict:
     """All four motions are there, whatever the scale and sign of E."""
-    return worst(judged(candidate(E), essential.essential_to_poses(E)) for E, _ in some_motions(STUDENTS + 1))
+    return worst(
+        judged(candidate(E), essential.essential_to_poses(E)) for E, _ in some_motions(STUDENTS + 1)
+    )
 
 
 @check(1)
@@ -138,14 +152,18 @@ def with_noise(candidate: Function) -> Verdict:
     rng, verdicts = np.random.default_rng(GRADERS() + 1), []
     for E, _ in some_motions(GRADERS() + 1):
         noisy = E + 0.003 * np.linalg.norm(E) * rng.normal(size=(3, 3))
-        verdicts.append(judged(candidate(noisy), essential.essential_to_poses(E), good=2.5, fair=5.0))
+        verdicts.append(
+            judged(candidate(noisy), essential.essential_to_poses(E), good=2.5, fair=5.0)
+        )
     return worst(verdicts)
 
 
 @check(1, public=False)
 def along_the_axes(candidate: Function) -> Verdict:
     """Ahead, aside and up without a turn, as well."""
-    return worst(judged(candidate(skew(t)), essential.essential_to_poses(skew(t))) for t in np.eye(3))
+    return worst(
+        judged(candidate(skew(t)), essential.essential_to_poses(skew(t))) for t in np.eye(3)
+    )
 
 
 W = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
@@ -181,7 +199,9 @@ def v_for_its_transpose(E: np.ndarray) -> np.ndarray:
     return four((U @ W @ Vt.T, U @ W.T @ Vt.T), U[:, 2])
 
 
-@mistake("You have one rotation only. There are two, half a turn about the baseline apart: with W and with W^T.")
+@mistake(
+    "You have one rotation only. There are two, half a turn about the baseline apart: with W and with W^T."
+)
 def one_rotation(E: np.ndarray) -> np.ndarray:
     """Uses W twice."""
     U, Vt = proper(E)

@@ -2,4 +2,7 @@
 
 from workbench.exercise import HiddenSeed
 
-STUDENTS, GRADERS = 41, HiddenSeed(5303)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    41,
+    HiddenSeed(5303),
+)  # seeds of what a student sees run, and of what only a grader does

@@ -6,18 +6,37 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from lessons.features.exercises import GRADERS, STUDENTS
-from workbench.exercise import Function, Verdict, alternative, check, contract, fail, full, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    fail,
+    full,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.features import matching
 
 
 @contract(
     slot="mutual_matches",
     examples=(
-        ("mutual_matches(np.array([[0.0], [5.0], [5.2]]), np.array([[0.3], [5.1], [9.0]]), 0.9)", "[0, 1, -1]"),
-        ("mutual_matches(np.array([[0.0, 0], [4, 0]]), np.array([[4.0, 1], [0, 1], [0, 1.1]]), 0.8)", "[-1, 0]"),
+        (
+            "mutual_matches(np.array([[0.0], [5.0], [5.2]]), np.array([[0.3], [5.1], [9.0]]), 0.9)",
+            "[0, 1, -1]",
+        ),
+        (
+            "mutual_matches(np.array([[0.0, 0], [4, 0]]), np.array([[4.0, 1], [0, 1], [0, 1.1]]), 0.8)",
+            "[-1, 0]",
+        ),
     ),
 )
-def mutual_matches(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float) -> Int[np.ndarray, " n"]:
+def mutual_matches(
+    a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float
+) -> Int[np.ndarray, " n"]:
     """Return for each row of a the index of its match in b, or -1 where it has none.
 
     Row i of a matches row j of b where j is the nearest of all rows of b to a[i], i is the nearest of all rows of a to
@@ -57,27 +76,37 @@ def judged(candidate: Function, a: np.ndarray, b: np.ndarray, ratio: float, what
     if not len(off):
         return full(f"{what}: all {len(right)} rows are right.")
     i = int(off[0])
-    kept = f"you keep {np.count_nonzero(got >= 0)} matches, right are {np.count_nonzero(right >= 0)}"
+    kept = (
+        f"you keep {np.count_nonzero(got >= 0)} matches, right are {np.count_nonzero(right >= 0)}"
+    )
     return fail(f"{what}: {kept}; [{i}] is {int(got[i])}, right is {int(right[i])}. {HINT}")
 
 
 @check(2)
 def a_few(candidate: Function) -> Verdict:
     """Thirty descriptors of each set, at ratios of 0.9 and 0.5."""
-    return worst(judged(candidate, *sets(STUDENTS, 30, 30, 5), ratio, f"30 and 30, {ratio:g}") for ratio in (0.9, 0.5))
+    return worst(
+        judged(candidate, *sets(STUDENTS, 30, 30, 5), ratio, f"30 and 30, {ratio:g}")
+        for ratio in (0.9, 0.5)
+    )
 
 
 @check(1)
 def sets_of_other_sizes(candidate: Function) -> Verdict:
     """More descriptors in one set than in the other, both ways round."""
     cases = ((12, 40, 0.85), (40, 12, 0.85), (50, 40, 0.5))
-    return worst(judged(candidate, *sets(STUDENTS + n, n, m, 4), ratio, f"{n} and {m}") for n, m, ratio in cases)
+    return worst(
+        judged(candidate, *sets(STUDENTS + n, n, m, 4), ratio, f"{n} and {m}")
+        for n, m, ratio in cases
+    )
 
 
 @check(1)
 def inputs_are_left_alone(candidate: Function) -> Verdict:
     """The descriptors are not changed."""
-    return left_alone(candidate, judged(candidate, *sets(STUDENTS + 2, 10, 12, 3), 0.9, "10 and 12"))
+    return left_alone(
+        candidate, judged(candidate, *sets(STUDENTS + 2, 10, 12, 3), 0.9, "10 and 12")
+    )
 
 
 @check(2, public=False)
@@ -93,7 +122,9 @@ def several_ratios(candidate: Function) -> Verdict:
 def crowded(candidate: Function) -> Verdict:
     """Many of one set want the same few of the other, two of them even, or one wants many."""
     rng = np.random.default_rng(GRADERS() + 9)
-    found = [judged(candidate, rng.normal(size=(60, 3)), 2.5 * rng.normal(size=(8, 3)), 0.95, "60 and 8")]
+    found = [
+        judged(candidate, rng.normal(size=(60, 3)), 2.5 * rng.normal(size=(8, 3)), 0.95, "60 and 8")
+    ]
     for n, m, d in ((60, 2, 3), (1, 30, 3), (1, 2, 1), (30, 30, 1)):
         a, b = sets(GRADERS() + n + m, n, m, d, 0.3)
         found.append(judged(candidate, a, b, 0.97, f"{n} and {m}, of {d} numbers"))
@@ -113,10 +144,19 @@ def equal_descriptors(candidate: Function) -> Verdict:
     rng = np.random.default_rng(GRADERS() + 30)
     b = rng.permutation(np.arange(40.0).reshape(10, 4) ** 2 % 37)
     a = b[[3, 3, 0, 7, 5, 5, 5, 0, 1]] + np.array([1.0, 1, 0, 0, 2, 2, 2, 2, 12])[:, None]
-    twice = np.concatenate([b[:8], b[7:], b[[3]]])  # one of two equal rows follows the other, and one stands last
-    verdicts = [judged(candidate, a, b, 0.5, "Equal rows of a"), judged(candidate, a, twice, 0.5, "Equal rows of b")]
+    twice = np.concatenate(
+        [b[:8], b[7:], b[[3]]]
+    )  # one of two equal rows follows the other, and one stands last
+    verdicts = [
+        judged(candidate, a, b, 0.5, "Equal rows of a"),
+        judged(candidate, a, twice, 0.5, "Equal rows of b"),
+    ]
     steps = np.array([[1.0, 0], [0, 2], [9, 0]])
-    verdicts.append(judged(candidate, np.zeros((1, 2)), steps, 0.5, "A distance that is the ratio times the second"))
+    verdicts.append(
+        judged(
+            candidate, np.zeros((1, 2)), steps, 0.5, "A distance that is the ratio times the second"
+        )
+    )
     return worst(verdicts)
 
 
@@ -133,7 +173,9 @@ def kept(D: np.ndarray, passes: np.ndarray, mutual: bool = True) -> np.ndarray:
     return np.where(passes, j, -1)
 
 
-@mistake("You ask one way only: the match of b[j] must be a[i] too. Several rows of a now share one row of b.")
+@mistake(
+    "You ask one way only: the match of b[j] must be a[i] too. Several rows of a now share one row of b."
+)
 def one_direction(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Only the ratio."""
     D = distances(a, b)
@@ -141,7 +183,9 @@ def one_direction(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     return kept(D, low[:, 0] < ratio * low[:, 1], mutual=False)
 
 
-@mistake("You compare squared distances with the ratio, which lets more pass: take the roots, or square the ratio too.")
+@mistake(
+    "You compare squared distances with the ratio, which lets more pass: take the roots, or square the ratio too."
+)
 def squared_distances(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """d1² < ratio d2²."""
     D = distances(a, b) ** 2
@@ -149,7 +193,9 @@ def squared_distances(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     return kept(D, low[:, 0] < ratio * low[:, 1])
 
 
-@mistake("Your ratio test is reversed: it keeps what is ambiguous. Keep a match where d1 < ratio * d2.")
+@mistake(
+    "Your ratio test is reversed: it keeps what is ambiguous. Keep a match where d1 < ratio * d2."
+)
 def test_reversed(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """d1 > ratio d2."""
     D = distances(a, b)
@@ -166,7 +212,9 @@ def no_ratio(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     return kept(D, np.ones(len(D), bool))
 
 
-@mistake("Your second nearest is among the rows of a. It is the second nearest row of b to the same a[i].")
+@mistake(
+    "Your second nearest is among the rows of a. It is the second nearest row of b to the same a[i]."
+)
 def second_of_the_wrong_set(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Asks the ratio down the columns."""
     D = distances(a, b)

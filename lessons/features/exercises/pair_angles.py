@@ -6,7 +6,18 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.features.exercises import GRADERS, STUDENTS
-from workbench.exercise import Function, Verdict, alternative, band, beside, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    band,
+    beside,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.features import fpfh
 from workbench.geometry.motions import exp_so3
 
@@ -71,7 +82,9 @@ def judged(candidate: Function, case: tuple[np.ndarray, ...], what: str) -> Verd
     off = np.abs(np.where(np.isfinite(off), off, np.inf))
     row = int(off.max(axis=1).argmax())
     hint = beside(got[row], right[row], HINT, "(theta, alpha, phi)")
-    return band(f"{what}: largest difference", float(off.max()), "", good=1e-6, fair=1e-3, hint=hint)
+    return band(
+        f"{what}: largest difference", float(off.max()), "", good=1e-6, fair=1e-3, hint=hint
+    )
 
 
 @check(2)
@@ -85,7 +98,10 @@ def in_either_order(candidate: Function) -> Verdict:
     """The two points of a pair exchanged: the same three angles."""
     p_i, n_i, p_j, n_j = pairs(STUDENTS + 1, 30)
     return worst(
-        [judged(candidate, (p_i, n_i, p_j, n_j), "One way"), judged(candidate, (p_j, n_j, p_i, n_i), "Exchanged")]
+        [
+            judged(candidate, (p_i, n_i, p_j, n_j), "One way"),
+            judged(candidate, (p_j, n_j, p_i, n_i), "Exchanged"),
+        ]
     )
 
 
@@ -101,7 +117,9 @@ def any_distance(candidate: Function) -> Verdict:
     verdicts = []
     for scale in (1000.0, 0.02, 1e-4):
         p_i, n_i, p_j, n_j = pairs(GRADERS(), 20)
-        verdicts.append(judged(candidate, (p_i, n_i, p_i + scale * (p_j - p_i), n_j), f"{scale:g} times as far"))
+        verdicts.append(
+            judged(candidate, (p_i, n_i, p_i + scale * (p_j - p_i), n_j), f"{scale:g} times as far")
+        )
     return worst(verdicts)
 
 
@@ -129,7 +147,13 @@ def one_pair(candidate: Function) -> Verdict:
 
 
 def framed(
-    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray, *, swap: bool = True, unit: bool = True
+    p_i: np.ndarray,
+    n_i: np.ndarray,
+    p_j: np.ndarray,
+    n_j: np.ndarray,
+    *,
+    swap: bool = True,
+    unit: bool = True,
 ) -> tuple[np.ndarray, ...]:
     """Return d, u, n, v, w of every pair, written as the task has it."""
     d = p_j - p_i
@@ -143,9 +167,13 @@ def framed(
     return d, u, n, v, np.cross(u, v)
 
 
-def angles_in(d: np.ndarray, u: np.ndarray, n: np.ndarray, v: np.ndarray, w: np.ndarray) -> np.ndarray:
+def angles_in(
+    d: np.ndarray, u: np.ndarray, n: np.ndarray, v: np.ndarray, w: np.ndarray
+) -> np.ndarray:
     """Return the angles in a frame."""
-    return np.column_stack([np.arctan2((w * n).sum(1), (u * n).sum(1)), (v * n).sum(1), (u * d).sum(1)])
+    return np.column_stack(
+        [np.arctan2((w * n).sum(1), (u * n).sum(1)), (v * n).sum(1), (u * d).sum(1)]
+    )
 
 
 @mistake(
@@ -162,17 +190,25 @@ def line_not_unit(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.nda
     return angles_in(*framed(p_i, n_i, p_j, n_j, unit=False))
 
 
-@mistake("The two arguments of your arctangent are exchanged: theta = atan2(w . n, u . n), the sine comes first.")
-def arctangent_exchanged(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
+@mistake(
+    "The two arguments of your arctangent are exchanged: theta = atan2(w . n, u . n), the sine comes first."
+)
+def arctangent_exchanged(
+    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
+) -> np.ndarray:
     """Takes atan2(u n, w n)."""
     d, u, n, v, w = framed(p_i, n_i, p_j, n_j)
-    return np.column_stack([np.arctan2((u * n).sum(1), (w * n).sum(1)), (v * n).sum(1), (u * d).sum(1)])
+    return np.column_stack(
+        [np.arctan2((u * n).sum(1), (w * n).sum(1)), (v * n).sum(1), (u * d).sum(1)]
+    )
 
 
 @mistake(
     "You exchange the normals but keep d: where the second point is the source, the line runs from it to the first."
 )
-def line_not_turned(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
+def line_not_turned(
+    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
+) -> np.ndarray:
     """Swaps the normals and not the line."""
     d, u, n, *_ = framed(p_i, n_i, p_j, n_j)
     d = (p_j - p_i) / np.linalg.norm(p_j - p_i, axis=1, keepdims=True)
@@ -184,15 +220,21 @@ def line_not_turned(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.n
 @mistake(
     "Your v is not of length 1: d and u are not at a right angle, so their cross product has to be divided by its length."
 )
-def cross_not_unit(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
+def cross_not_unit(
+    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
+) -> np.ndarray:
     """Leaves v as the cross product is."""
     d, u, n, *_ = framed(p_i, n_i, p_j, n_j)
     v = np.cross(d, u)
     return angles_in(d, u, n, v, np.cross(u, v))
 
 
-@mistake("Your v points the other way: it is d x u, in this order. So the signs of alpha and theta are not right.")
-def cross_exchanged(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
+@mistake(
+    "Your v points the other way: it is d x u, in this order. So the signs of alpha and theta are not right."
+)
+def cross_exchanged(
+    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
+) -> np.ndarray:
     """Takes u x d."""
     d, u, n, v, w = framed(p_i, n_i, p_j, n_j)
     return angles_in(d, u, n, -v, -w)

@@ -6,7 +6,16 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.fitting.exercises import GRADERS, STUDENTS, entries
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.shapes.circles_spheres import linearise_sphere
 
 
@@ -63,7 +72,9 @@ def judged(candidate: Function, circle: np.ndarray, p: np.ndarray) -> Verdict:
 def distances_have_signs(candidate: Function) -> Verdict:
     """Points outside are at positive distances, points inside at negative ones."""
     circle, p = some_points(STUDENTS)
-    return entries("Residuals", candidate(circle, p)[0], linearise_sphere(circle, p)[0], RESIDUAL_HINT)
+    return entries(
+        "Residuals", candidate(circle, p)[0], linearise_sphere(circle, p)[0], RESIDUAL_HINT
+    )
 
 
 @check(3)
@@ -84,7 +95,11 @@ def iterated_it_finds_the_circle(candidate: Function) -> Verdict:
     """Six steps of Gauss-Newton with it end at the circle with the least squared distances."""
     rng = np.random.default_rng(GRADERS())
     turn = rng.uniform(0.0, 4.0, 50)
-    p = np.column_stack([np.cos(turn), np.sin(turn)]) + 0.03 * rng.normal(size=(50, 2)) + [3.0, -2.0]
+    p = (
+        np.column_stack([np.cos(turn), np.sin(turn)])
+        + 0.03 * rng.normal(size=(50, 2))
+        + [3.0, -2.0]
+    )
     circle, right = np.array([3.2, -1.9, 0.8]), np.array([3.2, -1.9, 0.8])
     for _ in range(6):
         residuals, jacobian = candidate(circle, p)
@@ -97,9 +112,15 @@ def iterated_it_finds_the_circle(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_circles(candidate: Function) -> Verdict:
     """Large, small and far circles, and single points, have theirs."""
-    verdicts = [judged(candidate, *some_points(GRADERS() + 1, 1)), judged(candidate, *some_points(GRADERS() + 2, 40))]
+    verdicts = [
+        judged(candidate, *some_points(GRADERS() + 1, 1)),
+        judged(candidate, *some_points(GRADERS() + 2, 40)),
+    ]
     circle, p = some_points(GRADERS() + 3)
-    verdicts += [judged(candidate, 100.0 * circle, 100.0 * p), judged(candidate, 0.01 * circle, 0.01 * p)]
+    verdicts += [
+        judged(candidate, 100.0 * circle, 100.0 * p),
+        judged(candidate, 0.01 * circle, 0.01 * p),
+    ]
     return worst(verdicts)
 
 
@@ -153,7 +174,9 @@ def not_divided(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarr
     return length - circle[2], np.column_stack([-v, minus_ones(p)])
 
 
-@mistake("You take R − |p − c|, with its slopes. That fits the same circle, but here outside is positive: |p − c| − R.")
+@mistake(
+    "You take R − |p − c|, with its slopes. That fits the same circle, but here outside is positive: |p − c| − R."
+)
 def turned_round(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Makes inside positive in both."""
     residuals, jacobian = linearise_sphere(circle, p)
@@ -179,7 +202,9 @@ def absolute_distances(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, n
     return np.abs(residuals), jacobian
 
 
-@mistake("The column of R has the wrong sign: a larger circle is nearer to a point outside, so its slope is −1.")
+@mistake(
+    "The column of R has the wrong sign: a larger circle is nearer to a point outside, so its slope is −1."
+)
 def sign_of_the_radius(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Has +1 for R."""
     residuals, jacobian = linearise_sphere(circle, p)
@@ -203,7 +228,9 @@ def radius_forgotten(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.
     return residuals + circle[2], jacobian
 
 
-@mistake("A point at the centre makes your Jacobian divide by 0. It has no direction: give it the slopes 0, 0, −1.")
+@mistake(
+    "A point at the centre makes your Jacobian divide by 0. It has no direction: give it the slopes 0, 0, −1."
+)
 def divided_by_zero(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Divides whatever the distance."""
     v, length, _ = parts(circle, p)

@@ -4,17 +4,24 @@ import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = 17, HiddenSeed(6043)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    17,
+    HiddenSeed(6043),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 def weighted(seed: int, count: int, chance: float = 0.5) -> np.ndarray:
     """Return a symmetric matrix of weights from 0.2 to 3, without loops; some pairs have no edge."""
     rng = np.random.default_rng(seed)
-    upper = np.triu(rng.uniform(0.2, 3.0, (count, count)) * (rng.random((count, count)) < chance), 1)
+    upper = np.triu(
+        rng.uniform(0.2, 3.0, (count, count)) * (rng.random((count, count)) < chance), 1
+    )
     return np.round(upper + upper.T, 3)
 
 
-def matrix_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "", *, fair: float = 1e-3) -> Verdict:
+def matrix_verdict(
+    got: np.ndarray, right: np.ndarray, hint: str, what: str = "", *, fair: float = 1e-3
+) -> Verdict:
     """Judge a matrix by its entry that is farthest off: all points up to 1e-6, half up to `fair`.
 
     Args:

@@ -7,7 +7,16 @@ from jaxtyping import Float
 
 from lessons.graphs.exercises import GRADERS, STUDENTS, matrix_verdict, weighted
 from workbench.data.networks import karate
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.graphs import adjacency as graphs
 
 Inputs = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -26,19 +35,31 @@ def club(seed: int) -> Inputs:
     """Return the karate club with features and weights by chance."""
     rng = np.random.default_rng(seed)
     known = karate()
-    return graphs.graph_of(known.edges, 34).toarray(), rng.normal(size=(34, 5)), rng.normal(size=(5, 2))
+    return (
+        graphs.graph_of(known.edges, 34).toarray(),
+        rng.normal(size=(34, 5)),
+        rng.normal(size=(5, 2)),
+    )
 
 
 @contract(
     slot="gcn_layer",
     preset="layer",
     examples=(
-        ("gcn_layer(np.array([[0.0, 1], [1, 0]]), np.array([[2.0], [4.0]]), np.array([[1.0]]))", "[[3], [3]]"),
-        ("gcn_layer(np.zeros((2, 2)), np.array([[2.0], [-4.0]]), np.array([[1.0, -1.0]]))", "[[2, 0], [0, 4]]"),
+        (
+            "gcn_layer(np.array([[0.0, 1], [1, 0]]), np.array([[2.0], [4.0]]), np.array([[1.0]]))",
+            "[[3], [3]]",
+        ),
+        (
+            "gcn_layer(np.zeros((2, 2)), np.array([[2.0], [-4.0]]), np.array([[1.0, -1.0]]))",
+            "[[2, 0], [0, 4]]",
+        ),
     ),
 )
 def gcn_layer(
-    adjacency: Float[np.ndarray, "n n"], features: Float[np.ndarray, "n a"], weights: Float[np.ndarray, "a b"]
+    adjacency: Float[np.ndarray, "n n"],
+    features: Float[np.ndarray, "n a"],
+    weights: Float[np.ndarray, "a b"],
 ) -> Float[np.ndarray, "n b"]:
     """Return ReLU(D^(-1/2) (A + I) D^(-1/2) X W), D being the diagonal matrix of the row sums of A + I.
 
@@ -65,7 +86,9 @@ def found(candidate: Function, given: Inputs, what: str = "") -> Verdict:
 @check(2)
 def two_friends(candidate: Function) -> Verdict:
     """Two nodes with an edge share what they have: each weighs half."""
-    return found(candidate, (np.array([[0.0, 1], [1, 0]]), np.array([[2.0, 1.0], [4.0, -3.0]]), np.eye(2)))
+    return found(
+        candidate, (np.array([[0.0, 1], [1, 0]]), np.array([[2.0, 1.0], [4.0, -3.0]]), np.eye(2))
+    )
 
 
 @check(2)
@@ -93,7 +116,9 @@ def the_karate_club(candidate: Function) -> Verdict:
 def weighted_graphs(candidate: Function) -> Verdict:
     """Edges have weights, and degrees are their sums, the loop's 1 among them."""
     cases = ((6, 2, 5), (25, 4, 3), (40, 1, 1))
-    return worst(found(candidate, inputs(GRADERS() + n, n, a, b), f"{n} nodes: ") for n, a, b in cases)
+    return worst(
+        found(candidate, inputs(GRADERS() + n, n, a, b), f"{n} nodes: ") for n, a, b in cases
+    )
 
 
 @check(1, public=False)
@@ -102,7 +127,9 @@ def nodes_without_edges(candidate: Function) -> Verdict:
     adjacency, x, w = inputs(GRADERS() + 20, 9)
     adjacency[:, [0, 4]] = adjacency[[0, 4]] = 0.0
     alone = np.zeros((3, 3))
-    wide = inputs(GRADERS() + 21, 12)[0] * np.exp(np.random.default_rng(GRADERS()).normal(-3, 3, (12, 12)))
+    wide = inputs(GRADERS() + 21, 12)[0] * np.exp(
+        np.random.default_rng(GRADERS()).normal(-3, 3, (12, 12))
+    )
     return worst((found(candidate, (alone[:1, :1], x[:1], w), "One node: "),
                   found(candidate, (wide + wide.T, np.vstack([x, x[:3]]), w), "Weights of all sizes: "),
                   found(candidate, (adjacency, x, w), "Two lone nodes: "),
@@ -114,28 +141,36 @@ def layer(gathers: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.
     return np.maximum(gathers @ features @ weights, 0.0)
 
 
-@mistake("You left out the self-loops: a node does not hear itself, and one without edges divides by 0. Take A + I.")
+@mistake(
+    "You left out the self-loops: a node does not hear itself, and one without edges divides by 0. Take A + I."
+)
 def no_self_loops(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """D^(-1/2) A D^(-1/2)."""
     root = 1 / np.sqrt(adjacency.sum(axis=1))
     return layer(root[:, None] * adjacency * root, features, weights)
 
 
-@mistake("You divided each row by its sum, a mean over neighbours. Asked for is symmetric: D^(-1/2) on both sides.")
+@mistake(
+    "You divided each row by its sum, a mean over neighbours. Asked for is symmetric: D^(-1/2) on both sides."
+)
 def row_mean(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """D^(-1) (A + I)."""
     looped = adjacency + np.eye(len(adjacency))
     return layer(looped / looped.sum(axis=1, keepdims=True), features, weights)
 
 
-@mistake("You left out the ReLU: negative entries are still there. np.maximum(..., 0) makes them 0.")
+@mistake(
+    "You left out the ReLU: negative entries are still there. np.maximum(..., 0) makes them 0."
+)
 def no_relu(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Negative entries stay."""
     return graphs.propagation(adjacency) @ features @ weights
 
 
 @mistake("Your degrees are those of A, without the loops that you added. Sum the rows of A + I.")
-def degrees_without_loops(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def degrees_without_loops(
+    adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray
+) -> np.ndarray:
     """A + I, divided by the degrees of A."""
     root = 1 / np.sqrt(adjacency.sum(axis=1))
     return layer(root[:, None] * (adjacency + np.eye(len(adjacency))) * root, features, weights)
@@ -149,7 +184,9 @@ def not_normalised(adjacency: np.ndarray, features: np.ndarray, weights: np.ndar
     return layer(adjacency + np.eye(len(adjacency)), features, weights)
 
 
-@mistake("You divided by the whole degrees on both sides. The exponent is -1/2 on each: divide by their square roots.")
+@mistake(
+    "You divided by the whole degrees on both sides. The exponent is -1/2 on each: divide by their square roots."
+)
 def whole_degrees(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """D^(-1) (A + I) D^(-1)."""
     looped = adjacency + np.eye(len(adjacency))
@@ -163,8 +200,12 @@ def relu_too_early(adjacency: np.ndarray, features: np.ndarray, weights: np.ndar
     return np.maximum(graphs.propagation(adjacency) @ features, 0.0) @ weights
 
 
-@mistake("You counted neighbours for degrees. Where edges have weights, sum these: (A + I).sum(axis=1).")
-def neighbours_counted(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
+@mistake(
+    "You counted neighbours for degrees. Where edges have weights, sum these: (A + I).sum(axis=1)."
+)
+def neighbours_counted(
+    adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray
+) -> np.ndarray:
     """The number of neighbours for the sum of weights."""
     looped = adjacency + np.eye(len(adjacency))
     root = 1 / np.sqrt((looped > 0).sum(axis=1))
@@ -172,7 +213,9 @@ def neighbours_counted(adjacency: np.ndarray, features: np.ndarray, weights: np.
 
 
 @alternative
-def by_diagonal_matrices(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def by_diagonal_matrices(
+    adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray
+) -> np.ndarray:
     """As the formula is written."""
     looped = adjacency + np.identity(len(adjacency))
     D = np.diag(looped.sum(axis=1) ** -0.5)

@@ -6,7 +6,16 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.graphs.exercises import GRADERS, STUDENTS, matrix_verdict
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.graphs import adjacency as graphs
 from workbench.geometry.motions import exp_so3
 
@@ -32,7 +41,10 @@ def with_a_pair(seed: int) -> np.ndarray:
             "knn_adjacency(np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0], [7, 0, 0]]), 1)",
             "[[0, 1, 0, 0], [1, 0, 1, 0], [0, 1, 0, 1], [0, 0, 1, 0]]",
         ),
-        ("knn_adjacency(np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0]]), 2)", "[[0, 1, 1], [1, 0, 1], [1, 1, 0]]"),
+        (
+            "knn_adjacency(np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0]]), 2)",
+            "[[0, 1, 1], [1, 0, 1], [1, 1, 0]]",
+        ),
     ),
 )
 def knn_adjacency(p: Float[np.ndarray, "n d"], k: int) -> Float[np.ndarray, "n n"]:
@@ -88,7 +100,9 @@ def points_are_left_alone(candidate: Function) -> Verdict:
 def other_counts(candidate: Function) -> Verdict:
     """One neighbour to all but one, few points and many."""
     cases = ((2, 1), (10, 9), (30, 1), (60, 7))
-    return worst(found(candidate, cloud(GRADERS() + n, n), k, f"{n} points, k = {k}: ") for n, k in cases)
+    return worst(
+        found(candidate, cloud(GRADERS() + n, n), k, f"{n} points, k = {k}: ") for n, k in cases
+    )
 
 
 @check(2, public=False)
@@ -105,8 +119,13 @@ def moved_clouds(candidate: Function) -> Verdict:
 @check(1, public=False)
 def two_at_one_place(candidate: Function) -> Verdict:
     """Of two points at one place each names the other, and not itself, of three both others."""
-    verdicts = [found(candidate, with_a_pair(GRADERS() + k), 1, "Two at one place: ") for k in range(3)]
-    verdicts += [found(candidate, with_a_pair(GRADERS() + k), 3, "Two at one place, k = 3: ") for k in range(3)]
+    verdicts = [
+        found(candidate, with_a_pair(GRADERS() + k), 1, "Two at one place: ") for k in range(3)
+    ]
+    verdicts += [
+        found(candidate, with_a_pair(GRADERS() + k), 3, "Two at one place, k = 3: ")
+        for k in range(3)
+    ]
     p = with_a_pair(GRADERS() + 3)
     p[0] = p[9]
     return worst([*verdicts, found(candidate, p, 2, "Three at one place: ")])
@@ -134,19 +153,25 @@ def itself_counted(p: np.ndarray, k: int) -> np.ndarray:
     return adjacency
 
 
-@mistake("Each point is its own neighbour and takes one of the k places: the diagonal is 1. Nobody names itself here.")
+@mistake(
+    "Each point is its own neighbour and takes one of the k places: the diagonal is 1. Nobody names itself here."
+)
 def loops_that_take_a_place(p: np.ndarray, k: int) -> np.ndarray:
     """The k nearest, of which the point is one."""
     return joined(ranks(p)[:, :k])
 
 
-@mistake("The edges are right, but the diagonal is 1: a point is not its own neighbour. Set it to 0.")
+@mistake(
+    "The edges are right, but the diagonal is 1: a point is not its own neighbour. Set it to 0."
+)
 def loops_kept(p: np.ndarray, k: int) -> np.ndarray:
     """Right but for the diagonal."""
     return np.maximum(graphs.knn_adjacency(p, k), np.eye(len(p)))
 
 
-@mistake("Your matrix is not symmetric: you kept who names whom. An edge has no direction: take the maximum with A.T.")
+@mistake(
+    "Your matrix is not symmetric: you kept who names whom. An edge has no direction: take the maximum with A.T."
+)
 def one_way(p: np.ndarray, k: int) -> np.ndarray:
     """Who names whom."""
     return graphs.directed_graph(graphs.neighbours(p, k)[0]).toarray()
@@ -161,7 +186,9 @@ def mutual(p: np.ndarray, k: int) -> np.ndarray:
     return named * named.T
 
 
-@mistake("You added A and A.T: where both name each other the entry is 2. Entries are 0 or 1: take the maximum.")
+@mistake(
+    "You added A and A.T: where both name each other the entry is 2. Entries are 0 or 1: take the maximum."
+)
 def added_up(p: np.ndarray, k: int) -> np.ndarray:
     """A + A.T."""
     named = one_way(p, k)
@@ -180,7 +207,9 @@ def farthest(p: np.ndarray, k: int) -> np.ndarray:
     return joined(ranks(p)[:, -k:])
 
 
-@mistake("You average the two directions: an edge that one end names is 0.5. Either naming makes a whole edge, 1.")
+@mistake(
+    "You average the two directions: an edge that one end names is 0.5. Either naming makes a whole edge, 1."
+)
 def averaged(p: np.ndarray, k: int) -> np.ndarray:
     """(A + A.T) / 2."""
     return added_up(p, k) / 2

@@ -25,7 +25,10 @@ from workbench.geometry.graphs import adjacency as graphs
     slot="laplacian",
     forbid=("scipy.sparse.csgraph",),
     examples=(
-        ("laplacian(np.array([[0.0, 1, 0], [1, 0, 1], [0, 1, 0]]))", "[[1, -1, 0], [-1, 2, -1], [0, -1, 1]]"),
+        (
+            "laplacian(np.array([[0.0, 1, 0], [1, 0, 1], [0, 1, 0]]))",
+            "[[1, -1, 0], [-1, 2, -1], [0, -1, 1]]",
+        ),
         ("laplacian(np.array([[0.0, 2.5], [2.5, 0]]))", "[[2.5, -2.5], [-2.5, 2.5]]"),
     ),
 )
@@ -88,7 +91,10 @@ def a_constant_costs_nothing(candidate: Function) -> Verdict:
 def graphs_of_all_sizes(candidate: Function) -> Verdict:
     """Graphs of 2 to 60 nodes, sparse and full, entry by entry."""
     sizes = ((2, 1.0), (9, 0.3), (25, 1.0), (60, 0.1))
-    return worst(found(candidate, weighted(GRADERS() + 10 + n, n, chance), f"{n} nodes: ") for n, chance in sizes)
+    return worst(
+        found(candidate, weighted(GRADERS() + 10 + n, n, chance), f"{n} nodes: ")
+        for n, chance in sizes
+    )
 
 
 @check(1, public=False)
@@ -96,11 +102,16 @@ def nodes_without_edges(candidate: Function) -> Verdict:
     """A node without edges has a row of zeros, a graph of one node is 0; weights of a millionth and of a million count."""
     lonely = weighted(GRADERS() + 20, 7)
     lonely[:, [2, 5]] = lonely[[2, 5]] = 0.0
-    none = [found(candidate, np.zeros((n, n)), what) for n, what in ((1, "One node: "), (4, "Four lone nodes: "))]
+    none = [
+        found(candidate, np.zeros((n, n)), what)
+        for n, what in ((1, "One node: "), (4, "Four lone nodes: "))
+    ]
     large = found(candidate, 1e6 * weighted(GRADERS() + 21, 6), "Weights of a million: ")
     small = 1e-3 * weighted(GRADERS() + 22, 6)
     hint = f"Weights of a thousandth count. {HINT}"
-    tiny = matrix_verdict(1e3 * candidate(1e-3 * small), 1e3 * graphs.laplacian(1e-3 * small), hint, "Tiny weights: ")
+    tiny = matrix_verdict(
+        1e3 * candidate(1e-3 * small), 1e3 * graphs.laplacian(1e-3 * small), hint, "Tiny weights: "
+    )
     return worst((found(candidate, lonely, "Two lone nodes: "), *none, large, tiny))
 
 
@@ -120,20 +131,26 @@ def neighbours_counted(adjacency: np.ndarray) -> np.ndarray:
     return np.diag((adjacency > 0).sum(axis=1).astype(float)) - adjacency
 
 
-@mistake("You returned D + A, the signless Laplacian. A constant then costs twice the degree; L = D - A.")
+@mistake(
+    "You returned D + A, the signless Laplacian. A constant then costs twice the degree; L = D - A."
+)
 def signless(adjacency: np.ndarray) -> np.ndarray:
     """D + A."""
     return np.diag(adjacency.sum(axis=1)) + adjacency
 
 
-@mistake("You divided each row by its degree: that is the random-walk Laplacian. Asked for is D - A itself.")
+@mistake(
+    "You divided each row by its degree: that is the random-walk Laplacian. Asked for is D - A itself."
+)
 def divided_by_degrees(adjacency: np.ndarray) -> np.ndarray:
     """I - D^(-1) A."""
     d = adjacency.sum(axis=1)
     return graphs.laplacian(adjacency) / np.where(d > 0, d, 1.0)[:, None]
 
 
-@mistake("You returned the symmetric normalised Laplacian, 1 on its diagonal. Asked for is D - A itself.")
+@mistake(
+    "You returned the symmetric normalised Laplacian, 1 on its diagonal. Asked for is D - A itself."
+)
 def normalised(adjacency: np.ndarray) -> np.ndarray:
     """D^(-1/2) L D^(-1/2)."""
     d = adjacency.sum(axis=1)
@@ -141,7 +158,9 @@ def normalised(adjacency: np.ndarray) -> np.ndarray:
     return graphs.laplacian(adjacency) / root[:, None] / root
 
 
-@mistake("You took every edge for one of weight 1, on the diagonal and beside it. Keep the weights of A.")
+@mistake(
+    "You took every edge for one of weight 1, on the diagonal and beside it. Keep the weights of A."
+)
 def weights_ignored(adjacency: np.ndarray) -> np.ndarray:
     """The Laplacian of the graph without its weights."""
     return graphs.laplacian((adjacency > 0).astype(float))

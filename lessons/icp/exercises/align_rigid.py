@@ -37,7 +37,9 @@ from workbench.geometry.motions import alignment, apply, exp_so3, inverse, motio
         ),
     ),
 )
-def align_rigid(p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "4 4"]:
+def align_rigid(
+    p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]
+) -> Float[np.ndarray, "4 4"]:
     """Return the rigid motion T_target_source that brings paired points closest together.
 
     It minimises the sum of the squared distances |p_target - (R p_source + t)| over all rotations R and translations t.
@@ -57,7 +59,9 @@ def align_rigid(p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, 
     return alignment.align_rigid(p_target, p_source)
 
 
-ALIGN_HINT = "Centre both clouds, take the SVD of their covariance, and see which way round R belongs."
+ALIGN_HINT = (
+    "Centre both clouds, take the SVD of their covariance, and see which way round R belongs."
+)
 
 
 def a_cloud(rng: np.random.Generator, n: int = 60) -> np.ndarray:
@@ -65,9 +69,13 @@ def a_cloud(rng: np.random.Generator, n: int = 60) -> np.ndarray:
     return rng.normal(size=(n, 3)) * [0.5, 0.3, 0.2] + [0.4, -0.7, 0.3]
 
 
-def aligned(candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = ALIGN_HINT) -> Verdict:
+def aligned(
+    candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = ALIGN_HINT
+) -> Verdict:
     """Judge by the least-squares motion: in degrees, and in metres at the points."""
-    return motion_verdict(candidate(p_target, p_source), alignment.align_rigid(p_target, p_source), hint, p=p_source)
+    return motion_verdict(
+        candidate(p_target, p_source), alignment.align_rigid(p_target, p_source), hint, p=p_source
+    )
 
 
 @check(2)
@@ -78,7 +86,9 @@ def exact_pairs(candidate: Function) -> Verdict:
         rng = np.random.default_rng(STUDENTS + k)
         T, p_source = a_motion(rng, degrees), a_cloud(rng)
         found = candidate(apply(T, p_source), p_source)
-        verdicts.append(motion_verdict(found, T, f"{degrees:g} degrees apart. {ALIGN_HINT}", p=p_source))
+        verdicts.append(
+            motion_verdict(found, T, f"{degrees:g} degrees apart. {ALIGN_HINT}", p=p_source)
+        )
     return worst(verdicts)
 
 
@@ -88,8 +98,12 @@ def turned_rod(candidate: Function) -> Verdict:
     rng, verdicts = np.random.default_rng(STUDENTS + 5), []
     for degrees in (170.0, 120.0, -170.0):
         p_source = rng.normal(size=(80, 3)) * [0.6, 0.012, 0.01]
-        T = motion(exp_so3(np.radians(degrees) * np.array([0.0, 0.6, 0.8])), np.array([0.2, 0.1, -0.3]))
-        verdicts.append(motion_verdict(candidate(apply(T, p_source), p_source), T, ALIGN_HINT, p=p_source))
+        T = motion(
+            exp_so3(np.radians(degrees) * np.array([0.0, 0.6, 0.8])), np.array([0.2, 0.1, -0.3])
+        )
+        verdicts.append(
+            motion_verdict(candidate(apply(T, p_source), p_source), T, ALIGN_HINT, p=p_source)
+        )
     return worst(verdicts)
 
 
@@ -108,7 +122,9 @@ def noisy_pairs(candidate: Function) -> Verdict:
     for k in range(3):
         rng = np.random.default_rng(GRADERS() + k)
         p_source = a_cloud(rng, 200)
-        p_target = apply(a_motion(rng, 60.0 + 40.0 * k), p_source) + 0.02 * rng.normal(size=p_source.shape)
+        p_target = apply(a_motion(rng, 60.0 + 40.0 * k), p_source) + 0.02 * rng.normal(
+            size=p_source.shape
+        )
         verdicts += [aligned(candidate, p_target, p_source), aligned(candidate, p_source, p_target)]
     return worst(verdicts)
 
@@ -124,7 +140,9 @@ def no_mirror_image(candidate: Function) -> Verdict:
         verdicts.append(aligned(candidate, p_target, flat, "Is the determinant of R 1 here?"))
         solid = a_cloud(rng)
         mirrored = apply(a_motion(rng, 20.0 * k), solid * [1.0, 1.0, -1.0])
-        verdicts.append(aligned(candidate, mirrored, solid, "The cloud is mirrored: is the determinant of R 1?"))
+        verdicts.append(
+            aligned(candidate, mirrored, solid, "The cloud is mirrored: is the determinant of R 1?")
+        )
     return worst(verdicts)
 
 
@@ -133,13 +151,24 @@ def far_away(candidate: Function) -> Verdict:
     """Clouds ten kilometres from the origin, of a centimetre, and half a turn apart are aligned as well."""
     rng = np.random.default_rng(GRADERS() + 30)
     p_source = a_cloud(rng) + np.array([10_000.0, -4_000.0, 300.0])
-    p_target = apply(a_motion(rng, 75.0), p_source - p_source.mean(0)) + np.array([-6_000.0, 8_000.0, 0.0])
+    p_target = apply(a_motion(rng, 75.0), p_source - p_source.mean(0)) + np.array(
+        [-6_000.0, 8_000.0, 0.0]
+    )
     verdicts = [aligned(candidate, p_target, p_source)]
     small = 0.02 * a_cloud(rng)
-    verdicts.append(aligned(candidate, apply(a_motion(rng, 50.0, 0.1), small), small, f"Of a centimetre. {ALIGN_HINT}"))
+    verdicts.append(
+        aligned(
+            candidate,
+            apply(a_motion(rng, 50.0, 0.1), small),
+            small,
+            f"Of a centimetre. {ALIGN_HINT}",
+        )
+    )
     for turn in ([1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]):
         solid = a_cloud(rng)
-        verdicts.append(aligned(candidate, solid * turn + 0.5, solid, f"Half a turn apart. {ALIGN_HINT}"))
+        verdicts.append(
+            aligned(candidate, solid * turn + 0.5, solid, f"Half a turn apart. {ALIGN_HINT}")
+        )
     return worst(verdicts)
 
 
@@ -159,11 +188,15 @@ def points_on_a_line(candidate: Function) -> Verdict:
         away = float(np.linalg.norm(moved - p_target, axis=1).max())
         hint = beside(moved[-1], p_target[-1], ALIGN_HINT, "The last point")
         verdicts.append(motion_verdict(got, got, f"{what}. {ALIGN_HINT}"))
-        verdicts.append(band(f"{what}: largest distance left", away, "m", good=1e-3, fair=2e-2, hint=hint))
+        verdicts.append(
+            band(f"{what}: largest distance left", away, "m", good=1e-3, fair=2e-2, hint=hint)
+        )
     return worst(verdicts)
 
 
-@mistake("You moved the centroids onto each other and did not rotate. Find R from the covariance of the centred pairs.")
+@mistake(
+    "You moved the centroids onto each other and did not rotate. Find R from the covariance of the centred pairs."
+)
 def centroids_only(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Matches the centroids and does not rotate."""
     return motion(np.eye(3), p_target.mean(0) - p_source.mean(0))
@@ -218,7 +251,9 @@ def centroid_not_turned(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarra
     return motion(T[:3, :3], p_target.mean(0) - p_source.mean(0))
 
 
-@mistake("You built the covariance from points that are not centred. Subtract each cloud's centroid first.")
+@mistake(
+    "You built the covariance from points that are not centred. Subtract each cloud's centroid first."
+)
 def not_centred(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Takes the products of the points themselves."""
     R = alignment.nearest_rotation(p_target.T @ p_source)
@@ -233,7 +268,9 @@ def principal_axes(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Lays the principal axes over each other, whose signs nobody knows."""
     centred = (p - p.mean(0) for p in (p_target, p_source))
     axes_target, axes_source = (np.linalg.eigh(p.T @ p)[1] for p in centred)
-    axes_target, axes_source = (axes * [1, 1, np.sign(np.linalg.det(axes))] for axes in (axes_target, axes_source))
+    axes_target, axes_source = (
+        axes * [1, 1, np.sign(np.linalg.det(axes))] for axes in (axes_target, axes_source)
+    )
     R = axes_target @ axes_source.T
     return motion(R, p_target.mean(0) - R @ p_source.mean(0))
 

@@ -29,11 +29,16 @@ from workbench.geometry.motions import apply
     slot="match",
     forbid=("scipy.spatial",),
     examples=(
-        ("match(np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0.9, 0, 0], [0.2, 0, 0], [5, 0, 0]]))", "[1, 0, 1]"),
+        (
+            "match(np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0.9, 0, 0], [0.2, 0, 0], [5, 0, 0]]))",
+            "[1, 0, 1]",
+        ),
         ("match(np.array([[0.0, 0, 0], [0, 0, 1]]), np.array([[0.0, 0, 0.7]]))", "[1]"),
     ),
 )
-def match(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]) -> Int[np.ndarray, "n"]:
+def match(
+    p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]
+) -> Int[np.ndarray, "n"]:
     """Return for each source point the index of the target point nearest to it.
 
     Args:
@@ -50,10 +55,14 @@ def match(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]
     return np.asarray(nearest(p_target, p_source), dtype=np.int64)
 
 
-MATCH_HINT = "For each source point on its own: the smallest Euclidean distance to all target points."
+MATCH_HINT = (
+    "For each source point on its own: the smallest Euclidean distance to all target points."
+)
 
 
-def nearest_found(candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = MATCH_HINT) -> Verdict:
+def nearest_found(
+    candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = MATCH_HINT
+) -> Verdict:
     """Judge partners by their distance: all for the nearest everywhere, half where 19 of 20 have it."""
     indices, wanted = candidate(p_target, p_source), nearest(p_target, p_source)
     outside = int(((indices < 0) | (indices >= len(p_target))).sum())
@@ -69,7 +78,9 @@ def nearest_found(candidate: Function, p_target: np.ndarray, p_source: np.ndarra
     k = int(np.argmax(more))
     said = f"{wrong} of {len(indices)} partners are not the nearest. [{k}] is {indices[k]}, right is {wanted[k]}: "
     said += f"{number(more[k], 2)} m nearer."
-    return partial(0.5, f"{said} {hint}") if wrong <= 0.05 * len(indices) else fail(f"{said} {hint}")
+    return (
+        partial(0.5, f"{said} {hint}") if wrong <= 0.05 * len(indices) else fail(f"{said} {hint}")
+    )
 
 
 def two_clouds(seed: int, m: int, n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -83,7 +94,9 @@ def few_points(candidate: Function) -> Verdict:
     """Four points find their partners among three, and two of them share one."""
     p_target = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     p_source = np.array([[0.9, 0.1, 0.2], [0.2, 0.1, 0.9], [1.4, 0.2, 0.3], [0.1, -0.2, 0.1]])
-    return nearest_found(candidate, p_target, p_source, f"Asked for were [1, 2, 1, 0]. {MATCH_HINT}")
+    return nearest_found(
+        candidate, p_target, p_source, f"Asked for were [1, 2, 1, 0]. {MATCH_HINT}"
+    )
 
 
 @check(2)
@@ -104,7 +117,9 @@ def uneven_clouds(candidate: Function) -> Verdict:
     sizes = ((7, 300), (300, 7), (1, 20), (90, 90), (30, 1))
     clouds = [two_clouds(GRADERS() + k, m, n) for k, (m, n) in enumerate(sizes)]
     p_target, p_source = two_clouds(GRADERS() + 9, 60, 60)
-    return worst(nearest_found(candidate, *pair) for pair in (*clouds, (2000 * p_target, 2000 * p_source)))
+    return worst(
+        nearest_found(candidate, *pair) for pair in (*clouds, (2000 * p_target, 2000 * p_source))
+    )
 
 
 @check(1, public=False)
@@ -115,7 +130,12 @@ def moved_clouds(candidate: Function) -> Verdict:
         p_target, p_source = two_clouds(GRADERS() + 10 + k, 120, 100)
         T = a_motion(np.random.default_rng(GRADERS() + k), 100.0, 1e6)
         verdicts.append(
-            nearest_found(candidate, apply(T, p_target), apply(T, p_source), "Far from the origin. " + MATCH_HINT)
+            nearest_found(
+                candidate,
+                apply(T, p_target),
+                apply(T, p_source),
+                "Far from the origin. " + MATCH_HINT,
+            )
         )
     return worst(verdicts)
 
@@ -124,13 +144,17 @@ def moved_clouds(candidate: Function) -> Verdict:
 def double_points(candidate: Function) -> Verdict:
     """Target points that occur twice do no harm."""
     p_target, p_source = two_clouds(GRADERS() + 20, 40, 60)
-    return nearest_found(candidate, np.vstack([p_target, p_target]), np.vstack([p_source, p_target]))
+    return nearest_found(
+        candidate, np.vstack([p_target, p_target]), np.vstack([p_source, p_target])
+    )
 
 
 @check(1, public=False)
 def no_target(candidate: Function) -> Verdict:
     """A target without points is refused."""
-    return refused(candidate, np.empty((0, 3)), two_clouds(GRADERS(), 1, 5)[1], what="An empty target")
+    return refused(
+        candidate, np.empty((0, 3)), two_clouds(GRADERS(), 1, 5)[1], what="An empty target"
+    )
 
 
 @mistake(
@@ -171,7 +195,9 @@ def height_ignored(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     return np.argmin(np.linalg.norm(p_source[:, None, :2] - p_target[:, :2], axis=2), axis=1)
 
 
-@mistake("You sum absolute differences. That is the Manhattan distance; sum their squares for the Euclidean one.")
+@mistake(
+    "You sum absolute differences. That is the Manhattan distance; sum their squares for the Euclidean one."
+)
 def manhattan_distance(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Sums absolute differences."""
     return np.argmin(np.abs(p_source[:, None] - p_target).sum(axis=2), axis=1)

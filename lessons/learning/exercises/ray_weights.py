@@ -6,7 +6,16 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.learning.exercises import GRADERS, STUDENTS, entries_verdict
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.cameras import volume_rendering
 
 HINT = "w_i = T_i (1 − exp(−density_i · spacing)); T_i is what passes all samples before i, and not i itself."
@@ -105,14 +114,18 @@ def _before(passed: np.ndarray) -> np.ndarray:
     return np.cumprod(np.concatenate([np.ones((len(passed), 1)), passed[:, :-1]], axis=1), axis=1)
 
 
-@mistake("Your T_i already has sample i in it. Light reaches sample i through those before it: begin with 1.")
+@mistake(
+    "Your T_i already has sample i in it. Light reaches sample i through those before it: begin with 1."
+)
 def own_sample_included(density: np.ndarray, spacing: float) -> np.ndarray:
     """Product up to i."""
     stopped = _stopped(density, spacing)
     return np.cumprod(1 - stopped, axis=1) * stopped
 
 
-@mistake("You left out the spacing: density is per metre, and a sample stands for `spacing` metres.")
+@mistake(
+    "You left out the spacing: density is per metre, and a sample stands for `spacing` metres."
+)
 def no_spacing(density: np.ndarray, spacing: float) -> np.ndarray:
     """Takes 1 m."""
     return volume_rendering.ray_weights(density, 1.0)
@@ -135,7 +148,9 @@ def linear_share_behind_exponentials(density: np.ndarray, spacing: float) -> np.
     return _before(np.exp(-density * spacing)) * density * spacing
 
 
-@mistake("You left out T_i: what stands behind a wall is not seen. Multiply by what all samples before let through.")
+@mistake(
+    "You left out T_i: what stands behind a wall is not seen. Multiply by what all samples before let through."
+)
 def nothing_hides(density: np.ndarray, spacing: float) -> np.ndarray:
     """Only what is stopped."""
     return _stopped(density, spacing)
@@ -147,14 +162,18 @@ def far_to_near(density: np.ndarray, spacing: float) -> np.ndarray:
     return volume_rendering.ray_weights(density[:, ::-1], spacing)[:, ::-1]
 
 
-@mistake("You divided by the sum. The weights of a ray need not add up to 1: the rest sees what lies behind.")
+@mistake(
+    "You divided by the sum. The weights of a ray need not add up to 1: the rest sees what lies behind."
+)
 def normalised(density: np.ndarray, spacing: float) -> np.ndarray:
     """Adds up to 1."""
     w = volume_rendering.ray_weights(density, spacing)
     return w / np.maximum(w.sum(axis=1, keepdims=True), 1e-12)
 
 
-@mistake("You return what reaches each sample. Its weight is the share of that which it stops: times 1 − exp(−…).")
+@mistake(
+    "You return what reaches each sample. Its weight is the share of that which it stops: times 1 − exp(−…)."
+)
 def only_what_arrives(density: np.ndarray, spacing: float) -> np.ndarray:
     """T alone."""
     return _before(np.exp(-density * spacing))
@@ -188,5 +207,7 @@ def with_products(density: np.ndarray, spacing: float) -> np.ndarray:
 @alternative
 def by_differences(density: np.ndarray, spacing: float) -> np.ndarray:
     """What passes up to a sample, minus what passes it."""
-    passed = np.exp(-np.cumsum(np.concatenate([np.zeros((len(density), 1)), density], axis=1), axis=1) * spacing)
+    passed = np.exp(
+        -np.cumsum(np.concatenate([np.zeros((len(density), 1)), density], axis=1), axis=1) * spacing
+    )
     return passed[:, :-1] - passed[:, 1:]

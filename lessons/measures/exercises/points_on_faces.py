@@ -77,7 +77,9 @@ def nothing(what: str, got: float, hint: str) -> Verdict:
     return relative_verdict(what, max(got, 0.0), 0.0, hint, good=1e-4, fair=1e-1, size=1.0)
 
 
-def share_verdict(what: str, got: np.ndarray, right: np.ndarray, hint: str, good: float, fair: float) -> Verdict:
+def share_verdict(
+    what: str, got: np.ndarray, right: np.ndarray, hint: str, good: float, fair: float
+) -> Verdict:
     """Judge shares of points by the largest difference, in per cent of all."""
     k = int(np.abs(got - right).argmax())
     said = f"{what}: {100 * got[k]:.1f} % of the points lie in one of the parts, right is {100 * right[k]:.1f} %"
@@ -109,13 +111,27 @@ def filled(candidate: Function, triangle: np.ndarray, seed: int) -> Verdict:
     level = np.clip(np.floor(4 * weights_of(q, triangle)), 0, 3).astype(int)
     shares = np.bincount(np.ravel_multi_index(level.T, (4, 4, 4)), minlength=64) / len(q)
     parts = np.array([i + j + k in (2, 3) for i, j, k in np.ndindex(4, 4, 4)])
-    return share_verdict("In one triangle", shares[parts], np.full(16, 1 / 16), PLACE_HINT, 1.0, 2.0)
+    return share_verdict(
+        "In one triangle", shares[parts], np.full(16, 1 / 16), PLACE_HINT, 1.0, 2.0
+    )
 
 
 @check(2)
 def large_faces_get_more(candidate: Function) -> Verdict:
     """Of two faces the three times larger one gets three times as many points, a face without area none."""
-    p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 5], [3, 0, 5], [0, 1, 5], [0, 0, 2], [1, 0, 2], [2, 0, 2]])
+    p = np.array(
+        [
+            [0.0, 0, 0],
+            [1, 0, 0],
+            [0, 1, 0],
+            [0, 0, 5],
+            [3, 0, 5],
+            [0, 1, 5],
+            [0, 0, 2],
+            [1, 0, 2],
+            [2, 0, 2],
+        ]
+    )
     q = candidate(p, np.array([[6, 7, 8], [0, 1, 2], [3, 4, 5]]), even(12, STUDENTS + 1))
     shares = np.array([(np.abs(q[:, 2] - z) < 1e-6).mean() for z in (2, 0, 5)])
     return share_verdict("Three faces", shares, np.array([0, 0.25, 0.75]), AREA_HINT, 1.0, 3.0)
@@ -128,7 +144,8 @@ def what_comes_in_is_left_alone(candidate: Function) -> Verdict:
     u = even(6, STUDENTS + 2)
     q = candidate(p, faces, u)
     return left_alone(
-        candidate, full("Points came back.") if np.isfinite(q).all() else fail("Some points are not finite.")
+        candidate,
+        full("Points came back.") if np.isfinite(q).all() else fail("Some points are not finite."),
     )
 
 
@@ -143,8 +160,17 @@ def a_whole_surface(candidate: Function) -> Verdict:
     off = 100 * float(np.linalg.norm(q.mean(axis=0) - middle)) / size
     what = "Mean of the points off the surface's middle, % of the diagonal"
     large = relative_verdict(what, off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
-    off = float(np.linalg.norm(1000 * candidate(0.001 * p, faces, even(16, GRADERS())).mean(axis=0) - middle)) / size
-    small = relative_verdict(f"{what}, of a small one", 100 * off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
+    off = (
+        float(
+            np.linalg.norm(
+                1000 * candidate(0.001 * p, faces, even(16, GRADERS())).mean(axis=0) - middle
+            )
+        )
+        / size
+    )
+    small = relative_verdict(
+        f"{what}, of a small one", 100 * off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100
+    )
     return worst((large, small))
 
 
@@ -154,7 +180,10 @@ def other_triangles(candidate: Function) -> Verdict:
     return worst(
         filled(candidate, triangle, GRADERS() + k)
         for k, triangle in enumerate(
-            (np.array([[0.0, 0, 0], [10, 0, 0], [0, 0.1, 0]]), np.array([[5.0, 5, 5], [5, 5.01, 5], [5.01, 5, 5.01]]))
+            (
+                np.array([[0.0, 0, 0], [10, 0, 0], [0, 0.1, 0]]),
+                np.array([[5.0, 5, 5], [5, 5.01, 5], [5.01, 5, 5.01]]),
+            )
         )
     )
 
@@ -167,7 +196,9 @@ def the_same_row_gives_the_same_point(candidate: Function) -> Verdict:
     q, again = candidate(p, faces, u), candidate(p, faces, u[::-1].copy())
     off = float(np.linalg.norm(q - again[::-1], axis=1).max())
     hint = "Use the rows of u, in their order, and no numbers of your own."
-    return worst([nothing("The same rows give points apart by, m", off, hint), each_number_counts(candidate)])
+    return worst(
+        [nothing("The same rows give points apart by, m", off, hint), each_number_counts(candidate)]
+    )
 
 
 def each_number_counts(candidate: Function) -> Verdict:
@@ -181,8 +212,12 @@ def each_number_counts(candidate: Function) -> Verdict:
             return fail(
                 f"Another {name} number moves the point by {moved[k]:.3g} m, right is more than 0. {PLACE_HINT}"
             )
-    hint = "With a single face the first number has nothing to pick, and it does not place the point."
-    return nothing("In a single face another first number moves the point by, m", float(moved[0]), hint)
+    hint = (
+        "With a single face the first number has nothing to pick, and it does not place the point."
+    )
+    return nothing(
+        "In a single face another first number moves the point by, m", float(moved[0]), hint
+    )
 
 
 @check(1, public=False)
@@ -191,14 +226,22 @@ def numbers_at_the_ends(candidate: Function) -> Verdict:
     triangle, one = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]]), np.array([[0, 1, 2]])
     if len(candidate(triangle, one, np.empty((0, 3)))):
         return fail("No rows came in, and points went out.")
-    u = np.array([[a, b, c] for a in (0.0, 1 - 1e-16) for b in (0.0, 1 - 1e-16) for c in (0.0, 1 - 1e-16)])
+    u = np.array(
+        [[a, b, c] for a in (0.0, 1 - 1e-16) for b in (0.0, 1 - 1e-16) for c in (0.0, 1 - 1e-16)]
+    )
     weights = weights_of(candidate(triangle, one, u), triangle)
     single = weights_of(candidate(triangle, one, np.array([[0.2, 0.5, 0.3]])), triangle)
     off = float(-min(weights.min(), single.min()))
-    p = np.concatenate([[[0.0, 0, z], [1, 0, z], [0, 1, z]] for z in range(10)])  # ten times a tenth is not quite 1
+    p = np.concatenate(
+        [[[0.0, 0, z], [1, 0, z], [0, 1, z]] for z in range(10)]
+    )  # ten times a tenth is not quite 1
     x, y, z = candidate(p, np.arange(30).reshape(10, 3), u).T
-    off = max(off, float(-np.min([x, y, 1 - x - y])), float(np.abs(z - np.rint(np.clip(z, 0, 9))).max()))
-    return nothing("Farthest off the triangles, in edges", off, "Look at rows of 0 and of nearly 1.")
+    off = max(
+        off, float(-np.min([x, y, 1 - x - y])), float(np.abs(z - np.rint(np.clip(z, 0, 9))).max())
+    )
+    return nothing(
+        "Farthest off the triangles, in edges", off, "Look at rows of 0 and of nearly 1."
+    )
 
 
 def _placed(p: np.ndarray, faces: np.ndarray, k: np.ndarray, weights: np.ndarray) -> np.ndarray:
@@ -210,7 +253,9 @@ def _by_area(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     return np.minimum(np.searchsorted(reached, u[:, 0] * reached[-1], side="right"), len(faces) - 1)
 
 
-@mistake("You pick all faces alike. Small faces then get as many points as large ones: weigh them by their areas.")
+@mistake(
+    "You pick all faces alike. Small faces then get as many points as large ones: weigh them by their areas."
+)
 def faces_alike(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Picks by number."""
     k = np.minimum((u[:, 0] * len(faces)).astype(int), len(faces) - 1)
@@ -225,7 +270,9 @@ def without_the_root(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndar
     return _placed(p, faces, _by_area(p, faces, u), np.column_stack([1 - s, s * (1 - t), s * t]))
 
 
-@mistake("You divided three numbers by their sum. Such weights crowd in the middle of the triangle.")
+@mistake(
+    "You divided three numbers by their sum. Such weights crowd in the middle of the triangle."
+)
 def normalised(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Takes the numbers as weights."""
     whole = u.sum(axis=1, keepdims=True)
@@ -242,7 +289,9 @@ def parallelogram(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray
     return _placed(p, faces, _by_area(p, faces, u), np.column_stack([1 - s - t, s, t]))
 
 
-@mistake("You picked the faces by area and then took their middles: a point belongs anywhere in its face.")
+@mistake(
+    "You picked the faces by area and then took their middles: a point belongs anywhere in its face."
+)
 def middles(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Only middles."""
     return p[faces].mean(axis=1)[_by_area(p, faces, u)]

@@ -30,8 +30,14 @@ from workbench.geometry.motions import apply, exp_so3, inverse, motion
 @contract(
     slot="camera_center",
     examples=(
-        ("camera_center(np.array([[1.0, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 5], [0, 0, 0, 1]]))", "[-2, 0, -5]"),
-        ("camera_center(np.array([[0.0, -1, 0, 2], [1, 0, 0, 5], [0, 0, 1, 0], [0, 0, 0, 1]]))", "[-5, 2, 0]"),
+        (
+            "camera_center(np.array([[1.0, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 5], [0, 0, 0, 1]]))",
+            "[-2, 0, -5]",
+        ),
+        (
+            "camera_center(np.array([[0.0, -1, 0, 2], [1, 0, 0, 5], [0, 0, 1, 0], [0, 0, 0, 1]]))",
+            "[-5, 2, 0]",
+        ),
     ),
 )
 def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "3"]:
@@ -62,13 +68,22 @@ def some_cameras(seed: int, n: int = 5) -> Iterator[tuple[np.ndarray, np.ndarray
 def placed(got: np.ndarray, right: np.ndarray, name: str = "C") -> Verdict:
     """Judge a camera's place by the distance to the right one."""
     error = float(np.linalg.norm(got - right))
-    return band("Camera is off by", error, "m", good=1e-3, fair=2e-2, hint=beside(got, right, CENTER_HINT, name))
+    return band(
+        "Camera is off by",
+        error,
+        "m",
+        good=1e-3,
+        fair=2e-2,
+        hint=beside(got, right, CENTER_HINT, name),
+    )
 
 
 @check(2)
 def where_it_stands(candidate: Function) -> Verdict:
     """Cameras that were put at known places are found there."""
-    return worst(placed(candidate(T_camera_world), eye) for eye, T_camera_world in some_cameras(STUDENTS))
+    return worst(
+        placed(candidate(T_camera_world), eye) for eye, T_camera_world in some_cameras(STUDENTS)
+    )
 
 
 @check(2)
@@ -130,7 +145,9 @@ def minus_t_for_the_centre(T_camera_world: np.ndarray) -> np.ndarray:
     return -T_camera_world[:3, 3]
 
 
-@mistake("You returned -R t. R takes world axes to camera axes; t is in camera axes and must go back: use R^T.")
+@mistake(
+    "You returned -R t. R takes world axes to camera axes; t is in camera axes and must go back: use R^T."
+)
 def turned_forwards(T_camera_world: np.ndarray) -> np.ndarray:
     """Returns -R t."""
     return -T_camera_world[:3, :3] @ T_camera_world[:3, 3]

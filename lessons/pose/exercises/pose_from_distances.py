@@ -38,7 +38,9 @@ from workbench.geometry.motions.alignment import align_rigid
     ),
 )
 def pose_from_distances(
-    p_world: Float[np.ndarray, "3 3"], rays: Float[np.ndarray, "3 3"], distances: Float[np.ndarray, "3"]
+    p_world: Float[np.ndarray, "3 3"],
+    rays: Float[np.ndarray, "3 3"],
+    distances: Float[np.ndarray, "3"],
 ) -> Float[np.ndarray, "4 4"]:
     """Return the T_camera_world that takes three points to the ends of their rays.
 
@@ -139,7 +141,9 @@ def lengths_as_depths(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarr
     return align_rigid(distances[:, None] * rays / rays[:, 2:], p_world)
 
 
-@mistake("You left the distances out: the rays' unit vectors are not yet the points. Multiply each by its distance.")
+@mistake(
+    "You left the distances out: the rays' unit vectors are not yet the points. Multiply each by its distance."
+)
 def without_distances(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Aligns with the unit vectors."""
     return align_rigid(rays, p_world)
@@ -148,7 +152,9 @@ def without_distances(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarr
 @mistake(
     "Your rotation is right, your translation is not: t = mean of the ends − R (mean of p_world), and you left out R."
 )
-def translation_not_turned(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
+def translation_not_turned(
+    p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray
+) -> np.ndarray:
     """Subtracts the means as they are."""
     q = distances[:, None] * rays
     T = align_rigid(q, p_world)

@@ -78,7 +78,13 @@ def farthest(T: np.ndarray, T_right: np.ndarray, p: np.ndarray) -> float:
 
 
 def arrived(
-    candidate: Function, seed: int, *, steps: int = 6, sigma: float = 0.0, n: int = 12, aside: float = 0.0
+    candidate: Function,
+    seed: int,
+    *,
+    steps: int = 6,
+    sigma: float = 0.0,
+    n: int = 12,
+    aside: float = 0.0,
 ) -> Verdict:
     """Judge where some steps arrive from a start that is some 15 degrees and half a metre off."""
     T_true, p_world, xy, T, rng = a_start(seed, n, aside=aside)
@@ -87,8 +93,12 @@ def arrived(
     for _ in range(steps):
         T = candidate(T, p_world, xy)
         if not np.abs(T).max() < 1e9:
-            return fail(f"The steps run away: the largest number of T is {number(np.abs(T).max(), 2)}. {HINT}")
-        if not 0.5 < np.linalg.det(T[:3, :3]) < 2:  # all points on one, or behind each other: nothing to step from
+            return fail(
+                f"The steps run away: the largest number of T is {number(np.abs(T).max(), 2)}. {HINT}"
+            )
+        if (
+            not 0.5 < np.linalg.det(T[:3, :3]) < 2
+        ):  # all points on one, or behind each other: nothing to step from
             return motion_verdict(T, right, f"That is what a step gave. {HINT}", p=p_world)
     return motion_verdict(T, right, f"T is the pose after {steps} steps. {HINT}", p=p_world)
 
@@ -103,7 +113,9 @@ def steps_arrive(candidate: Function) -> Verdict:
 def at_the_right_pose(candidate: Function) -> Verdict:
     """At the right pose the step is none."""
     T, p_world, xy = a_view(np.random.default_rng(STUDENTS + 10), 10)
-    return motion_verdict(candidate(T, p_world, xy), T, f"All residuals are 0 here. {HINT}", p=p_world)
+    return motion_verdict(
+        candidate(T, p_world, xy), T, f"All residuals are 0 here. {HINT}", p=p_world
+    )
 
 
 @check(1)
@@ -125,7 +137,10 @@ def other_starts(candidate: Function) -> Verdict:
         [
             *(arrived(candidate, GRADERS() + 10 + k) for k in range(4)),
             arrived(candidate, GRADERS() + 22, n=5, steps=8),
-            *(from_nearby(candidate, GRADERS() + 23 + k, n=4 + 8 * k, flat=bool(k)) for k in range(2)),
+            *(
+                from_nearby(candidate, GRADERS() + 23 + k, n=4 + 8 * k, flat=bool(k))
+                for k in range(2)
+            ),
         ]
     )
 
@@ -151,7 +166,9 @@ def each_call_is_one_step(candidate: Function) -> Verdict:
     """From 1 degree and 2 cm away one step leaves 2 mm at most; from 15 degrees and 30 cm it cannot arrive."""
     verdicts = []
     for k in range(4):
-        T_true, p_world, xy, T, _ = a_start(GRADERS() + 40 + k, aside=2.0 * k, degrees=1.0, metres=0.02)
+        T_true, p_world, xy, T, _ = a_start(
+            GRADERS() + 40 + k, aside=2.0 * k, degrees=1.0, metres=0.02
+        )
         left = farthest(candidate(T, p_world, xy), T_true, p_world)
         hint = "The small motion moves t too: it is composed on the left of all of T, (exp(w) R, exp(w) t + v)."
         verdicts.append(band("One step from nearby leaves", left, "m, right is some tenths of a millimetre",
@@ -162,7 +179,9 @@ def each_call_is_one_step(candidate: Function) -> Verdict:
         left.append(farthest(candidate(T, p_world, xy), T_true, p_world))
     if max(left) < 0.02:
         said = f"One call from 15 degrees away leaves {number(max(left), 2)} m, right is some decimetres"
-        verdicts.append(fail(f"{said}. Return T after a single step: the lesson goes on from there."))
+        verdicts.append(
+            fail(f"{said}. Return T after a single step: the lesson goes on from there.")
+        )
     return worst(verdicts)
 
 
@@ -173,7 +192,9 @@ def small(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray, turned: float = 1.
     return motion(exp_so3(x[3:]), x[:3])
 
 
-@mistake("Your step goes uphill: its sign is wrong. Solve J x = −residual, with residual = seen − xy.")
+@mistake(
+    "Your step goes uphill: its sign is wrong. Solve J x = −residual, with residual = seen − xy."
+)
 def uphill(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Adds what should be subtracted."""
     residuals, J = linearised(T, p_world, xy)
@@ -189,7 +210,9 @@ def composed_on_the_right(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) ->
     return T @ small(T, p_world, xy)
 
 
-@mistake("Your derivative leaves out −X/Z² and −Y/Z²: moving along the axis changes the picture too, by the division.")
+@mistake(
+    "Your derivative leaves out −X/Z² and −Y/Z²: moving along the axis changes the picture too, by the division."
+)
 def without_division(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Differentiates X/Z as if Z were constant."""
     p = p_world @ T[:3, :3].T + T[:3, 3]
@@ -202,7 +225,9 @@ def without_division(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.n
     return motion(exp_so3(x[3:]), x[:3]) @ T
 
 
-@mistake("You left the rotation out: there are six unknowns, three of translation and three of rotation.")
+@mistake(
+    "You left the rotation out: there are six unknowns, three of translation and three of rotation."
+)
 def translation_only(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Solves for v alone."""
     residuals, J = linearised(T, p_world, xy)
@@ -211,7 +236,9 @@ def translation_only(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.n
     return moved
 
 
-@mistake("You turned by I + [w]×, which is no rotation: it stretches at every step. Turn by |w| about w (Rodrigues).")
+@mistake(
+    "You turned by I + [w]×, which is no rotation: it stretches at every step. Turn by |w| about w (Rodrigues)."
+)
 def no_proper_rotation(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Takes the linear part for the rotation."""
     residuals, J = linearised(T, p_world, xy)
@@ -219,7 +246,9 @@ def no_proper_rotation(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np
     return motion(np.eye(3) + skew(x[3:]), x[:3]) @ T
 
 
-@mistake("Your rotation turns backwards: w × p is −[p]× w. Its columns in the Jacobian have the wrong sign.")
+@mistake(
+    "Your rotation turns backwards: w × p is −[p]× w. Its columns in the Jacobian have the wrong sign."
+)
 def turned_backwards(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Uses p × w."""
     return small(T, p_world, xy, -1.0) @ T

@@ -31,10 +31,15 @@ from workbench.geometry.motions import exp_so3
             "count_inliers(np.array([0.0, 0, 1, -2]), np.array([[5.0, 1, 2.1], [0, 0, 1.9], [0, 0, 0]]), 0.2)",
             "2",
         ),
-        ("count_inliers(np.array([0.6, 0, 0.8, 0]), np.array([[1.0, 0, 0], [0, 9, 0.5]]), 0.5)", "1"),
+        (
+            "count_inliers(np.array([0.6, 0, 0.8, 0]), np.array([[1.0, 0, 0], [0, 9, 0.5]]), 0.5)",
+            "1",
+        ),
     ),
 )
-def count_inliers(plane: Float[np.ndarray, "4"], p: Float[np.ndarray, "n 3"], inlier_distance: float) -> int:
+def count_inliers(
+    plane: Float[np.ndarray, "4"], p: Float[np.ndarray, "n 3"], inlier_distance: float
+) -> int:
     """Return how many points are near a plane, on both its sides.
 
     Args:
@@ -89,7 +94,11 @@ def slanted_planes(candidate: Function) -> Verdict:
         plane, p, signed = a_layer(rng)
         for t in (0.02, 0.1):
             right = int((np.abs(signed) <= t).sum())
-            verdicts.append(count_verdict(candidate(plane, p, t), right, len(p), f"Within {t:g} m of a slanted plane"))
+            verdicts.append(
+                count_verdict(
+                    candidate(plane, p, t), right, len(p), f"Within {t:g} m of a slanted plane"
+                )
+            )
     return worst(verdicts)
 
 
@@ -98,7 +107,9 @@ def cloud_is_left_alone(candidate: Function) -> Verdict:
     """The plane and the points that come in are not changed."""
     plane, p, signed = a_layer(np.random.default_rng(STUDENTS + 30), 50)
     right = int((np.abs(signed) <= 0.12).sum())
-    return left_alone(candidate, count_verdict(candidate(plane, p, 0.12), right, 50, "Within 0.12 m"))
+    return left_alone(
+        candidate, count_verdict(candidate(plane, p, 0.12), right, 50, "Within 0.12 m")
+    )
 
 
 @check(2, public=False)
@@ -111,7 +122,9 @@ def turned_over(candidate: Function) -> Verdict:
         (
             count_verdict(candidate(plane, p, 0.07), right, len(p), "Within 0.07 m"),
             count_verdict(candidate(-plane, p, 0.07), right, len(p), "The normal turned over"),
-            count_verdict(candidate(plane, other, 0.07), right, len(p), "The points in another order"),
+            count_verdict(
+                candidate(plane, other, 0.07), right, len(p), "The points in another order"
+            ),
         )
     )
 
@@ -126,7 +139,9 @@ def cloud_and_plane_moved(candidate: Function) -> Verdict:
         moved = np.append(R @ plane[:3], scale * (plane[3] - R @ plane[:3] @ t))
         got = candidate(moved, scale * (p @ R.T + t), scale * 0.05)
         right = int((np.abs(signed) <= 0.05).sum())
-        verdicts.append(count_verdict(got, right, len(p), f"Turned, moved, {scale:g} times as large"))
+        verdicts.append(
+            count_verdict(got, right, len(p), f"Turned, moved, {scale:g} times as large")
+        )
     return worst(verdicts)
 
 
@@ -138,7 +153,9 @@ def just_on_the_limit(candidate: Function) -> Verdict:
     hint = "Use <=, not <."
     plane = np.array([0.0, 0.0, 1.0, -1.0])
     limit = count_verdict(candidate(plane, p, 0.5), 3, 7, "Two exactly on the limit", hint)
-    return worst((limit, count_verdict(candidate(plane, p, 0.0), 1, 7, "Within 0 m, one on the plane", hint)))
+    return worst(
+        (limit, count_verdict(candidate(plane, p, 0.0), 1, 7, "Within 0 m, one on the plane", hint))
+    )
 
 
 @check(1, public=False)
@@ -150,12 +167,16 @@ def nothing_to_count(candidate: Function) -> Verdict:
     hint = f"{COUNT_HINT} That is never true of nan."
     verdicts = [
         count_verdict(candidate(plane, np.empty((0, 3)), 0.3), 0, 0, "No points"),
-        count_verdict(candidate(np.full(4, np.nan), p[1:], 0.3), 0, 19, "A plane of four nan", hint),
+        count_verdict(
+            candidate(np.full(4, np.nan), p[1:], 0.3), 0, 19, "A plane of four nan", hint
+        ),
     ]
     for unknown in (1, 0, 2, slice(None)):
         p[0] = near
         p[0, unknown] = np.nan
-        verdicts.append(count_verdict(candidate(plane, p, 0.3), right, 20, "One of them with a nan", hint))
+        verdicts.append(
+            count_verdict(candidate(plane, p, 0.3), right, 20, "One of them with a nan", hint)
+        )
     return worst(verdicts)
 
 
@@ -183,19 +204,25 @@ def above_only(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     return int(((s >= 0) & (s <= inlier_distance)).sum())
 
 
-@mistake("You compare squared distances with the inlier distance: square metres with metres. Square both or neither.")
+@mistake(
+    "You compare squared distances with the inlier distance: square metres with metres. Square both or neither."
+)
 def distance_squared(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Compares squared metres with metres."""
     return int((signed(plane, p) ** 2 <= inlier_distance).sum())
 
 
-@mistake("You square the inlier distance but not the distances: metres against square metres. Square both or neither.")
+@mistake(
+    "You square the inlier distance but not the distances: metres against square metres. Square both or neither."
+)
 def limit_squared(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Compares metres with squared metres."""
     return int((np.abs(signed(plane, p)) <= inlier_distance**2).sum())
 
 
-@mistake("You halve the inlier distance. It is how far a point may be on either side: the layer is twice as thick.")
+@mistake(
+    "You halve the inlier distance. It is how far a point may be on either side: the layer is twice as thick."
+)
 def limit_halved(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Takes the distance for the thickness of the layer."""
     return int((np.abs(signed(plane, p)) <= inlier_distance / 2).sum())
@@ -209,7 +236,9 @@ def offset_forgotten(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -
     return int((np.abs(p @ plane[:3]) <= inlier_distance).sum())
 
 
-@mistake("You subtract d: that is the plane on the other side of the origin. The signed distance is n . p + d.")
+@mistake(
+    "You subtract d: that is the plane on the other side of the origin. The signed distance is n . p + d."
+)
 def offset_subtracted(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Takes d for the plane's distance along the normal."""
     return int((np.abs(p @ plane[:3] - plane[3]) <= inlier_distance).sum())
@@ -269,7 +298,9 @@ def share_returned(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> 
     return float((np.abs(signed(plane, p)) <= inlier_distance).sum() / max(len(p), 1))
 
 
-@mistake("You return which points are inliers, one true or false each. Return how many there are: a whole number.")
+@mistake(
+    "You return which points are inliers, one true or false each. Return how many there are: a whole number."
+)
 def mask_returned(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> np.ndarray:
     """Returns which points are inliers."""
     return np.abs(signed(plane, p)) <= inlier_distance
@@ -287,7 +318,9 @@ def count_one_by_one(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -
 
 
 @alternative
-def count_in_homogeneous_coordinates(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
+def count_in_homogeneous_coordinates(
+    plane: np.ndarray, p: np.ndarray, inlier_distance: float
+) -> int:
     """Appends ones, squares both sides, and divides by the normal's length though it is 1."""
     p_h = np.column_stack([p, np.ones(len(p))])
     squares = (p_h @ plane) ** 2 / (plane[:3] @ plane[:3])

@@ -56,7 +56,9 @@ def iterations_needed(inlier_ratio: float, sample_size: int, confidence: float) 
 NEEDED_HINT = "One sample is clean with probability w^s; N are all spoilt with (1 - w^s)^N."
 
 
-def needed_verdict(candidate: Function, w: float, s: int, confidence: float, hint: str = NEEDED_HINT) -> Verdict:
+def needed_verdict(
+    candidate: Function, w: float, s: int, confidence: float, hint: str = NEEDED_HINT
+) -> Verdict:
     """Judge a number of samples: all for the smallest that is enough, half where it is one off."""
     got, right = float(candidate(w, s, confidence)), iterations_needed(w, s, confidence)
     case = f"{100 * w:g} % inliers, {s} in a sample, {100 * confidence:g} % confidence"
@@ -68,16 +70,18 @@ def needed_verdict(candidate: Function, w: float, s: int, confidence: float, hin
     if got < right < np.inf:
         spoilt, allowed = np.exp(got * np.log1p(-(w**s))), 1.0 - confidence
         if spoilt > 1.01 * allowed:
-            said += (
-                f" After yours all are spoilt in {100 * spoilt:.3g} % of the runs, {100 * allowed:.3g} % is allowed."
-            )
+            said += f" After yours all are spoilt in {100 * spoilt:.3g} % of the runs, {100 * allowed:.3g} % is allowed."
     return partial(0.5, f"{said} Round up.") if abs(got - right) <= 1.0 else fail(f"{said} {hint}")
 
 
 def a_case(rng: np.random.Generator) -> tuple[float, int, float]:
     """Return an inlier ratio, a sample size and a confidence for which no rounding decides the answer."""
     while True:
-        w, s, confidence = round(rng.uniform(0.2, 0.9), 3), int(rng.integers(2, 8)), round(rng.uniform(0.6, 0.999), 3)
+        w, s, confidence = (
+            round(rng.uniform(0.2, 0.9), 3),
+            int(rng.integers(2, 8)),
+            round(rng.uniform(0.6, 0.999), 3),
+        )
         exact = np.log1p(-confidence) / np.log1p(-(w**s))
         if exact > 2.0 and 0.05 < exact % 1.0 < 0.95:
             return w, s, confidence
@@ -99,15 +103,27 @@ def larger_samples(candidate: Function) -> Verdict:
 def no_outliers(candidate: Function) -> Verdict:
     """Where all points are inliers one sample is enough."""
     hint = "Each sample is clean: log(1 - w^s) is -inf here, so answer before you divide."
-    return worst(needed_verdict(candidate, 1.0, s, confidence, hint) for s, confidence in ((3, 0.99), (7, 0.6)))
+    return worst(
+        needed_verdict(candidate, 1.0, s, confidence, hint)
+        for s, confidence in ((3, 0.99), (7, 0.6))
+    )
 
 
 @check(3, public=False)
 def the_smallest_that_is_enough(candidate: Function) -> Verdict:
     """N samples are all spoilt in at most the share of runs that the confidence leaves, N - 1 in more."""
     rng = np.random.default_rng(GRADERS() + 70)
-    exact = [(0.5, 1, 1 - 0.5**n) for n in (1, 2, 4, 8)]  # n samples are just enough, and logarithms say so exactly
-    exact += [(0.9, 1, 0.5), (0.99, 2, 0.9999), (0.999, 8, 0.999), (0.3, 3, 0.05), (0.002, 1, 0.99), (0.6, 4, 0.999999)]
+    exact = [
+        (0.5, 1, 1 - 0.5**n) for n in (1, 2, 4, 8)
+    ]  # n samples are just enough, and logarithms say so exactly
+    exact += [
+        (0.9, 1, 0.5),
+        (0.99, 2, 0.9999),
+        (0.999, 8, 0.999),
+        (0.3, 3, 0.05),
+        (0.002, 1, 0.99),
+        (0.6, 4, 0.999999),
+    ]
     hint = f"Just enough is enough. {NEEDED_HINT}"
     boundary = [needed_verdict(candidate, *case, hint) for case in exact]
     return worst([*(needed_verdict(candidate, *a_case(rng)) for _ in range(8)), *boundary])
@@ -117,13 +133,18 @@ def the_smallest_that_is_enough(candidate: Function) -> Verdict:
 def more_confidence(candidate: Function) -> Verdict:
     """Each further nine of confidence, 90, 99 and 99.9 %, asks for as many samples again."""
     hint = "Halving 1 - confidence adds the same number of samples each time. Is it log(1 - confidence)?"
-    return worst(needed_verdict(candidate, 0.4, 4, confidence, hint) for confidence in (0.6, 0.9, 0.99, 0.999))
+    return worst(
+        needed_verdict(candidate, 0.4, 4, confidence, hint)
+        for confidence in (0.6, 0.9, 0.99, 0.999)
+    )
 
 
 @check(1, public=False)
 def no_inliers(candidate: Function) -> Verdict:
     """Where no point is an inlier no number is enough: inf."""
-    return worst(needed_verdict(candidate, 0.0, s, 0.99, "w^s is 0: answer np.inf then.") for s in (3, 4, 1))
+    return worst(
+        needed_verdict(candidate, 0.0, s, 0.99, "w^s is 0: answer np.inf then.") for s in (3, 4, 1)
+    )
 
 
 @check(1, public=False)
@@ -146,7 +167,9 @@ def rounded_up(value: float) -> float:
     return max(1.0, float(np.ceil(value)))
 
 
-@mistake("You use w itself. A sample is clean only if all of its points are inliers: that has probability w^s.")
+@mistake(
+    "You use w itself. A sample is clean only if all of its points are inliers: that has probability w^s."
+)
 def sample_size_forgotten(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Uses w for w^s."""
     return rounded_up(np.log1p(-confidence) / np.log1p(-inlier_ratio))
@@ -178,7 +201,9 @@ def clean_for_spoilt(inlier_ratio: float, sample_size: int, confidence: float) -
     return rounded_up(np.log1p(-confidence) / np.log(inlier_ratio**sample_size))
 
 
-@mistake("You take log(confidence). What may go wrong is the rest: all samples are spoilt with at most 1 - confidence.")
+@mistake(
+    "You take log(confidence). What may go wrong is the rest: all samples are spoilt with at most 1 - confidence."
+)
 def confidence_for_its_rest(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Forgets the 1 - in the numerator."""
     return rounded_up(np.log(confidence) / np.log1p(-(inlier_ratio**sample_size)))
@@ -217,14 +242,18 @@ def not_rounded(inlier_ratio: float, sample_size: int, confidence: float) -> flo
     return max(1.0, float(np.log1p(-confidence) / np.log1p(-(inlier_ratio**sample_size))))
 
 
-@mistake("Where all points are inliers you return 0, from a division by log(0). One sample must be drawn: answer 1.")
+@mistake(
+    "Where all points are inliers you return 0, from a division by log(0). One sample must be drawn: answer 1."
+)
 def none_where_all_are_inliers(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Divides by log(0), which gives no sample at all."""
     clean = np.float64(inlier_ratio) ** sample_size
     return float(np.ceil(np.log1p(-confidence) / np.log1p(-clean)))
 
 
-@mistake("Where no point is an inlier you divide by log(1) = 0. No number of samples is enough then: return np.inf.")
+@mistake(
+    "Where no point is an inlier you divide by log(1) = 0. No number of samples is enough then: return np.inf."
+)
 def no_inlier_not_seen(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Divides by log(1)."""
     clean = inlier_ratio**sample_size

@@ -36,7 +36,10 @@ NO_UNIT = 1e-5  # how far a normal's length may be from 1: rounding, also of sin
     either=np.negative,
     examples=(
         ("plane_from_points(np.array([[0.0, 0, 2], [1, 0, 2], [0, 1, 2]]))", "[0, 0, 1, -2]"),
-        ("plane_from_points(np.array([[0.0, 0, 0], [1, 1, 1], [3, 3, 3]]))", "[nan, nan, nan, nan]"),
+        (
+            "plane_from_points(np.array([[0.0, 0, 0], [1, 1, 1], [3, 3, 3]]))",
+            "[nan, nan, nan, nan]",
+        ),
     ),
 )
 def plane_from_points(p: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"]:
@@ -85,17 +88,31 @@ def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) 
     if abs(length - 1.0) > NO_UNIT:
         said = f"The length of your normal is {against(length, 1.0)}: distances come out as many times as large."
         return fail(f"{what}: {said}")
-    degrees = float(np.degrees(np.arctan2(np.linalg.norm(np.cross(got[:3], right[:3])), abs(got[:3] @ right[:3]))))
+    degrees = float(
+        np.degrees(
+            np.arctan2(np.linalg.norm(np.cross(got[:3], right[:3])), abs(got[:3] @ right[:3]))
+        )
+    )
     away = float(np.abs(p @ got[:3] + got[3]).max())
     side = np.where(got[:3] @ right[:3] < 0, -right, right)
     told = f"Yours is {against(got, side)} or its negative."
     turned = band(
-        f"{what}: normal off by", round(degrees, 9), "degrees", good=0.01, fair=1.0, hint=f"{told} {NORMAL_HINT}"
+        f"{what}: normal off by",
+        round(degrees, 9),
+        "degrees",
+        good=0.01,
+        fair=1.0,
+        hint=f"{told} {NORMAL_HINT}",
     )
     unit = 10.0 ** round(np.log10(size))
     away = away if away > 1e-9 * unit else 0.0  # rounding is not worth reading
     moved = band(
-        f"{what}: plane off the points by", away, "m", good=1e-6 * unit, fair=1e-2 * unit, hint=f"{told} {OFFSET_HINT}"
+        f"{what}: plane off the points by",
+        away,
+        "m",
+        good=1e-6 * unit,
+        fair=1e-2 * unit,
+        hint=f"{told} {OFFSET_HINT}",
     )
     return worst((turned, moved))
 
@@ -147,7 +164,9 @@ def points_on_a_line(candidate: Function) -> Verdict:
 @check(1)
 def points_are_left_alone(candidate: Function) -> Verdict:
     """The points that come in are not changed."""
-    return left_alone(candidate, found(candidate, a_triangle(np.random.default_rng(STUDENTS + 1)), "A triangle"))
+    return left_alone(
+        candidate, found(candidate, a_triangle(np.random.default_rng(STUDENTS + 1)), "A triangle")
+    )
 
 
 @check(2, public=False)
@@ -176,9 +195,14 @@ def upright_and_through_the_origin(candidate: Function) -> Verdict:
     corner = a_triangle(rng)
     corner[0] = 0.0
     verdicts = [plane_verdict(candidate(wall), np.array([0.8, -0.6, 0.0, -1.0]), wall, "Wall")]
-    for p, what in ((through, "A plane through the origin"), (corner, "The origin is one of the points")):
+    for p, what in (
+        (through, "A plane through the origin"),
+        (corner, "The origin is one of the points"),
+    ):
         verdicts.append(found(candidate, p, what))
-    for k in range(12):  # the planes of the axes, run round either way: two entries of the normal are 0
+    for k in range(
+        12
+    ):  # the planes of the axes, run round either way: two entries of the normal are 0
         level = np.column_stack([rng.normal(size=(3, 2)), np.zeros(3)])[:, np.roll([0, 1, 2], k)]
         verdicts.append(found(candidate, level, f"The plane of two axes, number {k}"))
     return worst(verdicts)
@@ -188,12 +212,21 @@ def upright_and_through_the_origin(candidate: Function) -> Verdict:
 def small_large_and_far(candidate: Function) -> Verdict:
     """Sides of a micrometre and of a kilometre, and triangles a kilometre away, have a plane too."""
     rng = np.random.default_rng(GRADERS() + 20)
-    verdicts = [found(candidate, a_triangle(rng, size), f"Sides of {size:g} m") for size in (1e-3, 1e-6, 1e3)]
+    verdicts = [
+        found(candidate, a_triangle(rng, size), f"Sides of {size:g} m")
+        for size in (1e-3, 1e-6, 1e3)
+    ]
     far = a_triangle(rng) + np.array([800.0, -600.0, 50.0])
     thin = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.5, 1e-4, 1.0]])
     verdicts.append(found(candidate, far, "1 km away"))
-    for size, name in (([1.0, 1.0, 1.0], "1 m"), ([1e-3, 1e-3, 1.0], "1 mm"), ([1e-6, 1e-6, 1e-6], "1 µm")):
-        verdicts.append(found(candidate, thin * size, f"{name} long and a ten-thousandth of that high"))
+    for size, name in (
+        ([1.0, 1.0, 1.0], "1 m"),
+        ([1e-3, 1e-3, 1.0], "1 mm"),
+        ([1e-6, 1e-6, 1e-6], "1 µm"),
+    ):
+        verdicts.append(
+            found(candidate, thin * size, f"{name} long and a ten-thousandth of that high")
+        )
     return worst(verdicts)
 
 
@@ -205,13 +238,17 @@ def nearly_on_a_line(candidate: Function) -> Verdict:
         direction, start = rng.normal(size=(2, 3))
         p = size * (start + np.outer([0.1, 0.7, -0.9], direction))
         verdicts.append(no_plane(candidate(p), f"On one line but for rounding, {size:g} m in size"))
-    for k, size in enumerate((1e3, 1e-3, 1e3, 1e-3, 1e3, 1e-3)):  # long along each axis, and high along the next one
+    for k, size in enumerate(
+        (1e3, 1e-3, 1e3, 1e-3, 1e3, 1e-3)
+    ):  # long along each axis, and high along the next one
         p = np.zeros((3, 3))
         p[0, k % 3], p[1, k % 3] = size, 0.5 * size
         for share in (3e-8, 3e-11):  # of the squared longest side
             p[1, (k + 1) % 3] = share * size
             what = f"{size:g} m long, the cross product {share / 1e-9:g} billionths of the squared longest side"
-            verdicts.append(found(candidate, p, what) if share > 1e-9 else no_plane(candidate(p), what))
+            verdicts.append(
+                found(candidate, p, what) if share > 1e-9 else no_plane(candidate(p), what)
+            )
     return worst(verdicts)
 
 
@@ -271,7 +308,9 @@ def d_left_long(p: np.ndarray) -> np.ndarray:
 )
 def sign_of_d(p: np.ndarray) -> np.ndarray:
     """Takes n . p for d."""
-    return NO_PLANE if on_one_line(p) else np.append(unit(area_normal(p)), unit(area_normal(p)) @ p[0])
+    return (
+        NO_PLANE if on_one_line(p) else np.append(unit(area_normal(p)), unit(area_normal(p)) @ p[0])
+    )
 
 
 @mistake(
@@ -338,7 +377,9 @@ def line_not_seen(p: np.ndarray) -> np.ndarray:
 )
 def fixed_smallest_area(p: np.ndarray) -> np.ndarray:
     """Compares the cross product with a fixed number."""
-    return NO_PLANE if np.linalg.norm(area_normal(p)) < 1e-5 else through(unit(area_normal(p)), p[0])
+    return (
+        NO_PLANE if np.linalg.norm(area_normal(p)) < 1e-5 else through(unit(area_normal(p)), p[0])
+    )
 
 
 @mistake(

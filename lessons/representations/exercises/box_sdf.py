@@ -6,7 +6,16 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.representations.exercises import GRADERS, STUDENTS, rows_verdict, written
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry.fields import signed_distances
 
 
@@ -18,7 +27,9 @@ from workbench.geometry.fields import signed_distances
         ("box_sdf(np.array([[0.0, 0, 0], [0, 0, 0.9]]), np.array([1.0, 2, 1]))", "[-1, -0.1]"),
     ),
 )
-def box_sdf(p: Float[np.ndarray, "n 3"], half_size: Float[np.ndarray, "3"]) -> Float[np.ndarray, " n"]:
+def box_sdf(
+    p: Float[np.ndarray, "n 3"], half_size: Float[np.ndarray, "3"]
+) -> Float[np.ndarray, " n"]:
     """Return how far points are from the surface of a box about the origin, its edges along the axes: negative inside.
 
     Outside, the nearest point of the box is on a face, on an edge or at a corner. Inside, the nearest face decides.
@@ -36,11 +47,16 @@ def box_sdf(p: Float[np.ndarray, "n 3"], half_size: Float[np.ndarray, "3"]) -> F
 HINT = "With d = |p| − half_size: outside it is the length of max(d, 0), inside the largest d."
 
 
-def verdict(candidate: Function, p: np.ndarray, half: np.ndarray, where: str, hint: str = HINT) -> Verdict:
+def verdict(
+    candidate: Function, p: np.ndarray, half: np.ndarray, where: str, hint: str = HINT
+) -> Verdict:
     """Judge the distances of points to one box."""
     right = signed_distances.box_sdf(p, half)
     return rows_verdict(
-        candidate(p, half), right, lambda k: f"{where}, at {written(p[k])} of a box {written(half)}", hint
+        candidate(p, half),
+        right,
+        lambda k: f"{where}, at {written(p[k])} of a box {written(half)}",
+        hint,
     )
 
 
@@ -85,7 +101,9 @@ def other_boxes(candidate: Function) -> Verdict:
     verdicts = []
     for half in ([0.1, 2.0, 0.4], [0.6, 0.6, 0.01], [30.0, 20.0, 50.0], [1.0, 1.0, 1.0]):
         box = np.array(half)
-        p = np.concatenate([outside(box, k, rng, 8) for k in (1, 2, 3)] + [rng.uniform(-1, 1, (8, 3)) * box])
+        p = np.concatenate(
+            [outside(box, k, rng, 8) for k in (1, 2, 3)] + [rng.uniform(-1, 1, (8, 3)) * box]
+        )
         verdicts.append(verdict(candidate, p, box, "Another box"))
     return worst(verdicts)
 
@@ -144,7 +162,9 @@ def halved_again(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     return signed_distances.box_sdf(p, half_size / 2)
 
 
-@mistake("You left out the absolute value of p: only the side of positive coordinates is right. The box is symmetric.")
+@mistake(
+    "You left out the absolute value of p: only the side of positive coordinates is right. The box is symmetric."
+)
 def one_side(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Forgets the other side."""
     d = p - half_size

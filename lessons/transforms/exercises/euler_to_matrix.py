@@ -29,8 +29,14 @@ from workbench.geometry.motions.rotations import EULER_ORDERS, rotation_about
     slot="euler_to_matrix",
     forbid=("scipy.spatial.transform",),
     examples=(
-        ('euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "xyz")', "[[0, 0, 1], [1, 0, 0], [0, 1, 0]]"),
-        ('euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "XYZ")', "[[0, -1, 0], [0, 0, -1], [1, 0, 0]]"),
+        (
+            'euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "xyz")',
+            "[[0, 0, 1], [1, 0, 0], [0, 1, 0]]",
+        ),
+        (
+            'euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "XYZ")',
+            "[[0, -1, 0], [0, 0, -1], [1, 0, 0]]",
+        ),
     ),
 )
 def euler_to_matrix(angles: Float[np.ndarray, "3"], order: str) -> Float[np.ndarray, "3 3"]:
@@ -74,7 +80,9 @@ def _ordered(candidate: Function, angles: np.ndarray, order: str) -> Verdict:
 def one_turn(candidate: Function) -> Verdict:
     """A single turn is about the axis of its letter, by the right angle."""
     one = np.radians(40.0) * np.eye(3)
-    return worst(_ordered(candidate, one[k], order) for order in ("xyz", "ZYX", "yzx") for k in range(3))
+    return worst(
+        _ordered(candidate, one[k], order) for order in ("xyz", "ZYX", "yzx") for k in range(3)
+    )
 
 
 @check(2)
@@ -92,7 +100,10 @@ def carried_axes(candidate: Function) -> Verdict:
 @check(2, public=False)
 def all_orders(candidate: Function) -> Verdict:
     """All 24 orders give the right rotation."""
-    verdicts = {order: _ordered(candidate, some_angles(GRADERS() + k), order) for k, order in enumerate(EULER_ORDERS)}
+    verdicts = {
+        order: _ordered(candidate, some_angles(GRADERS() + k), order)
+        for k, order in enumerate(EULER_ORDERS)
+    }
     right = [order for order, verdict in verdicts.items() if verdict.share == 1.0]
     if len(right) == len(verdicts):
         return full("24 of 24 orders are right.")
@@ -106,7 +117,12 @@ def gimbal_lock(candidate: Function) -> Verdict:
     a, c, more = 0.4, -0.9, 0.7
     R, other = (candidate(np.array([a + d, np.pi / 2, c - d]), "XYZ") for d in (0.0, more))
     right = rotations.euler_to_matrix(np.array([a, np.pi / 2, c]), "XYZ")
-    others = (("xyz", [a, -np.pi / 2, c]), ("ZXZ", [a, 0.0, c]), ("zyz", [a, np.pi, c]), ("XYZ", [4.0, -5.0, 7.5]))
+    others = (
+        ("xyz", [a, -np.pi / 2, c]),
+        ("ZXZ", [a, 0.0, c]),
+        ("zyz", [a, np.pi, c]),
+        ("XYZ", [4.0, -5.0, 7.5]),
+    )
     locked = [_ordered(candidate, np.array(angles), order) for order, angles in others]
     return worst([*(rotation_verdict(got, right, EULER_HINT) for got in (R, other)), *locked])
 
@@ -116,7 +132,10 @@ def unknown_orders(candidate: Function) -> Verdict:
     """Orders that are none of the 24 are refused, and the angles are left alone."""
     kept = left_alone(candidate, _ordered(candidate, some_angles(GRADERS()), "zyx"))
     none = ("xxy", "xYz", "zyy", "xyZ", "xYZ", "xyzx")
-    asked = (refused(candidate, some_angles(GRADERS()), order, what=f'The order "{order}"') for order in none)
+    asked = (
+        refused(candidate, some_angles(GRADERS()), order, what=f'The order "{order}"')
+        for order in none
+    )
     return worst([*asked, kept])
 
 
@@ -138,7 +157,9 @@ def case_ignored(angles: np.ndarray, order: str) -> np.ndarray:
     return rotations.euler_to_matrix(angles, order.lower())  # type: ignore[arg-type]
 
 
-@mistake("You always turn about the body's own axes. Lower case means the fixed axes of the world: “xyz” is Rz Ry Rx.")
+@mistake(
+    "You always turn about the body's own axes. Lower case means the fixed axes of the world: “xyz” is Rz Ry Rx."
+)
 def always_carried(angles: np.ndarray, order: str) -> np.ndarray:
     """Always about the body's own axes."""
     return rotations.euler_to_matrix(angles, order.upper())  # type: ignore[arg-type]
@@ -165,7 +186,9 @@ def degrees_taken(angles: np.ndarray, order: str) -> np.ndarray:
 )
 def angles_of_axes(angles: np.ndarray, order: str) -> np.ndarray:
     """Reads the angles as those about x, y and z, whatever the order of the letters."""
-    return rotations.euler_to_matrix(np.array([angles["xyz".index(letter)] for letter in order.lower()]), order)  # type: ignore[arg-type]
+    return rotations.euler_to_matrix(
+        np.array([angles["xyz".index(letter)] for letter in order.lower()]), order
+    )  # type: ignore[arg-type]
 
 
 @mistake("You always turn about x, y, z. Read the letters: “zxz” begins with z.")
@@ -180,7 +203,9 @@ def order_ignored(angles: np.ndarray, order: str) -> np.ndarray:
 )
 def any_order_taken(angles: np.ndarray, order: str) -> np.ndarray:
     """Multiplies whatever letters come."""
-    first, second, third = (rotation_about(a, v) for a, v in zip(order.lower(), angles, strict=False))  # type: ignore[arg-type]
+    first, second, third = (
+        rotation_about(a, v) for a, v in zip(order.lower(), angles, strict=False)
+    )  # type: ignore[arg-type]
     return first @ second @ third if order.isupper() else third @ second @ first
 
 
@@ -202,14 +227,23 @@ def euler_in_loops(angles: np.ndarray, order: str) -> np.ndarray:
 @alternative
 def euler_by_quaternions(angles: np.ndarray, order: str) -> np.ndarray:
     """The product of three quaternions, each as a 4x4 matrix."""
-    if len(order) != 3 or set(order.lower()) - set("xyz") or order.lower()[1] in (order.lower()[0], order.lower()[2]):
+    if (
+        len(order) != 3
+        or set(order.lower()) - set("xyz")
+        or order.lower()[1] in (order.lower()[0], order.lower()[2])
+    ):
         raise ValueError(order)
     if order != order.lower() and order != order.upper():
         raise ValueError(order)
     q = np.array([1.0, 0.0, 0.0, 0.0])
     pairs = list(zip(order.lower(), angles, strict=True))
-    for letter, angle in pairs if order.isupper() else pairs[::-1]:  # on the right, in the order of the product
-        w, (x, y, z) = np.cos(angle / 2), np.sin(angle / 2) * np.array([letter == "x", letter == "y", letter == "z"])
+    for letter, angle in (
+        pairs if order.isupper() else pairs[::-1]
+    ):  # on the right, in the order of the product
+        w, (x, y, z) = (
+            np.cos(angle / 2),
+            np.sin(angle / 2) * np.array([letter == "x", letter == "y", letter == "z"]),
+        )
         q = np.array([[w, -x, -y, -z], [x, w, z, -y], [y, -z, w, x], [z, y, -x, w]]) @ q
     w, v = q[0], q[1:]
     K = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])

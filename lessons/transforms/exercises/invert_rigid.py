@@ -60,7 +60,13 @@ INVERT_HINT = "Solve p_a = R p_b + t for p_b."
 def there_and_back(candidate: Function) -> Verdict:
     """A point that goes from b to a and back is where it was."""
     return worst(
-        motion_verdict(candidate(T) @ T, np.eye(4), INVERT_HINT, p=some_points(STUDENTS), name="(T_b_a @ T_a_b)")
+        motion_verdict(
+            candidate(T) @ T,
+            np.eye(4),
+            INVERT_HINT,
+            p=some_points(STUDENTS),
+            name="(T_b_a @ T_a_b)",
+        )
         for T in some_motions(STUDENTS)
     )
 
@@ -68,7 +74,9 @@ def there_and_back(candidate: Function) -> Verdict:
 @check(1)
 def twice_is_nothing(candidate: Function) -> Verdict:
     """The inverse of the inverse is the motion itself."""
-    return worst(motion_verdict(candidate(candidate(T)), T, INVERT_HINT) for T in some_motions(STUDENTS + 1))
+    return worst(
+        motion_verdict(candidate(candidate(T)), T, INVERT_HINT) for T in some_motions(STUDENTS + 1)
+    )
 
 
 @check(1)
@@ -84,7 +92,10 @@ def products_turn_round(candidate: Function) -> Verdict:
     verdicts = []
     for T_a_b, T_b_c in zip(some_motions(GRADERS()), some_motions(GRADERS() + 1), strict=True):
         T_c_a = candidate(T_b_c) @ candidate(T_a_b)
-        verdicts += [motion_verdict(candidate(T_a_b @ T_b_c), T_c_a, INVERT_HINT), _right(T_a_b, candidate(T_a_b))]
+        verdicts += [
+            motion_verdict(candidate(T_a_b @ T_b_c), T_c_a, INVERT_HINT),
+            _right(T_a_b, candidate(T_a_b)),
+        ]
     return worst(verdicts)
 
 
@@ -99,10 +110,14 @@ def special_motions(candidate: Function) -> Verdict:
 
 
 def _right(T: np.ndarray, T_back: np.ndarray) -> Verdict:
-    return motion_verdict(T_back @ T, np.eye(4), INVERT_HINT, p=some_points(GRADERS()), name="(T_b_a @ T_a_b)")
+    return motion_verdict(
+        T_back @ T, np.eye(4), INVERT_HINT, p=some_points(GRADERS()), name="(T_b_a @ T_a_b)"
+    )
 
 
-@mistake("You returned (R^T, -t). The translation is undone in frame a, but R^T turns it first: it must be -R^T t.")
+@mistake(
+    "You returned (R^T, -t). The translation is undone in frame a, but R^T turns it first: it must be -R^T t."
+)
 def negated_translation(T_a_b: np.ndarray) -> np.ndarray:
     """(R^T, -t)."""
     return motion(T_a_b[:3, :3].T, -T_a_b[:3, 3])
@@ -116,19 +131,25 @@ def rotation_kept(T_a_b: np.ndarray) -> np.ndarray:
     return motion(T_a_b[:3, :3], -T_a_b[:3, 3])
 
 
-@mistake("Your rotation is R^T, but your translation is -R t. The inverse has -R^T t: solve p_a = R p_b + t for p_b.")
+@mistake(
+    "Your rotation is R^T, but your translation is -R t. The inverse has -R^T t: solve p_a = R p_b + t for p_b."
+)
 def translation_turned_forwards(T_a_b: np.ndarray) -> np.ndarray:
     """(R^T, -R t)."""
     return motion(T_a_b[:3, :3].T, -T_a_b[:3, :3] @ T_a_b[:3, 3])
 
 
-@mistake("Your translation is R^T t; it has the wrong sign. Solve p_a = R p_b + t for p_b: p_b = R^T p_a - R^T t.")
+@mistake(
+    "Your translation is R^T t; it has the wrong sign. Solve p_a = R p_b + t for p_b: p_b = R^T p_a - R^T t."
+)
 def sign_forgotten(T_a_b: np.ndarray) -> np.ndarray:
     """(R^T, R^T t)."""
     return motion(T_a_b[:3, :3].T, T_a_b[:3, :3].T @ T_a_b[:3, 3])
 
 
-@mistake("You transposed the whole 4×4, so that t lies in the last row. Only its 3×3 rotation is orthogonal.")
+@mistake(
+    "You transposed the whole 4×4, so that t lies in the last row. Only its 3×3 rotation is orthogonal."
+)
 def all_transposed(T_a_b: np.ndarray) -> np.ndarray:
     """The transpose of the 4x4."""
     return T_a_b.T.copy()

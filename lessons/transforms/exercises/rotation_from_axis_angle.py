@@ -41,7 +41,9 @@ from workbench.geometry.motions import exp_so3, rotations, skew
         ),
     ),
 )
-def rotation_from_axis_angle(axis: Float[np.ndarray, "3"], angle: float) -> Float[np.ndarray, "3 3"]:
+def rotation_from_axis_angle(
+    axis: Float[np.ndarray, "3"], angle: float
+) -> Float[np.ndarray, "3 3"]:
     """Return the rotation matrix R that turns by an angle about an axis through the origin.
 
     R turns vectors actively, v_turned = R @ v, counter-clockwise where the axis points at you (right-hand rule): a
@@ -83,7 +85,9 @@ def quarter_turn(candidate: Function) -> Verdict:
 def any_axis(candidate: Function) -> Verdict:
     """About axes in all directions and of all lengths, R turns by the right angle."""
     return worst(
-        rotation_verdict(candidate(axis, angle), rotations.rotation_from_axis_angle(axis, angle), TURN_HINT)
+        rotation_verdict(
+            candidate(axis, angle), rotations.rotation_from_axis_angle(axis, angle), TURN_HINT
+        )
         for axis, angle in some_turns(STUDENTS)
     )
 
@@ -112,12 +116,20 @@ def special_angles(candidate: Function) -> Verdict:
     """No turn, half a turn and turns and turns either way are rotations, and an angle of 1e-6 is not lost."""
     axis = np.array([0.3, -0.4, 1.2])
     verdicts = [
-        rotation_verdict(candidate(axis, v), rotations.rotation_from_axis_angle(axis, v), f"Angle {v:.3g}. {TURN_HINT}")
+        rotation_verdict(
+            candidate(axis, v),
+            rotations.rotation_from_axis_angle(axis, v),
+            f"Angle {v:.3g}. {TURN_HINT}",
+        )
         for v in (0.0, np.pi, -np.pi, 7.5, -8.0, 20.0, -100.0)
     ]
     tiny = degrees_between(candidate(axis, 1e-6), np.eye(3)) / np.degrees(1e-6)
-    said = f"By 0.000001 radians yours turns by {number(1e-6 * tiny)}, right is 0.000001. {TURN_HINT}"
-    kept = band("Relative error of a tiny angle", abs(tiny - 1.0), "", good=1e-3, fair=1e-1, hint=said)
+    said = (
+        f"By 0.000001 radians yours turns by {number(1e-6 * tiny)}, right is 0.000001. {TURN_HINT}"
+    )
+    kept = band(
+        "Relative error of a tiny angle", abs(tiny - 1.0), "", good=1e-3, fair=1e-1, hint=said
+    )
     return worst([*verdicts, kept])
 
 
@@ -128,7 +140,9 @@ def zero_axis(candidate: Function) -> Verdict:
     for length in (1e-6, 1e3):
         axis = length * np.array([0.48, -0.6, 0.64])
         right = rotations.rotation_from_axis_angle(axis, 0.5)
-        verdicts.append(rotation_verdict(candidate(axis, 0.5), right, f"An axis {length:g} long. {TURN_HINT}"))
+        verdicts.append(
+            rotation_verdict(candidate(axis, 0.5), right, f"An axis {length:g} long. {TURN_HINT}")
+        )
     return worst(verdicts)
 
 
@@ -147,26 +161,34 @@ def degrees_taken(axis: np.ndarray, angle: float) -> np.ndarray:
     return rotations.rotation_from_axis_angle(axis, np.radians(angle))
 
 
-@mistake("Your formula uses the axis as it comes; it holds for a unit axis only. Divide by its length first.")
+@mistake(
+    "Your formula uses the axis as it comes; it holds for a unit axis only. Divide by its length first."
+)
 def axis_not_of_unit_length(axis: np.ndarray, angle: float) -> np.ndarray:
     """Rodrigues' formula with the axis as it comes."""
     W = skew(axis)
     return np.eye(3) + np.sin(angle) * W + (1 - np.cos(angle)) * W @ W
 
 
-@mistake("You returned I + sin(angle) K. That holds for small angles; the term (1 - cos(angle)) K K is missing.")
+@mistake(
+    "You returned I + sin(angle) K. That holds for small angles; the term (1 - cos(angle)) K K is missing."
+)
 def square_forgotten(axis: np.ndarray, angle: float) -> np.ndarray:
     """I + sin(angle) K, the formula for small angles."""
     return np.eye(3) + np.sin(angle) * skew(axis / np.linalg.norm(axis))
 
 
-@mistake("You returned cos(angle) I + sin(angle) K. The part along the axis must stay: add (1 - cos(angle)) a a^T.")
+@mistake(
+    "You returned cos(angle) I + sin(angle) K. The part along the axis must stay: add (1 - cos(angle)) a a^T."
+)
 def projection_forgotten(axis: np.ndarray, angle: float) -> np.ndarray:
     """cos(angle) I + sin(angle) K, without (1 - cos) a a^T."""
     return np.cos(angle) * np.eye(3) + np.sin(angle) * skew(axis / np.linalg.norm(axis))
 
 
-@mistake("All is right but the axis of length zero, by which you divide: it names no direction. Raise a ValueError.")
+@mistake(
+    "All is right but the axis of length zero, by which you divide: it names no direction. Raise a ValueError."
+)
 def zero_axis_divides(axis: np.ndarray, angle: float) -> np.ndarray:
     """Divides by a length of zero."""
     W = skew(axis / np.linalg.norm(axis))
@@ -206,5 +228,8 @@ def turn_column_by_column(axis: np.ndarray, angle: float) -> np.ndarray:
     if not length > 0:
         raise ValueError("a zero axis")
     n = axis / length
-    turned = [v * np.cos(angle) + np.cross(n, v) * np.sin(angle) + n * (n @ v) * (1 - np.cos(angle)) for v in np.eye(3)]
+    turned = [
+        v * np.cos(angle) + np.cross(n, v) * np.sin(angle) + n * (n @ v) * (1 - np.cos(angle))
+        for v in np.eye(3)
+    ]
     return np.array(turned).T

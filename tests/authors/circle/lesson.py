@@ -24,7 +24,9 @@ def refine(p: np.ndarray, circle: np.ndarray) -> Iterator[State]:
     yield State(0, p, circle)
     for k in range(1, 40):
         r = np.linalg.norm(p - circle[:2], axis=1)
-        J = np.column_stack([(circle[:2] - p) / r[:, None], -np.ones(len(p))])  # how each distance changes
+        J = np.column_stack(
+            [(circle[:2] - p) / r[:, None], -np.ones(len(p))]
+        )  # how each distance changes
         step = np.linalg.lstsq(J, circle[2] - r, rcond=None)[0]
         circle = circle + step
         yield State(k, p, circle)
@@ -32,7 +34,9 @@ def refine(p: np.ndarray, circle: np.ndarray) -> Iterator[State]:
             return
 
 
-def run(params: Params, *, fit_circle: Callable[[np.ndarray], np.ndarray] = fit_circle) -> Iterator[State]:
+def run(
+    params: Params, *, fit_circle: Callable[[np.ndarray], np.ndarray] = fit_circle
+) -> Iterator[State]:
     """Yield the algebraic circle through measured points, and its refinements."""
     rng = np.random.default_rng(params.seed)
     angles = np.radians(params.arc) * (np.arange(params.points) / params.points - 0.5)

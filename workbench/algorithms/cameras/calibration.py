@@ -115,14 +115,28 @@ def calibrate(
         K = intrinsics(float(w), (w - 1) / 2, (h - 1) / 2)
     Ts = np.stack([pose_from_homography(K, H) for H in Hs])
     lens, first = NONE, residuals_of(K, NONE, Ts, p_board, uv)
-    yield State(phase="poses", Hs_image_board=Hs, rows=rows, K=K, guessed=guessed, Ts_camera_board=Ts, residuals=first)
+    yield State(
+        phase="poses",
+        Hs_image_board=Hs,
+        rows=rows,
+        K=K,
+        guessed=guessed,
+        Ts_camera_board=Ts,
+        residuals=first,
+    )
     Ts_begin = np.stack([motion(nearest_rotation(T[:3, :3]), T[:3, 3]) for T in Ts])
     if coefficients:
         radial = calibration.linear_lens(K, Ts_begin, p_board, uv, terms=min(coefficients, 2))
         lens = Distortion(*radial.tolist())
         bent = residuals_of(K, lens, Ts_begin, p_board, uv)
         yield State(
-            phase="lens", Hs_image_board=Hs, K=K, guessed=guessed, lens=lens, Ts_camera_board=Ts_begin, residuals=bent
+            phase="lens",
+            Hs_image_board=Hs,
+            K=K,
+            guessed=guessed,
+            lens=lens,
+            Ts_camera_board=Ts_begin,
+            residuals=bent,
         )
     refinement = adjust(
         K, lens, Ts_begin, p_board, uv,

@@ -75,7 +75,9 @@ class Searched:
 
 
 def pose_from_distances(
-    p_world: Float[np.ndarray, "3 3"], rays: Float[np.ndarray, "3 3"], distances: Float[np.ndarray, "3"]
+    p_world: Float[np.ndarray, "3 3"],
+    rays: Float[np.ndarray, "3 3"],
+    distances: Float[np.ndarray, "3"],
 ) -> Float[np.ndarray, "4 4"]:
     """Return the T_camera_world that takes three points to the ends of their rays.
 
@@ -88,7 +90,9 @@ def pose_from_distances(
 
 
 def choose_pose(
-    candidates: Float[np.ndarray, "m 4 4"], p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "n 2"]
+    candidates: Float[np.ndarray, "m 4 4"],
+    p_world: Float[np.ndarray, "n 3"],
+    xy: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "4 4"]:
     """Return the candidate with the least reprojection error among those that have all points in front.
 
@@ -149,7 +153,9 @@ def by_fourth_points(
     return Ts[order[first]], of_picture[order[first]]
 
 
-def planar_pairs(p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "k n 2"]) -> Float[np.ndarray, "k 2 4 4"]:
+def planar_pairs(
+    p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "k n 2"]
+) -> Float[np.ndarray, "k 2 4 4"]:
     """Return both motions of a plane in many pictures, refined, the one that fits better first.
 
     Args:
@@ -164,7 +170,9 @@ def planar_pairs(p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "k n 2
 
 @traced
 def by_plane(
-    p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "n 2"], choose_pose: ChoosePose = choose_pose
+    p_world: Float[np.ndarray, "n 3"],
+    xy: Float[np.ndarray, "n 2"],
+    choose_pose: ChoosePose = choose_pose,
 ) -> Iterator[Searched]:
     """Yield the two motions that a plane's picture leaves open, both refined, and the one that fits better.
 

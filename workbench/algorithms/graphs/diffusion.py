@@ -70,7 +70,12 @@ class Smoothed:
 
 @traced
 def smooth(
-    p: Float[np.ndarray, "v 3"], adjacency: Sparse, steps: int, *, inward: float = 0.5, outward: float = 0.0
+    p: Float[np.ndarray, "v 3"],
+    adjacency: Sparse,
+    steps: int,
+    *,
+    inward: float = 0.5,
+    outward: float = 0.0,
 ) -> Iterator[Smoothed]:
     """Yield vertices that move towards the mean of their neighbours, and after each such move a little back.
 
@@ -86,5 +91,7 @@ def smooth(
     for step in range(1, steps + 1):
         p = p + inward * (mean @ p - p)  # (2) and (3)
         if outward:
-            p = p - outward * (mean @ p - p)  # section 3: a pass that grows what the first has shrunk
+            p = p - outward * (
+                mean @ p - p
+            )  # section 3: a pass that grows what the first has shrunk
         yield Smoothed(step, p)

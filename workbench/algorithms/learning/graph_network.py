@@ -58,7 +58,9 @@ def spread(
         yield Layer(1, "normalised", features, gathers)
         yield Layer(1, "gathered", gathers @ features, gathers)
         for layer, w in enumerate(weights, 1):
-            features = np.asarray(gcn_layer(adjacency, features, w), float)  # eq. (2): ReLU(A_hat X W)
+            features = np.asarray(
+                gcn_layer(adjacency, features, w), float
+            )  # eq. (2): ReLU(A_hat X W)
             yield Layer(layer, "layer", features, gathers)
 
 
@@ -123,7 +125,10 @@ def train(
             back = (carried @ w[layer].T) * (hidden[layer] > 0)
             mean[layer] = 0.9 * mean[layer] + 0.1 * slope
             square[layer] = 0.999 * square[layer] + 0.001 * slope**2
-            unbiased = mean[layer] / (1 - 0.9 ** (iteration + 1)), square[layer] / (1 - 0.999 ** (iteration + 1))
+            unbiased = (
+                mean[layer] / (1 - 0.9 ** (iteration + 1)),
+                square[layer] / (1 - 0.999 ** (iteration + 1)),
+            )
             w[layer] = w[layer] - rate * unbiased[0] / (np.sqrt(unbiased[1]) + 1e-8)
 
 

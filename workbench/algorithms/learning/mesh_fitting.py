@@ -83,14 +83,18 @@ def fit_mesh(
     """
     p, count = p.copy(), len(p)
     L, edges, pairs = umbrella(faces, count), edges_of(faces), face_pairs(faces)
-    u = np.random.default_rng(0).random((3, MEASURED)).T  # the same at every state, so that curves do not tremble
+    u = (
+        np.random.default_rng(0).random((3, MEASURED)).T
+    )  # the same at every state, so that curves do not tremble
 
     def gradient() -> tuple[float, np.ndarray]:
         k, shares = places_on_faces(p, faces, rng.random((3, SAMPLES)).T)
         corners = faces[k]
         q = np.einsum("nk,nkx->nx", shares, p[corners])
         by_q = np.asarray(chamfer_gradient(q, given), float)
-        slope = scattered((shares[:, :, None] * by_q[:, None]).reshape(-1, 3), corners.ravel(), count)
+        slope = scattered(
+            (shares[:, :, None] * by_q[:, None]).reshape(-1, 3), corners.ravel(), count
+        )
         if weights["laplacian"]:
             slope += weights["laplacian"] * laplacian_energy(p, L)[1]
         if weights["normal"]:

@@ -12,7 +12,13 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
-from workbench.algorithms.learning.perceptron import Activation, backward, descend, forward, layers_of
+from workbench.algorithms.learning.perceptron import (
+    Activation,
+    backward,
+    descend,
+    forward,
+    layers_of,
+)
 from workbench.tracing import traced
 
 Target = Literal["sdf", "clamped", "occupancy"]
@@ -39,7 +45,9 @@ class Network:
     def __call__(self, p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
         """Return the field at points (m): negative inside."""
         x = encoded(p, self.frequencies)
-        return forward(layers_of(self.values, self.sizes), x, self.activation)[-1][:, 0].astype(float)
+        return forward(layers_of(self.values, self.sizes), x, self.activation)[-1][:, 0].astype(
+            float
+        )
 
     @property
     def bytes(self) -> int:
@@ -65,7 +73,9 @@ class Trained:
 def encoded(p: Float[np.ndarray, "n 3"], frequencies: int) -> Float[np.ndarray, "n k"]:
     """Return the coordinates, and the sine and cosine of pi 2^k times each of them, k below `frequencies`; float32."""
     p = p.astype(np.float32)
-    waves = [wave(np.float32(np.pi * 2**k) * p) for k in range(frequencies) for wave in (np.sin, np.cos)]
+    waves = [
+        wave(np.float32(np.pi * 2**k) * p) for k in range(frequencies) for wave in (np.sin, np.cos)
+    ]
     return np.concatenate([p, *waves], axis=1)
 
 
@@ -84,7 +94,9 @@ def new_network(
     sizes = (3 + 6 * frequencies, *[width] * hidden, 1)
     values = []
     for k, (into, out) in enumerate(pairwise(sizes)):
-        values.append(rng.normal(size=into * out) * np.sqrt((2 if activation == "relu" else 1) / into))
+        values.append(
+            rng.normal(size=into * out) * np.sqrt((2 if activation == "relu" else 1) / into)
+        )
         inner = k < hidden and activation == "tanh"
         values.append(rng.uniform(-0.5, 0.5, out) if inner else np.zeros(out))
     flat = np.concatenate(values).astype(np.float32)

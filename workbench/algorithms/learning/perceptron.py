@@ -43,7 +43,9 @@ def layers_of(values: Float[np.ndarray, " w"], sizes: Sequence[int]) -> Layers:
     return layers
 
 
-def forward(layers: Layers, x: Float[np.ndarray, "n a"], activation: Activation) -> list[np.ndarray]:
+def forward(
+    layers: Layers, x: Float[np.ndarray, "n a"], activation: Activation
+) -> list[np.ndarray]:
     """Return what goes into each layer, and what comes out of the last.
 
     Args:
@@ -60,7 +62,11 @@ def forward(layers: Layers, x: Float[np.ndarray, "n a"], activation: Activation)
 
 
 def backward(
-    layers: Layers, outputs: list[np.ndarray], slope: Float[np.ndarray, "n b"], activation: Activation, into: Layers
+    layers: Layers,
+    outputs: list[np.ndarray],
+    slope: Float[np.ndarray, "n b"],
+    activation: Activation,
+    into: Layers,
 ) -> Float[np.ndarray, "n c"]:
     """Write the gradients of all weights and biases; return that by the sums of the first layer.
 
@@ -82,7 +88,9 @@ def backward(
     return slope
 
 
-def descend(values: np.ndarray, gradient: Gradient, counts: Sequence[int], rate: float) -> Iterator[tuple[int, float]]:
+def descend(
+    values: np.ndarray, gradient: Gradient, counts: Sequence[int], rate: float
+) -> Iterator[tuple[int, float]]:
     """Yield how many steps Adam has taken, and the mean loss since the last yield, while the values are moved in place.
 
     Args:
@@ -106,6 +114,8 @@ def descend(values: np.ndarray, gradient: Gradient, counts: Sequence[int], rate:
             moment += real(1 - _B1) * (slope - moment)
             square += real(1 - _B2) * (slope * slope - square)
             now = rate * (1 - done / (1.07 * counts[-1])) / (1 - _B1**done)
-            values -= real(now) * moment / (np.sqrt(square * real(1 / (1 - _B2**done))) + real(_TINY))
+            values -= (
+                real(now) * moment / (np.sqrt(square * real(1 / (1 - _B2**done))) + real(_TINY))
+            )
         yield done, float(np.mean(losses))
         losses = []

@@ -12,7 +12,14 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from workbench.algorithms.learning.graph_network import softmax
-from workbench.algorithms.learning.perceptron import backward, count_values, descend, forward, layers_of, new_values
+from workbench.algorithms.learning.perceptron import (
+    backward,
+    count_values,
+    descend,
+    forward,
+    layers_of,
+    new_values,
+)
 from workbench.tracing import traced
 
 Pool = Literal["max", "mean", "none"]
@@ -53,18 +60,31 @@ class PointNet:
         clouds = clouds.astype(self.values.dtype)
         if self.pool == "none":
             x = clouds.reshape(count, -1)
-            return Pass(points=[], features=x, winners=np.empty((count, 0), int), head=forward(of_head, x, "relu"))
+            return Pass(
+                points=[],
+                features=x,
+                winners=np.empty((count, 0), int),
+                head=forward(of_head, x, "relu"),
+            )
         outputs = forward(of_points, clouds.reshape(-1, 3), "relu")
         features = np.maximum(outputs[-1], 0).reshape(count, n, -1)
         winners = features.argmax(axis=1)
         largest = np.take_along_axis(features, winners[:, None], 1)[:, 0]  # eq. (1)
         pooled = largest if self.pool == "max" else features.mean(axis=1)
-        return Pass(points=outputs, features=features, winners=winners, head=forward(of_head, pooled, "relu"))
+        return Pass(
+            points=outputs,
+            features=features,
+            winners=winners,
+            head=forward(of_head, pooled, "relu"),
+        )
 
     def slopes(self, done: "Pass", slope: Float[np.ndarray, "b c"]) -> Float[np.ndarray, " w"]:
         """Return the gradient by all values, given that by the scores of a pass."""
         gradient = np.zeros_like(self.values)
-        (of_points, of_head), (into_points, into_head) = self._layers(self.values), self._layers(gradient)
+        (of_points, of_head), (into_points, into_head) = (
+            self._layers(self.values),
+            self._layers(gradient),
+        )
         by_pooled = backward(of_head, done.head, slope, "relu", into_head) @ of_head[0][0].T
         if self.pool == "none":
             return gradient
@@ -74,7 +94,13 @@ class PointNet:
         else:
             by_features += by_pooled[:, None] / done.features.shape[1]
         by_features *= done.features > 0
-        backward(of_points, done.points, by_features.reshape(-1, by_features.shape[2]), "relu", into_points)
+        backward(
+            of_points,
+            done.points,
+            by_features.reshape(-1, by_features.shape[2]),
+            "relu",
+            into_points,
+        )
         return gradient
 
     def _layers(self, values: np.ndarray) -> tuple:
@@ -139,7 +165,9 @@ def train_classifier(
     n = next(iter(tests.values())).shape[1]
     pointwise = POINTWISE if pool != "none" else ()
     head = (POINTWISE[-1], HEAD, classes) if pool != "none" else (3 * n, FLAT, HEAD, classes)
-    values = np.concatenate([new_values(sizes, rng) for sizes in (pointwise, head) if sizes]).astype(np.float32)
+    values = np.concatenate(
+        [new_values(sizes, rng) for sizes in (pointwise, head) if sizes]
+    ).astype(np.float32)
     network = PointNet(values=values, pointwise=pointwise, head=head, pool=pool)
 
     def gradient() -> tuple[float, np.ndarray]:
@@ -153,5 +181,8 @@ def train_classifier(
     for updates, loss in descend(values, gradient, counts, RATE):
         now = PointNet(values=values.copy(), pointwise=pointwise, head=head, pool=pool)
         yield Classified(
-            updates=updates, loss=loss, network=now, scores={name: now(clouds) for name, clouds in tests.items()}
+            updates=updates,
+            loss=loss,
+            network=now,
+            scores={name: now(clouds) for name, clouds in tests.items()},
         )

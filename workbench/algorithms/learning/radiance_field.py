@@ -11,11 +11,21 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.algorithms.learning.perceptron import descend
-from workbench.geometry.cameras.volume_rendering import RayWeights, ray_weights, samples_on, seen, through_seen
+from workbench.geometry.cameras.volume_rendering import (
+    RayWeights,
+    ray_weights,
+    samples_on,
+    seen,
+    through_seen,
+)
 from workbench.tracing import traced
 
 CELLS, SAMPLES, RAYS, RATE = 32, 40, 160, 0.25
-OUTSIDE, LEAST, PER_UNIT = -6.0, -2.0, 10.0  # raw density beyond the grid and at the start; 1/m that one unit is
+OUTSIDE, LEAST, PER_UNIT = (
+    -6.0,
+    -2.0,
+    10.0,
+)  # raw density beyond the grid and at the start; 1/m that one unit is
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -45,7 +55,10 @@ class RadianceField:
         return _at(self.raw, *_between(p))[:2]
 
     def along(
-        self, p: Float[np.ndarray, "r 2"], d: Float[np.ndarray, "r 2"], ray_weights: RayWeights = ray_weights
+        self,
+        p: Float[np.ndarray, "r 2"],
+        d: Float[np.ndarray, "r 2"],
+        ray_weights: RayWeights = ray_weights,
     ) -> tuple[Float[np.ndarray, "r s"], Float[np.ndarray, "r 3"]]:
         """Return the weights along rays and the colours that they see.
 
@@ -108,11 +121,16 @@ def reconstruct(
         off = seen(np.asarray(ray_weights(density, spacing), float), color) - colors[rays]
         by_density, by_color = through_seen(2 * off / off.size, density, color, spacing)
         slope = np.concatenate([by_density[:, :, None], by_color], axis=2) * by_raw
-        into = (np.bincount(nodes.ravel(), (shares * slope[:, :, None, k]).ravel(), len(raw)) for k in range(4))
+        into = (
+            np.bincount(nodes.ravel(), (shares * slope[:, :, None, k]).ravel(), len(raw))
+            for k in range(4)
+        )
         return float((off * off).mean()), np.stack(list(into), axis=1)
 
     for updates, loss in descend(raw, gradient, counts, RATE):
-        yield Reconstructed(updates=updates, loss=loss, field=RadianceField(raw=raw.copy(), reach=reach))
+        yield Reconstructed(
+            updates=updates, loss=loss, field=RadianceField(raw=raw.copy(), reach=reach)
+        )
 
 
 def _between(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -123,10 +141,14 @@ def _between(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     low = at.astype(int)
     (fx, fy), node = np.moveaxis(at - low, -1, 0), low[..., 0] * CELLS + low[..., 1]
     shares = np.stack([(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy], axis=-1)
-    return np.stack([node, node + CELLS, node + 1, node + CELLS + 1], axis=-1), shares * np.expand_dims(inside, -1)
+    return np.stack(
+        [node, node + CELLS, node + 1, node + CELLS + 1], axis=-1
+    ), shares * np.expand_dims(inside, -1)
 
 
-def _at(raw: np.ndarray, nodes: np.ndarray, shares: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _at(
+    raw: np.ndarray, nodes: np.ndarray, shares: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return density and colour, and the derivatives of all four by what the nodes add up to."""
     mixed = np.einsum("rsk,rskc->rsc", shares, raw[nodes])
     rate = mixed[:, :, 0] + OUTSIDE * (1 - shares.sum(axis=-1))

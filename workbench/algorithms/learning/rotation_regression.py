@@ -10,8 +10,19 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
-from workbench.algorithms.learning.perceptron import backward, descend, forward, layers_of, new_values
-from workbench.geometry.motions.rotation_outputs import Representation, Rotations, degrees_apart, random_rotations
+from workbench.algorithms.learning.perceptron import (
+    backward,
+    descend,
+    forward,
+    layers_of,
+    new_values,
+)
+from workbench.geometry.motions.rotation_outputs import (
+    Representation,
+    Rotations,
+    degrees_apart,
+    random_rotations,
+)
 from workbench.tracing import traced
 
 Compared = Literal["numbers", "matrix"]
@@ -77,7 +88,9 @@ def regress(
             off = y - representation.numbers(R_true)
             slope = 2 * off / BATCH
         else:
-            off = representation.decode(y) - R_true  # |R - R_true|², 8 sin²(a / 2) of the angle a between them
+            off = (
+                representation.decode(y) - R_true
+            )  # |R - R_true|², 8 sin²(a / 2) of the angle a between them
             slope = representation.pullback(y, 2 * off / BATCH)
         backward(layers, outputs, slope, "relu", into)
         return float((off * off).sum() / BATCH), slopes

@@ -116,7 +116,13 @@ def adjust(
     free = np.arange(9) < 4 + coefficients
     shared = shared_numbers(K, lens)
     R, t = Ts_camera_board[:, :3, :3], Ts_camera_board[:, :3, 3]
-    block, damping, accepted, stop, covariance = linearised(shared, R, t, p_board, uv), 1e-4, True, None, None
+    block, damping, accepted, stop, covariance = (
+        linearised(shared, R, t, p_board, uv),
+        1e-4,
+        True,
+        None,
+        None,
+    )
     cost, weights = loss(block, corner)
     for iteration in range(max_iterations + 1):
         if iteration == max_iterations:
@@ -202,7 +208,10 @@ def linearised(
     slope_xx = factor + x * (growth * x + 4.0 * p2)  # the lens's own Jacobian, which is symmetric
     slope_xy = growth * xy + 2.0 * (p1 * x + p2 * y)
     slope_yy = factor + y * (growth * y + 4.0 * p1)
-    for part, along_x, along_y in ((of_u, fx * slope_xx, fx * slope_xy), (of_v, fy * slope_xy, fy * slope_yy)):
+    for part, along_x, along_y in (
+        (of_u, fx * slope_xx, fx * slope_xy),
+        (of_v, fy * slope_xy, fy * slope_yy),
+    ):
         a, b = along_x * per_depth, along_y * per_depth
         c = -(x * a + y * b)
         part[:, 12], part[:, 13], part[:, 14] = a, b, c
@@ -214,7 +223,9 @@ def linearised(
 
 
 @_QUIETLY
-def loss(block: Float[np.ndarray, "k 16 m"], corner: float | None) -> tuple[float, Float[np.ndarray, "k n"]]:
+def loss(
+    block: Float[np.ndarray, "k 16 m"], corner: float | None
+) -> tuple[float, Float[np.ndarray, "k n"]]:
     """Return the sum of the loss of all residuals, and the weight of each corner: squares, or Cauchy's loss.
 
     Cauchy's loss is c² log(1 + e²/c²), whose slope is that of the weighted square e² / (1 + e²/c²).
@@ -244,16 +255,22 @@ def solved(
     P[:, range(6), range(6)] *= 1.0 + damping
     step = np.zeros(9)
     try:
-        eliminated = np.linalg.solve(P, np.concatenate([np.moveaxis(B, 1, 2), h[:, :, None]], axis=2))
+        eliminated = np.linalg.solve(
+            P, np.concatenate([np.moveaxis(B, 1, 2), h[:, :, None]], axis=2)
+        )
         per_shared, alone = eliminated[:, :, :-1], eliminated[:, :, -1]
-        step[free] = np.linalg.solve(A - (B @ per_shared).sum(axis=0), np.einsum("ksp,kp->s", B, alone) - g)
+        step[free] = np.linalg.solve(
+            A - (B @ per_shared).sum(axis=0), np.einsum("ksp,kp->s", B, alone) - g
+        )
     except np.linalg.LinAlgError:
         return None
     poses = -alone - per_shared @ step[free]
     return (step, poses) if np.isfinite(step).all() and np.isfinite(poses).all() else None
 
 
-def shared_information(block: Float[np.ndarray, "k 16 m"], free: Bool[np.ndarray, "9"]) -> Float[np.ndarray, "f f"]:
+def shared_information(
+    block: Float[np.ndarray, "k 16 m"], free: Bool[np.ndarray, "9"]
+) -> Float[np.ndarray, "f f"]:
     """Return what is left of the normal matrix for the free shared unknowns once the poses are eliminated."""
     return _information(block @ np.swapaxes(block, 1, 2), free)
 

@@ -93,7 +93,9 @@ def damped_step(
     size, k = np.linalg.norm(jacobian, axis=0), jacobian.shape[1]
     if not (size > 0.0).all():
         raise np.linalg.LinAlgError("some unknown changes no residual")
-    rows = np.vstack([jacobian / size, np.sqrt(damping) * np.eye(k)]) if damping else jacobian / size
+    rows = (
+        np.vstack([jacobian / size, np.sqrt(damping) * np.eye(k)]) if damping else jacobian / size
+    )
     wanted = np.concatenate([-residuals, np.zeros(len(rows) - len(residuals))])
     step, _, rank, _ = np.linalg.lstsq(rows, wanted, rcond=None)
     if rank < k:
@@ -134,14 +136,18 @@ def descend(
     )  # fmt: skip
     yield now
     for iteration in range(1, iterations + 1):
-        now = replace(now, phase="linearised", iteration=iteration, step=None, trial=None, trial_cost=np.nan)
+        now = replace(
+            now, phase="linearised", iteration=iteration, step=None, trial=None, trial_cost=np.nan
+        )
         yield now
         try:
             step = damped_step(now.residuals, now.jacobian, now.damping)
         except np.linalg.LinAlgError:
             yield replace(now, phase="rejected", stop=Stop.SINGULAR)
             return
-        with np.errstate(over="ignore", invalid="ignore"):  # what overflows has diverged, and is said to
+        with np.errstate(
+            over="ignore", invalid="ignore"
+        ):  # what overflows has diverged, and is said to
             trial = retract(now.unknown, step)
             trial_residuals, trial_jacobian = linearise(trial)
             trial_cost = float(trial_residuals @ trial_residuals)
@@ -175,7 +181,9 @@ class Along:
     promised: Float[np.ndarray, " k"]
 
 
-def along_step(now: Descent, linearise: Linearise, retract: Retract, shares: Float[np.ndarray, " k"]) -> Along:
+def along_step(
+    now: Descent, linearise: Linearise, retract: Retract, shares: Float[np.ndarray, " k"]
+) -> Along:
     """Return the sums of squares along the step of a descent.
 
     Args:
@@ -193,7 +201,9 @@ def along_step(now: Descent, linearise: Linearise, retract: Retract, shares: Flo
     with np.errstate(over="ignore", invalid="ignore"):
         unknowns = retract(np.tile(now.unknown, (len(shares), 1)), shares[:, None] * now.step)
         costs = np.square(linearise(unknowns)[0]).sum(axis=-1)
-        promised = np.square(now.residuals + shares[:, None] * (now.jacobian @ now.step)).sum(axis=-1)
+        promised = np.square(now.residuals + shares[:, None] * (now.jacobian @ now.step)).sum(
+            axis=-1
+        )
     return Along(shares, costs, promised)
 
 
@@ -215,7 +225,10 @@ class Walked:
 
 
 def with_its_way(
-    moments: Iterator[Descent], linearise: Linearise, retract: Retract, shares: Float[np.ndarray, " k"]
+    moments: Iterator[Descent],
+    linearise: Linearise,
+    retract: Retract,
+    shares: Float[np.ndarray, " k"],
 ) -> Iterator[Walked]:
     """Yield the moments of a descent, each with the way that led there.
 
@@ -237,7 +250,9 @@ def with_its_way(
         yield Walked(now, np.array(kept), np.array(taken_back).reshape(-1, now.unknown.size), along)
 
 
-def covariance(residuals: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n k"]) -> Float[np.ndarray, "k k"]:
+def covariance(
+    residuals: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n k"]
+) -> Float[np.ndarray, "k k"]:
     """Return the covariance of the unknowns at the minimum, s² (JᵀJ)⁻¹ with s² = r·r / (n - k).
 
     It holds for residuals with independent errors of one size, and as far as the problem is straight; infinite where n
@@ -303,13 +318,22 @@ def descend_many(
             trials = retract(unknowns, steps)
             trial_residuals, trial_jacobians = linearise(trials)
             trial_costs = np.square(trial_residuals).sum(-1)
-            predicted = costs - np.square(residuals + (jacobians @ steps[..., None])[..., 0]).sum(-1)
+            predicted = costs - np.square(residuals + (jacobians @ steps[..., None])[..., 0]).sum(
+                -1
+            )
             change = np.minimum(np.abs(costs - trial_costs), np.abs(predicted))
         finite = np.isfinite(trial_costs) & np.isfinite(trials).all(axis=-1)
         taken = finite & ~done & ((trial_costs < costs) | (damping == 0.0))
         done = done | ~finite | (change <= tolerance * costs)
-        dampings = np.where(taken, np.maximum(dampings / CHANGE, LEAST_DAMPING if damping else 0.0), dampings * CHANGE)
-        unknowns, costs = np.where(taken[:, None], trials, unknowns), np.where(taken, trial_costs, costs)
+        dampings = np.where(
+            taken,
+            np.maximum(dampings / CHANGE, LEAST_DAMPING if damping else 0.0),
+            dampings * CHANGE,
+        )
+        unknowns, costs = (
+            np.where(taken[:, None], trials, unknowns),
+            np.where(taken, trial_costs, costs),
+        )
         residuals = np.where(taken[:, None], trial_residuals, residuals)
         jacobians = np.where(taken[:, None, None], trial_jacobians, jacobians)
         yield Descents(iteration, unknowns, costs, done)

@@ -60,11 +60,17 @@ class Gate:
 
     def __post_init__(self) -> None:
         if not (self.max_distance > 0 and 0 < self.keep <= 1 and self.medians >= 1):
-            raise ValueError(f"max_distance > 0, 0 < keep <= 1 and medians >= 1 are needed, not {self}")
+            raise ValueError(
+                f"max_distance > 0, 0 < keep <= 1 and medians >= 1 are needed, not {self}"
+            )
 
     def limit(self, distances: Float[np.ndarray, "n"]) -> float:
         """Return the largest distance that is accepted, in metres."""
-        near = distances[distances <= self.max_distance] if np.isfinite(self.max_distance) else distances
+        near = (
+            distances[distances <= self.max_distance]
+            if np.isfinite(self.max_distance)
+            else distances
+        )
         limit = self.max_distance
         if len(near) and self.keep < 1:
             count = int(np.ceil(self.keep * len(near)))
@@ -105,7 +111,9 @@ class State:
     stop: Stop | None = None
 
 
-def nearest(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]) -> Int[np.ndarray, "n"]:
+def nearest(
+    p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]
+) -> Int[np.ndarray, "n"]:
     """Return the index of the target point nearest to each source point.
 
     Args:
@@ -176,16 +184,30 @@ def icp(
         n_match = None if n_target is None else n_target[indices]
         stop = Stop.TOO_FEW_MATCHES if np.count_nonzero(kept) < fewest else None
         residual = misfit(p_match, p_moved, n_match, distances, kept)
-        yield summary("match", iteration, T_target_source, indices, distances, limit, kept, residual, stop)
+        yield summary(
+            "match", iteration, T_target_source, indices, distances, limit, kept, residual, stop
+        )
         if stop:
             return
 
         if n_match is None:
             T_new = align(p_match[kept], p_source[kept])  # step b: Umeyama 1991, eq. 40-42
         else:
-            T_new = step(p_match[kept], p_moved[kept], n_match[kept]) @ T_target_source  # Low 2004, eq. 10
+            T_new = (
+                step(p_match[kept], p_moved[kept], n_match[kept]) @ T_target_source
+            )  # Low 2004, eq. 10
         if not np.isfinite(T_new).all():
-            yield summary("fit", iteration, T_target_source, indices, distances, limit, kept, residual, Stop.NOT_FINITE)
+            yield summary(
+                "fit",
+                iteration,
+                T_target_source,
+                indices,
+                distances,
+                limit,
+                kept,
+                residual,
+                Stop.NOT_FINITE,
+            )
             return
         largest_move = lengths(apply(T_new, corners) - apply(T_target_source, corners)).max()
         T_target_source, p_moved = T_new, apply(T_new, p_source)  # step c: apply the registration
@@ -193,13 +215,17 @@ def icp(
         matches = hash((indices.tobytes(), kept.tobytes()))
         if largest_move <= shortest_move:  # step d: terminate
             stop = Stop.CONVERGED
-        elif last_seen.get(matches, iteration) < iteration - 1:  # only without a cost that must fall: planes, gates
+        elif (
+            last_seen.get(matches, iteration) < iteration - 1
+        ):  # only without a cost that must fall: planes, gates
             stop = Stop.CIRCLING
         elif iteration == max_iterations:
             stop = Stop.MAX_ITERATIONS
         last_seen[matches] = iteration
         residual = misfit(p_match, p_moved, n_match, distances, kept)
-        yield summary("fit", iteration, T_target_source, indices, distances, limit, kept, residual, stop)
+        yield summary(
+            "fit", iteration, T_target_source, indices, distances, limit, kept, residual, stop
+        )
         if stop:
             return
 

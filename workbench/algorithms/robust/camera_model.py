@@ -20,9 +20,13 @@ def camera_model(K: Float[np.ndarray, "3 3"]) -> Model:
     f = float(K[0, 0])
 
     def parts(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return rows[..., :3], normalize(rows[..., 3:].reshape(-1, 2), K).reshape(*rows.shape[:-1], 2)
+        return rows[..., :3], normalize(rows[..., 3:].reshape(-1, 2), K).reshape(
+            *rows.shape[:-1], 2
+        )
 
-    def refit(rows: np.ndarray, weights: np.ndarray | None = None, start: np.ndarray | None = None) -> np.ndarray:
+    def refit(
+        rows: np.ndarray, weights: np.ndarray | None = None, start: np.ndarray | None = None
+    ) -> np.ndarray:
         p_world, xy = parts(rows)
         T = sqpnp(p_world, xy) if start is None else start
         return refined(T[None], p_world, xy, weights=weights)[0]

@@ -95,14 +95,18 @@ CAUCHY = Loss(
 GEMAN_MCCLURE = Loss(
     name="Geman-McClure",
     efficient_corner=3.787,
-    cost=lambda distances, corner: 0.5 * np.square(distances) / (1.0 + np.square(distances / corner)),
+    cost=lambda distances, corner: (
+        0.5 * np.square(distances) / (1.0 + np.square(distances / corner))
+    ),
     weights=lambda distances, corner: 1.0 / np.square(1.0 + np.square(distances / corner)),
 )
 TUKEY = Loss(
     name="Tukey",
     efficient_corner=4.685,
     cost=_tukey_cost,
-    weights=lambda distances, corner: np.square(np.maximum(1.0 - np.square(distances / corner), 0.0)),
+    weights=lambda distances, corner: np.square(
+        np.maximum(1.0 - np.square(distances / corner), 0.0)
+    ),
 )
 LOSSES = {loss.name: loss for loss in (SQUARES, HUBER, CAUCHY, GEMAN_MCCLURE, TUKEY)}
 
@@ -151,11 +155,19 @@ def cascade(
     for k, (loss, corner) in enumerate(losses):
         start = now.estimate if now else None
         for now in reweighted_fit(
-            p, model, loss, corner=corner, start=start, max_iterations=max_iterations, tolerance=tolerance
+            p,
+            model,
+            loss,
+            corner=corner,
+            start=start,
+            max_iterations=max_iterations,
+            tolerance=tolerance,
         ):
             first = now.estimate if first is None else first
             if start is None or now.iteration > 0:
-                yield Trusted(loss, corner, now, first, now.stop is not None and k == len(losses) - 1)
+                yield Trusted(
+                    loss, corner, now, first, now.stop is not None and k == len(losses) - 1
+                )
 
 
 @traced
@@ -200,6 +212,8 @@ def reweighted_fit(
         stop = Settled.MAX_ITERATIONS if iteration == max_iterations else None
         if np.abs(distances - before).max() <= tolerance * corner:
             stop = Settled.CONVERGED
-        yield Reweighted(iteration, estimate, distances, weights, float(loss.cost(distances, corner).sum()), stop)
+        yield Reweighted(
+            iteration, estimate, distances, weights, float(loss.cost(distances, corner).sum()), stop
+        )
         if stop:
             return

@@ -81,10 +81,14 @@ def finite(estimates: Float[np.ndarray, "k ..."]) -> Float[np.ndarray, "j ..."]:
 
 def from_points(solver: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndarray], np.ndarray]:
     """Return a `Model.solve` made of a function that takes one sample and gives one estimate, NaN for a degenerate one."""
-    return lambda samples: finite(np.stack([np.asarray(solver(sample), dtype=float) for sample in samples]))
+    return lambda samples: finite(
+        np.stack([np.asarray(solver(sample), dtype=float) for sample in samples])
+    )
 
 
-def rms_distance(model: Model, estimate: Float[np.ndarray, "..."], p: Float[np.ndarray, "n d"]) -> float:
+def rms_distance(
+    model: Model, estimate: Float[np.ndarray, "..."], p: Float[np.ndarray, "n d"]
+) -> float:
     """Return the root mean square distance of the rows to an estimate: its error, where the rows are free of noise.
 
     Args:
@@ -107,7 +111,9 @@ def _sphere_distances(sphere: np.ndarray, p: np.ndarray) -> np.ndarray:
     return np.abs(sphere_distances(sphere, p))
 
 
-def _refit_hyperplane(p: np.ndarray, weights: np.ndarray | None = None, start: np.ndarray | None = None) -> np.ndarray:
+def _refit_hyperplane(
+    p: np.ndarray, weights: np.ndarray | None = None, start: np.ndarray | None = None
+) -> np.ndarray:
     """Fit in closed form; a start is not needed."""
     return fit_hyperplane(p, weights)
 
@@ -157,8 +163,13 @@ def _solve_rigid(samples: np.ndarray) -> np.ndarray:
     if len(T_target_source):
         p, q = p_source[alike], p_target[alike]
         mean_p, mean_q = p.mean(axis=1, keepdims=True), q.mean(axis=1, keepdims=True)
-        R = nearest_rotation(np.swapaxes(q - mean_q, 1, 2) @ (p - mean_p))  # as align_rigid, for many triangles
-        T_target_source[:, :3, :3], T_target_source[:, :3, 3] = R, (mean_q - mean_p @ np.swapaxes(R, 1, 2))[:, 0]
+        R = nearest_rotation(
+            np.swapaxes(q - mean_q, 1, 2) @ (p - mean_p)
+        )  # as align_rigid, for many triangles
+        T_target_source[:, :3, :3], T_target_source[:, :3, 3] = (
+            R,
+            (mean_q - mean_p @ np.swapaxes(R, 1, 2))[:, 0],
+        )
     return T_target_source
 
 
@@ -168,7 +179,9 @@ def _pair_distances(T_target_source: np.ndarray, pairs: np.ndarray) -> np.ndarra
     return np.sqrt(np.einsum("...ij,...ij->...i", off, off))
 
 
-def _refit_rigid(pairs: np.ndarray, weights: np.ndarray | None = None, start: np.ndarray | None = None) -> np.ndarray:
+def _refit_rigid(
+    pairs: np.ndarray, weights: np.ndarray | None = None, start: np.ndarray | None = None
+) -> np.ndarray:
     """Fit in closed form; a start is not needed."""
     return align_rigid(pairs[:, 3:], pairs[:, :3], weights)
 

@@ -190,7 +190,9 @@ def ransac(
             if trial.score > (best.score if best else 0.0):
                 best = polished(p, model, trial, judge) if local_refit else trial
                 share = best.count / len(p) if share_of is None else share_of(best)
-                needed = min(max_iterations, needed_for(share, model.sample_size, confidence))  # eq. 4.18
+                needed = min(
+                    max_iterations, needed_for(share, model.sample_size, confidence)
+                )  # eq. 4.18
                 yield State("best", iteration, needed, sample, best.estimate, best, best)
         if iteration >= needed:
             stop = Stop.MAX_ITERATIONS if needed == max_iterations else Stop.ENOUGH
@@ -199,7 +201,9 @@ def ransac(
     for refit in refit_rounds(p, model, best, judge) if best else ():
         best = refit
         yield State("refit", iteration, needed, sample, best.estimate, best, best)
-    yield State("stop", iteration, needed, sample, None, None, best, stop if best else Stop.NO_MODEL)
+    yield State(
+        "stop", iteration, needed, sample, None, None, best, stop if best else Stop.NO_MODEL
+    )
 
 
 def solved_ahead(
@@ -222,7 +226,9 @@ def solved_ahead(
             estimates, of_sample = solve_each(rows)
             ends = np.searchsorted(of_sample, np.arange(1, len(batch)))
             known.clear()
-            known.update(zip((one.tobytes() for one in rows), np.split(estimates, ends), strict=True))
+            known.update(
+                zip((one.tobytes() for one in rows), np.split(estimates, ends), strict=True)
+            )
             yield from batch
 
     def solve(asked: np.ndarray) -> np.ndarray:
@@ -260,7 +266,9 @@ def refit_rounds(
         fit = again
 
 
-def polished(p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit]) -> Fit:
+def polished(
+    p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit]
+) -> Fit:
     """Return the fit after its refit rounds, or as it was if they lower its score.
 
     Args:
@@ -280,8 +288,12 @@ def check_rows(p: Float[np.ndarray, "n d"], model: Model) -> None:
         ValueError: If there are too few rows, they have the wrong number of columns, or are not finite.
     """
     if p.shape[1] != model.columns:
-        raise ValueError(f"a {model.name} is fitted to rows of {model.columns} numbers, not {p.shape[1]}")
+        raise ValueError(
+            f"a {model.name} is fitted to rows of {model.columns} numbers, not {p.shape[1]}"
+        )
     if len(p) < model.sample_size:
-        raise ValueError(f"a {model.name} needs {model.sample_size} points, there are only {len(p)}")
+        raise ValueError(
+            f"a {model.name} needs {model.sample_size} points, there are only {len(p)}"
+        )
     if not np.isfinite(p).all():
         raise ValueError("some coordinates are not finite; drop those rows first")

@@ -11,7 +11,9 @@ from scipy.special import bdtrc
 FEWEST_TRUSTED = 20
 
 
-def uniform_samples(n: int, size: int, rng: np.random.Generator) -> Iterator[Int[np.ndarray, " size"]]:
+def uniform_samples(
+    n: int, size: int, rng: np.random.Generator
+) -> Iterator[Int[np.ndarray, " size"]]:
     """Yield samples of `size` different rows out of n, all sets equally likely, without end.
 
     Args:
@@ -27,7 +29,11 @@ def uniform_samples(n: int, size: int, rng: np.random.Generator) -> Iterator[Int
 
 
 def prosac_samples(
-    quality: Float[np.ndarray, " n"], size: int, rng: np.random.Generator, *, grown_after: int = 20_000
+    quality: Float[np.ndarray, " n"],
+    size: int,
+    rng: np.random.Generator,
+    *,
+    grown_after: int = 20_000,
 ) -> Iterator[Int[np.ndarray, "..."]]:
     """Yield samples from the most trusted rows first, from a pool that grows until it holds all rows.
 
@@ -86,7 +92,9 @@ def termination_length(
     """
     found = np.cumsum(inliers[np.argsort(-quality, kind="stable")])
     n = np.arange(1, len(found) + 1)
-    chance = bdtrc(found - size - 1.0, np.maximum(n - size, 1), by_chance)  # of at least so many beside the sample
+    chance = bdtrc(
+        found - size - 1.0, np.maximum(n - size, 1), by_chance
+    )  # of at least so many beside the sample
     counts = (n >= min(FEWEST_TRUSTED, len(n))) & (n > size) & (found > size) & (chance < doubt)
     if not counts.any():
         return 0, 0.0
@@ -95,7 +103,9 @@ def termination_length(
     return length, float(share.max())
 
 
-def draw_samples(n: int, size: int, samples: int, rng: np.random.Generator) -> Int[np.ndarray, "samples size"]:
+def draw_samples(
+    n: int, size: int, samples: int, rng: np.random.Generator
+) -> Int[np.ndarray, "samples size"]:
     """Return so many samples of `size` different rows out of n, each in random order.
 
     Args:

@@ -14,7 +14,9 @@ Score = Callable[[np.ndarray, float], np.ndarray]
 """score(distances, inlier_distance) -> one number per row of distances."""
 
 
-def count_score(distances: Float[np.ndarray, "*k n"], inlier_distance: float) -> Shaped[np.ndarray, "*k"]:
+def count_score(
+    distances: Float[np.ndarray, "*k n"], inlier_distance: float
+) -> Shaped[np.ndarray, "*k"]:
     """Return the number of points within the inlier distance: the score of RANSAC.
 
     Reference: Fischler and Bolles, Random Sample Consensus, 1981, section II.
@@ -22,7 +24,9 @@ def count_score(distances: Float[np.ndarray, "*k n"], inlier_distance: float) ->
     return np.asarray(np.count_nonzero(distances <= inlier_distance, axis=-1))
 
 
-def msac_score(distances: Float[np.ndarray, "*k n"], inlier_distance: float) -> Shaped[np.ndarray, "*k"]:
+def msac_score(
+    distances: Float[np.ndarray, "*k n"], inlier_distance: float
+) -> Shaped[np.ndarray, "*k"]:
     """Return the sum over points of 1 - (distance / inlier distance)², nothing for a point beyond the inlier distance.
 
     It is n minus the truncated sum of squares of the paper, in units of the squared inlier distance.
@@ -58,7 +62,9 @@ def mlesac_score(
     return np.asarray(np.log(share * ratio + 1.0 - share).sum(axis=-1))
 
 
-def count_inliers(plane: Float[np.ndarray, "4"], p: Float[np.ndarray, "n 3"], inlier_distance: float) -> int:
+def count_inliers(
+    plane: Float[np.ndarray, "4"], p: Float[np.ndarray, "n 3"], inlier_distance: float
+) -> int:
     """Return how many points lie within the inlier distance of a plane, on either side.
 
     Args:

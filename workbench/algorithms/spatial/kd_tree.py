@@ -43,7 +43,10 @@ class Tree:
 
 
 def build_tree(
-    p: Float[np.ndarray, "n d"], low: Float[np.ndarray, " d"], high: Float[np.ndarray, " d"], leaf: int = LEAF
+    p: Float[np.ndarray, "n d"],
+    low: Float[np.ndarray, " d"],
+    high: Float[np.ndarray, " d"],
+    leaf: int = LEAF,
 ) -> Tree:
     """Return the k-d tree of some points.
 
@@ -131,7 +134,9 @@ def search(tree: Tree, q: Float[np.ndarray, " d"]) -> Iterator[Visit]:
     first, last, at = tree.first.tolist(), tree.last.tolist(), q.tolist()
     best, nearest, looked = np.inf, -1, 0
     passed: tuple[int, ...] = ()
-    waiting: list[tuple[int, float, dict[int, float]]] = [(0, 0.0, {})]  # cell, its squared distance, axis by axis
+    waiting: list[tuple[int, float, dict[int, float]]] = [
+        (0, 0.0, {})
+    ]  # cell, its squared distance, axis by axis
     while waiting:
         cell, squared, parts = waiting.pop()
         while axes[cell] >= 0:

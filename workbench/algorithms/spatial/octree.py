@@ -53,7 +53,10 @@ class Level:
 
 @traced
 def grow_octree(
-    distance: Callable[[np.ndarray], np.ndarray], low: Float[np.ndarray, "3"], edge: float, depth: int
+    distance: Callable[[np.ndarray], np.ndarray],
+    low: Float[np.ndarray, "3"],
+    edge: float,
+    depth: int,
 ) -> Iterator[Level]:
     """Yield the levels of an octree, from the whole cube down.
 
@@ -74,7 +77,12 @@ def grow_octree(
         bits = bits.repeat(2, axis=0).repeat(2, axis=1).repeat(2, axis=2) if level else bits.copy()
         bits[tuple(cells.T)] = away < 0
         yield Level(
-            depth=level, grid=Grid(low, np.full(3, h), (n, n, n)), cells=cells, mixed=mixed, bits=bits, parents=parents
+            depth=level,
+            grid=Grid(low, np.full(3, h), (n, n, n)),
+            cells=cells,
+            mixed=mixed,
+            bits=bits,
+            parents=parents,
         )
         parents += int(mixed.sum())
         cells = (2 * cells[mixed][:, None] + children).reshape(-1, 3)

@@ -25,7 +25,10 @@ CENSUS_BITS = 24
 
 
 def sad_cost_volume(
-    left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int, window: int = 1
+    left: Real[np.ndarray, "h w"],
+    right: Real[np.ndarray, "h w"],
+    max_disparity: int,
+    window: int = 1,
 ) -> Real[np.ndarray, "d h w"]:
     """Return the sum of absolute grey differences over a window: cheap, and needs equal exposure.
 
@@ -51,7 +54,10 @@ def sad_cost_volume(
 
 
 def ssd_cost_volume(
-    left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int, window: int = 1
+    left: Real[np.ndarray, "h w"],
+    right: Real[np.ndarray, "h w"],
+    max_disparity: int,
+    window: int = 1,
 ) -> Real[np.ndarray, "d h w"]:
     """Return the sum of squared grey differences over a window: one outlier weighs more than in `sad_cost_volume`.
 
@@ -71,7 +77,10 @@ def ssd_cost_volume(
 
 
 def census_cost_volume(
-    left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int, window: int = 1
+    left: Real[np.ndarray, "h w"],
+    right: Real[np.ndarray, "h w"],
+    max_disparity: int,
+    window: int = 1,
 ) -> Real[np.ndarray, "d h w"]:
     """Return the number of bits in which the census codes differ, summed over a window.
 
@@ -93,7 +102,10 @@ def census_cost_volume(
 
 
 def ncc_cost_volume(
-    left: Real[np.ndarray, "h w"], right: Real[np.ndarray, "h w"], max_disparity: int, window: int = 3
+    left: Real[np.ndarray, "h w"],
+    right: Real[np.ndarray, "h w"],
+    max_disparity: int,
+    window: int = 3,
 ) -> Real[np.ndarray, "d h w"]:
     """Return 1 - the normalised correlation of the two windows, from 0 (alike up to brightness and contrast) to 2.
 
@@ -112,7 +124,9 @@ def ncc_cost_volume(
     """
     _check(left, right, max_disparity, window)
     window = max(window, 3)
-    a, b = (picture - picture.mean() for picture in (left.astype(float), right.astype(float)))  # keeps the sums small
+    a, b = (
+        picture - picture.mean() for picture in (left.astype(float), right.astype(float))
+    )  # keeps the sums small
     h, w = left.shape
     cost = np.full((max_disparity + 1, h, w), np.inf)
     energy_a, energy_b = (box_sum(picture * picture, window, float) for picture in (a, b))
@@ -123,7 +137,9 @@ def ncc_cost_volume(
     mean_a, mean_b = (box_sum(picture, window, float) / window for picture in (a, b))
     floor = 1e-9 * max(energy_a.max(), energy_b.max(), 1e-300)
     for d in range(max_disparity + 1):
-        together = box_sum(a[:, d:] * b[:, : w - d], window, float) - mean_a[:, d:] * mean_b[:, : w - d]
+        together = (
+            box_sum(a[:, d:] * b[:, : w - d], window, float) - mean_a[:, d:] * mean_b[:, : w - d]
+        )
         contrast = contrast_a[:, d:] * contrast_b[:, : w - d]
         known = (contrast_a[:, d:] > floor) & (contrast_b[:, : w - d] > floor)
         correlation = np.where(known, together / np.sqrt(np.where(known, contrast, 1.0)), 0.0)
@@ -137,7 +153,9 @@ def census(picture: Real[np.ndarray, "h w"]) -> UInt32[np.ndarray, "h w"]:
     padded = np.pad(picture, 2, mode="edge")
     neighbours = [(dy, dx) for dy in range(5) for dx in range(5) if (dy, dx) != (2, 2)]
     code = np.zeros((h, w), np.uint32)
-    for start in range(0, CENSUS_BITS, 8):  # eight bits at a time in bytes, which numpy handles four times as fast
+    for start in range(
+        0, CENSUS_BITS, 8
+    ):  # eight bits at a time in bytes, which numpy handles four times as fast
         byte = np.zeros((h, w), np.uint8)
         for dy, dx in neighbours[start : start + 8]:
             byte <<= 1
@@ -146,7 +164,9 @@ def census(picture: Real[np.ndarray, "h w"]) -> UInt32[np.ndarray, "h w"]:
     return code
 
 
-def box_sum(image: Real[np.ndarray, "h w"], window: int, dtype: type | np.dtype) -> Real[np.ndarray, "h w"]:
+def box_sum(
+    image: Real[np.ndarray, "h w"], window: int, dtype: type | np.dtype
+) -> Real[np.ndarray, "h w"]:
     """Return the sum over the square window around every pixel; border pixels stand in for what lies outside.
 
     Running sums over 1, 2, 4, 8, ... pixels are built up and joined, rows first and then columns: the work grows with the
@@ -210,7 +230,9 @@ def _squared_difference(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return difference * difference
 
 
-def _hamming(a: UInt32[np.ndarray, "h w"], b: UInt32[np.ndarray, "h w"]) -> UInt8[np.ndarray, "h w"]:
+def _hamming(
+    a: UInt32[np.ndarray, "h w"], b: UInt32[np.ndarray, "h w"]
+) -> UInt8[np.ndarray, "h w"]:
     return np.bitwise_count(a ^ b)
 
 
@@ -218,6 +240,10 @@ def _check(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int)
     if left.shape != right.shape:
         raise ValueError(f"the two pictures differ in size: {left.shape} and {right.shape}")
     if window < 1 or window % 2 == 0:
-        raise ValueError(f"a window has a middle pixel, so its side is odd and positive, not {window}")
+        raise ValueError(
+            f"a window has a middle pixel, so its side is odd and positive, not {window}"
+        )
     if not 0 <= max_disparity < left.shape[1]:
-        raise ValueError(f"disparities up to {max_disparity} px in pictures {left.shape[1]} px wide")
+        raise ValueError(
+            f"disparities up to {max_disparity} px in pictures {left.shape[1]} px wide"
+        )

@@ -22,7 +22,9 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
     winner = np.zeros(lowest.shape, number)
     for d in range(1, len(cost)):
         better = (cost[d] < lowest).view(np.uint8)
-        np.maximum(winner, better * number(d), out=winner)  # d grows, so the latest winner is the largest
+        np.maximum(
+            winner, better * number(d), out=winner
+        )  # d grows, so the latest winner is the largest
         np.minimum(lowest, cost[d], out=lowest)
     return winner.astype(np.int16 if number is np.uint8 else np.int64)
 
@@ -38,7 +40,9 @@ def seen_from_right(cost: Real[np.ndarray, "d h w"]) -> Real[np.ndarray, "d h w"
 
 
 def agree(
-    left_disparity: Int[np.ndarray, "h w"], right_disparity: Int[np.ndarray, "h w"], tolerance: int = 1
+    left_disparity: Int[np.ndarray, "h w"],
+    right_disparity: Int[np.ndarray, "h w"],
+    tolerance: int = 1,
 ) -> Bool[np.ndarray, "h w"]:
     """Return whether each left pixel's partner in the right picture has that pixel as its own partner.
 
@@ -58,7 +62,9 @@ def agree(
     return inside & (np.abs(back - left_disparity) <= tolerance)
 
 
-def sub_pixel(cost: Real[np.ndarray, "d h w"], disparity: Int[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
+def sub_pixel(
+    cost: Real[np.ndarray, "d h w"], disparity: Int[np.ndarray, "h w"]
+) -> Float[np.ndarray, "h w"]:
     """Return disparities refined between pixels: the lowest point of the parabola through a cost and the two beside it.
 
     Args:
@@ -74,16 +80,23 @@ def sub_pixel(cost: Real[np.ndarray, "d h w"], disparity: Int[np.ndarray, "h w"]
     middle = np.clip(disparity, 1, max(len(cost) - 2, 1)).astype(np.int64)
     if len(cost) < 3:
         return disparity.astype(float)
-    before, here, after = (np.take_along_axis(cost, (middle + k)[None], axis=0)[0].astype(float) for k in (-1, 0, 1))
-    valley = (middle == disparity) & (here <= before) & (here <= after) & np.isfinite(before + after)
+    before, here, after = (
+        np.take_along_axis(cost, (middle + k)[None], axis=0)[0].astype(float) for k in (-1, 0, 1)
+    )
+    valley = (
+        (middle == disparity) & (here <= before) & (here <= after) & np.isfinite(before + after)
+    )
     valley &= before + after > 2.0 * here
     before, here, after = (
-        np.where(valley, values, flat) for values, flat in ((before, 1.0), (here, 0.0), (after, 1.0))
+        np.where(valley, values, flat)
+        for values, flat in ((before, 1.0), (here, 0.0), (after, 1.0))
     )
     return disparity + (before - after) / (2.0 * (before - 2.0 * here + after))
 
 
-def fill(disparity: Float[np.ndarray, "h w"], known: Bool[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
+def fill(
+    disparity: Float[np.ndarray, "h w"], known: Bool[np.ndarray, "h w"]
+) -> Float[np.ndarray, "h w"]:
     """Return the map with every unknown pixel given the smaller of the nearest known disparities to its left and right.
 
     A region seen by one camera only lies behind what hides it from the other, so the background's disparity, the smaller,
@@ -114,12 +127,16 @@ def median3(values: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
     h, w = values.shape
     padded = np.pad(values, 1, mode="edge")
     low, mid, high = _sorted3(padded[:h], padded[1 : h + 1], padded[2:])
-    lows, mids, highs = ((line[:, :w], line[:, 1 : w + 1], line[:, 2:]) for line in (low, mid, high))
+    lows, mids, highs = (
+        (line[:, :w], line[:, 1 : w + 1], line[:, 2:]) for line in (low, mid, high)
+    )
     largest_low = np.maximum(np.maximum(lows[0], lows[1]), lows[2])
     smallest_high = np.minimum(np.minimum(highs[0], highs[1]), highs[2])
     return _sorted3(largest_low, _sorted3(*mids)[1], smallest_high)[1]
 
 
-def _sorted3(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _sorted3(
+    a: np.ndarray, b: np.ndarray, c: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     low, high = np.minimum(a, b), np.maximum(a, b)
     return np.minimum(low, c), np.maximum(low, np.minimum(high, c)), np.maximum(high, c)

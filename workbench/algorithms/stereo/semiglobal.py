@@ -71,7 +71,9 @@ class Jumps:
         return np.dtype(whole if self.whole else np.float32)
 
 
-def prepare(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> tuple[Real[np.ndarray, "d h w"], Jumps]:
+def prepare(
+    cost: Real[np.ndarray, "d h w"], P1: float, P2: float
+) -> tuple[Real[np.ndarray, "d h w"], Jumps]:
     """Return the cost as the sweeps want it: whole numbers as they are, others as float32 without infinities.
 
     Args:
@@ -90,7 +92,9 @@ def prepare(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> tuple[Real
     return np.minimum(cost, top).astype(np.float32), Jumps(P1, P2, top, False)
 
 
-def path_costs(cost: Real[np.ndarray, "d h w"], direction: tuple[int, int], jumps: Jumps) -> Real[np.ndarray, "d h w"]:
+def path_costs(
+    cost: Real[np.ndarray, "d h w"], direction: tuple[int, int], jumps: Jumps
+) -> Real[np.ndarray, "d h w"]:
     """Return the path costs L_r(p, d) of one direction.
 
     Args:
@@ -109,7 +113,9 @@ def path_costs(cost: Real[np.ndarray, "d h w"], direction: tuple[int, int], jump
     return path
 
 
-def sweep(cost: Real[np.ndarray, "n d w"], path: Real[np.ndarray, "n d w"], slope: int, jumps: Jumps) -> None:
+def sweep(
+    cost: Real[np.ndarray, "n d w"], path: Real[np.ndarray, "n d w"], slope: int, jumps: Jumps
+) -> None:
     """Write the path costs of all lines of a picture, walked in order.
 
     Args:
@@ -148,7 +154,9 @@ def sweep(cost: Real[np.ndarray, "n d w"], path: Real[np.ndarray, "n d w"], slop
         path[line] = L[:, :w]
 
 
-def energy(cost: Real[np.ndarray, "d h w"], disparity: Real[np.ndarray, "h w"], P1: float, P2: float) -> float:
+def energy(
+    cost: Real[np.ndarray, "d h w"], disparity: Real[np.ndarray, "h w"], P1: float, P2: float
+) -> float:
     """Return E(D) of eq. 11 per known pixel of a disparity map.
 
     Args:

@@ -12,7 +12,11 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from workbench.geometry.meshes import curvature, euler_characteristic, one_ring, vertex_normals
-from workbench.geometry.meshes.curvature import mean_from_normals, principal_curvatures, principal_directions
+from workbench.geometry.meshes.curvature import (
+    mean_from_normals,
+    principal_curvatures,
+    principal_directions,
+)
 from workbench.geometry.meshes.laplacian import mixed_areas
 from workbench.geometry.meshes.quadric_fit import Quadrics, fit_quadrics
 from workbench.tracing import traced
@@ -32,7 +36,9 @@ PerVertex = Float[np.ndarray, " _"]
 Vectors = Float[np.ndarray, "_ 3"]
 Indices = Int[np.ndarray, " _"]
 
-Stage = Literal["mesh", "ring", "defect", "gaussian", "normal", "mean", "principal", "quadric", "total"]
+Stage = Literal[
+    "mesh", "ring", "defect", "gaussian", "normal", "mean", "principal", "quadric", "total"
+]
 
 
 def _nothing() -> PerVertex:
@@ -117,7 +123,11 @@ def measure_curvature(
 
     ring_faces, ring = one_ring(faces, vertex)
     angles = angles_at(p, vertex, ring)
-    yield (now := replace(now, stage="ring", ring_faces=ring_faces, ring=ring, angles=angles[: len(ring_faces)]))
+    yield (
+        now := replace(
+            now, stage="ring", ring_faces=ring_faces, ring=ring, angles=angles[: len(ring_faces)]
+        )
+    )
 
     defects = angle_defects(p, faces)  # (9), numerator: 2 pi - sum of angles; pi on the border
     yield (now := replace(now, stage="defect", defects=defects))
@@ -126,15 +136,21 @@ def measure_curvature(
     K = gaussian_curvature(p, faces)  # (9): defect / area
     yield (now := replace(now, stage="gaussian", areas=areas, K=K))
 
-    normals_2H = mean_curvature_normals(p, faces)  # (8): sum of (cot a + cot b) (p_i - p_j) / 2 area
+    normals_2H = mean_curvature_normals(
+        p, faces
+    )  # (8): sum of (cot a + cot b) (p_i - p_j) / 2 area
     yield (now := replace(now, stage="normal", normals_2H=normals_2H))
 
-    H = mean_from_normals(normals_2H, normals)  # half its length, with the sign of the side it points to
+    H = mean_from_normals(
+        normals_2H, normals
+    )  # half its length, with the sign of the side it points to
     yield (now := replace(now, stage="mean", H=H))
 
     k1, k2 = principal_curvatures(K, H)  # section 5.1: H +- sqrt(H^2 - K)
     along_k1, along_k2 = principal_directions(p, faces, normals)  # section 5.3
-    yield (now := replace(now, stage="principal", k1=k1, k2=k2, along_k1=along_k1, along_k2=along_k2))
+    yield (
+        now := replace(now, stage="principal", k1=k1, k2=k2, along_k1=along_k1, along_k2=along_k2)
+    )
 
     quadrics = fit_quadrics(p, faces)  # another way: a smooth patch through two rings
     yield (now := replace(now, stage="quadric", quadrics=quadrics))

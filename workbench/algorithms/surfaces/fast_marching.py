@@ -19,7 +19,9 @@ Update = Callable[[np.ndarray, np.ndarray, float], np.ndarray]
 Grid = Float[np.ndarray, "n m"]
 
 
-def eikonal_update(a: Float[np.ndarray, " n"], b: Float[np.ndarray, " n"], h: float) -> Float[np.ndarray, " n"]:
+def eikonal_update(
+    a: Float[np.ndarray, " n"], b: Float[np.ndarray, " n"], h: float
+) -> Float[np.ndarray, " n"]:
     """Return the distance u of nodes from what their neighbours have: (u - a)^2 + (u - b)^2 = h^2, u not below a or b.
 
     Args:
@@ -60,7 +62,11 @@ class March:
 
 @traced
 def march(
-    start: Grid, free: Bool[np.ndarray, "n m"], h: float, band: float, update: Update = eikonal_update
+    start: Grid,
+    free: Bool[np.ndarray, "n m"],
+    h: float,
+    band: float,
+    update: Update = eikonal_update,
 ) -> Iterator[March]:
     """Yield the front as it spreads from the nodes whose distance is known, until all that can be reached are accepted.
 
@@ -73,7 +79,9 @@ def march(
             both neighbours, is not taken.
     """
     n, m = start.shape
-    d = np.full((n + 2, m + 2), np.inf)  # a rim that is never reached spares questions at the border
+    d = np.full(
+        (n + 2, m + 2), np.inf
+    )  # a rim that is never reached spares questions at the border
     d[1:-1, 1:-1] = start
     inner = np.zeros((n + 2, m + 2), bool)
     inner[1:-1, 1:-1] = free
@@ -92,7 +100,10 @@ def march(
             at = at[open_[at]]
             if not len(at):
                 break
-            left, up = np.minimum(flat[at - width], flat[at + width]), np.minimum(flat[at - 1], flat[at + 1])
+            left, up = (
+                np.minimum(flat[at - width], flat[at + width]),
+                np.minimum(flat[at - 1], flat[at + 1]),
+            )
             found = np.asarray(update(left, up, h), float)
             falls = (found < flat[at] - 1e-12 * h) & (found >= np.minimum(left, up))
             changed = at[falls]

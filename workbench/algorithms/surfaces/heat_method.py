@@ -18,7 +18,9 @@ from workbench.tracing import traced
 
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
-SHIFT = 1e-10  # of the Laplacian's diagonal, so that it can be factored: constants cost next to nothing
+SHIFT = (
+    1e-10  # of the Laplacian's diagonal, so that it can be factored: constants cost next to nothing
+)
 
 
 def mean_edge_length(p: Points, faces: Faces) -> float:
@@ -59,7 +61,9 @@ class HeatMethod:
         """Return on every face the unit vector X along which heat falls; zero where it does not fall."""
         return directions_of(self.measured, heat)
 
-    def distances(self, directions: Float[np.ndarray, "f 3"], source: int) -> Float[np.ndarray, " v"]:
+    def distances(
+        self, directions: Float[np.ndarray, "f 3"], source: int
+    ) -> Float[np.ndarray, " v"]:
         """Return the function that rises along X as well as one can, 0 at the source, m: L phi = -div X.
 
         Reference: Crane et al. 2013, section 3.2.
@@ -70,7 +74,10 @@ class HeatMethod:
     def between(self, sources: Int[np.ndarray, " s"]) -> Float[np.ndarray, "s s"]:
         """Return the distances from each source (row) to each source (column)."""
         columns = self.heat(sources).T
-        rows = [self.distances(self.directions(u), int(s)) for u, s in zip(columns, sources, strict=True)]
+        rows = [
+            self.distances(self.directions(u), int(s))
+            for u, s in zip(columns, sources, strict=True)
+        ]
         return np.stack(rows)[:, sources]
 
 
@@ -112,7 +119,10 @@ def heat_method(measured: Corners, source: int, time: float) -> Iterator[HeatSta
 def _factored(matrix: "scipy.sparse.csr_array") -> "scipy.sparse.linalg.SuperLU":
     # A symmetric matrix with a symmetric order and no pivoting: several times faster than the defaults.
     return scipy.sparse.linalg.splu(
-        matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+        matrix.tocsc(),
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
     )
 
 
@@ -131,6 +141,8 @@ def directions_of(measured: Corners, u: Float[np.ndarray, " v"]) -> Float[np.nda
 
 def _divergence(measured: Corners, X: np.ndarray) -> np.ndarray:
     """Return the divergence of X about each vertex: 1/2 sum over its faces of cot a (e_1 . X) + cot b (e_2 . X)."""
-    along = np.einsum("xkf,fx->kf", measured.edges, X)  # edge k goes from corner k + 1 to corner k + 2
+    along = np.einsum(
+        "xkf,fx->kf", measured.edges, X
+    )  # edge k goes from corner k + 1 to corner k + 2
     weighted = measured.cotangents * along / 2
     return measured.sums(weighted[[2, 0, 1]] - weighted[[1, 2, 0]])

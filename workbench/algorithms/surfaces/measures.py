@@ -67,7 +67,15 @@ def sum_faces(
         added = faces[order[:count]]
         volume = float(signed_volume(p - origin, added)) if count else 0.0
         area = float(areas[order[:count]].sum())
-        yield Sums(order=order, parts=parts, areas=areas, count=count, new=count - before, volume=volume, area=area)
+        yield Sums(
+            order=order,
+            parts=parts,
+            areas=areas,
+            count=count,
+            new=count - before,
+            volume=volume,
+            area=area,
+        )
         before = count
 
 
@@ -93,7 +101,9 @@ class Cells:
 
 
 @traced
-def count_cells(grids: Iterable[tuple[int, Grid]], full: Callable[[Grid], np.ndarray]) -> Iterator[Cells]:
+def count_cells(
+    grids: Iterable[tuple[int, Grid]], full: Callable[[Grid], np.ndarray]
+) -> Iterator[Cells]:
     """Yield a solid in ever finer cells, and what counting them gives.
 
     Args:
@@ -107,4 +117,6 @@ def count_cells(grids: Iterable[tuple[int, Grid]], full: Callable[[Grid], np.nda
         volumes += (counted_volume(bits, grid.spacing),)
         areas += (counted_area(bits, grid.spacing),)
         marched += (surface_area(*marched_surface(bits, grid)) if bits.any() else float("nan"),)
-        yield Cells(grid=grid, bits=bits, across=across, volumes=volumes, areas=areas, marched=marched)
+        yield Cells(
+            grid=grid, bits=bits, across=across, volumes=volumes, areas=areas, marched=marched
+        )

@@ -10,7 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from workbench.geometry.points.sampling import Draw, ball_share, line_crossings, lines_through_ball, unit_points
+from workbench.geometry.points.sampling import (
+    Draw,
+    ball_share,
+    line_crossings,
+    lines_through_ball,
+    unit_points,
+)
 from workbench.tracing import traced
 
 MOST_KEPT = 3000  # points and lines of a step that are kept to be shown
@@ -45,7 +51,9 @@ class Estimates:
             value: The estimate, m^3 or m^2.
             error: Its standard error.
         """
-        return Estimates(counts=(*self.counts, count), values=(*self.values, value), errors=(*self.errors, error))
+        return Estimates(
+            counts=(*self.counts, count), values=(*self.values, value), errors=(*self.errors, error)
+        )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -89,7 +97,9 @@ def throw_points(
         hit = np.concatenate([hit, inside(q[len(hit) :])])
         volume, error = volume_by_chance(hit, box_volume)
         estimates = estimates.more(len(hit), float(volume), float(error))
-        yield Throws(q=q[:MOST_KEPT], inside=hit[:MOST_KEPT], hits=int(hit.sum()), estimates=estimates)
+        yield Throws(
+            q=q[:MOST_KEPT], inside=hit[:MOST_KEPT], hits=int(hit.sum()), estimates=estimates
+        )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -134,7 +144,12 @@ def shoot_lines(
         area = 2 * np.pi * radius**2 * met
         estimates = estimates.more(count, float(area.mean()), float(area.std() / np.sqrt(count)))
         few = line < MOST_KEPT // 10
-        yield Lines(ends=ends[: MOST_KEPT // 10], crossings=places[few], total=int(met.sum()), estimates=estimates)
+        yield Lines(
+            ends=ends[: MOST_KEPT // 10],
+            crossings=places[few],
+            total=int(met.sum()),
+            estimates=estimates,
+        )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -208,5 +223,10 @@ def raise_dimension(highest: int, throws: int, rng: np.random.Generator) -> Iter
         q = np.zeros((min(throws, MOST_KEPT), 3))
         q[:, : min(d, 3)] = x[: len(q), :3]
         yield Balls(
-            q=q, inside=inside[: len(q)], throws=throws, dimensions=tuple(range(2, d + 1)), hits=hits, shares=shares
+            q=q,
+            inside=inside[: len(q)],
+            throws=throws,
+            dimensions=tuple(range(2, d + 1)),
+            hits=hits,
+            shares=shares,
         )

@@ -18,7 +18,9 @@ from workbench.geometry.points.shape_distances import check_clouds
 Cloud = Float[np.ndarray, "n 3"]
 
 FEW_COPIES = 250
-MOST_UNEQUAL = 250_000  # entries of the cost where the counts differ: a linear programme, a few seconds
+MOST_UNEQUAL = (
+    250_000  # entries of the cost where the counts differ: a linear programme, a few seconds
+)
 
 _BLURS = ((0.05, 5), (0.01, 10), (0.002, 25))  # share of the median cost, sweeps
 _RELAXATION = 1.6  # exponent of a sweep's scalings, 1 to below 2: at 1 the solver takes up to four times as long
@@ -77,8 +79,12 @@ def earth_movers_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
     """
     best = best_matching(p_a, p_b)
     v = p_a[best.i_a] - p_b[best.i_b]
-    v *= np.divide(best.mass, best.distances, out=np.zeros_like(best.mass), where=best.distances > 0)[:, None]
-    return np.stack([np.bincount(best.i_a, v[:, axis], minlength=len(p_a)) for axis in range(3)], axis=1)
+    v *= np.divide(
+        best.mass, best.distances, out=np.zeros_like(best.mass), where=best.distances > 0
+    )[:, None]
+    return np.stack(
+        [np.bincount(best.i_a, v[:, axis], minlength=len(p_a)) for axis in range(3)], axis=1
+    )
 
 
 def blurred_earth_movers(
@@ -103,7 +109,9 @@ def blurred_earth_movers(
     """
     check_clouds(p_a, p_b)
     distances = scipy.spatial.distance.cdist(p_a, p_b)
-    return sinkhorn(distances, regularisation, max_sweeps=max_sweeps, tolerance=tolerance).cost(distances)
+    return sinkhorn(distances, regularisation, max_sweeps=max_sweeps, tolerance=tolerance).cost(
+        distances
+    )
 
 
 def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> Matching:
@@ -135,7 +143,9 @@ def _matched(a: bytes, shape_a: tuple[int, ...], b: bytes, shape_b: tuple[int, .
     return found
 
 
-def best_assignment(cost: Float[np.ndarray, "n m"]) -> tuple[Int[np.ndarray, "n"], Int[np.ndarray, "n"]]:
+def best_assignment(
+    cost: Float[np.ndarray, "n m"],
+) -> tuple[Int[np.ndarray, "n"], Int[np.ndarray, "n"]]:
     """Return rows and columns of the one-to-one assignment with the least total cost.
 
     Subtracting a number from a row or a column changes every assignment's total alike, so the best one stays the best.
@@ -148,7 +158,9 @@ def best_assignment(cost: Float[np.ndarray, "n m"]) -> tuple[Int[np.ndarray, "n"
     """
     check_cost(cost)
     if cost.shape[0] != cost.shape[1]:
-        raise ValueError(f"one to one needs as many columns as rows, not {cost.shape[0]} x {cost.shape[1]}")
+        raise ValueError(
+            f"one to one needs as many columns as rows, not {cost.shape[0]} x {cost.shape[1]}"
+        )
     if len(cost) >= _FEWEST and contested(cost) >= _CONTESTED:
         f, g = tight_potentials(cost, blurred_potentials(cost))
         cost = cost - f[:, None]
@@ -176,7 +188,9 @@ def best_plan(
             "or blurred transport"
         )
     copies = int(np.lcm(n, m))
-    if copies <= max(FEW_COPIES, 5 * np.sqrt(cost.size)):  # below, the assignment is the faster of the two
+    if copies <= max(
+        FEW_COPIES, 5 * np.sqrt(cost.size)
+    ):  # below, the assignment is the faster of the two
         i, j = best_assignment(cost.repeat(copies // n, axis=0).repeat(copies // m, axis=1))
         times = np.zeros((n, m))
         np.add.at(times, (i // (copies // n), j // (copies // m)), 1)
@@ -200,9 +214,13 @@ def best_plan_by_programme(cost: Float[np.ndarray, "n m"]) -> Float[np.ndarray, 
     columns = scipy.sparse.kron(np.ones((1, n)), scipy.sparse.eye_array(m))
     row_and_column_sums: Any = scipy.sparse.vstack([rows, columns])
     masses = np.concatenate([np.full(n, 1 / n), np.full(m, 1 / m)])
-    solved = scipy.optimize.linprog(cost.ravel(), A_eq=row_and_column_sums, b_eq=masses, method="highs-ds")
+    solved = scipy.optimize.linprog(
+        cost.ravel(), A_eq=row_and_column_sums, b_eq=masses, method="highs-ds"
+    )
     if solved.x is None:
-        raise ValueError(f"the transport between {n} and {m} points was not solved: {solved.message}")
+        raise ValueError(
+            f"the transport between {n} and {m} points was not solved: {solved.message}"
+        )
     return solved.x.reshape(n, m)
 
 
@@ -233,7 +251,9 @@ def blurred_potentials(cost: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n"]
             for _ in range(sweeps):
                 u *= (u * np.vecdot(K, v)) ** -_RELAXATION
                 v *= (v * np.vecdot(K_transposed, u)) ** -_RELAXATION
-        if not (np.isfinite(v) & (v > 0)).all():  # overrelaxed scalings may run away; what was found before will do
+        if not (
+            np.isfinite(v) & (v > 0)
+        ).all():  # overrelaxed scalings may run away; what was found before will do
             break
         g = g + regularisation * np.log(v)
     return g.astype(float)

@@ -199,7 +199,10 @@ def why_stop(value: float, value_next: float, at_limit: bool) -> Stop | None:
 
 
 def numeric_gradient(
-    distance: Distance, p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"], h: float = 1e-6
+    distance: Distance,
+    p_a: Float[np.ndarray, "n 3"],
+    p_b: Float[np.ndarray, "m 3"],
+    h: float = 1e-6,
 ) -> Float[np.ndarray, "n 3"]:
     """Return the gradient of any distance with respect to p_a, by central differences of 2 h metres.
 

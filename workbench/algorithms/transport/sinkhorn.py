@@ -62,7 +62,11 @@ class Blurred:
 
 @traced
 def sinkhorn_steps(
-    cost: Float[np.ndarray, "n m"], regularisation: float, *, max_sweeps: int = 10_000, tolerance: float = 1e-9
+    cost: Float[np.ndarray, "n m"],
+    regularisation: float,
+    *,
+    max_sweeps: int = 10_000,
+    tolerance: float = 1e-9,
 ) -> Iterator[Blurred]:
     """Yield the potentials of the entropic plan between uniform masses, after every few sweeps, until its sums are right.
 
@@ -81,7 +85,9 @@ def sinkhorn_steps(
     """
     check_cost(cost)
     if not (regularisation > 0 and max_sweeps >= 1):
-        raise ValueError(f"regularisation > 0 and max_sweeps >= 1 are needed, not {regularisation} and {max_sweeps}")
+        raise ValueError(
+            f"regularisation > 0 and max_sweeps >= 1 are needed, not {regularisation} and {max_sweeps}"
+        )
     n, m = cost.shape
     f, g = tight_potentials(cost, np.zeros(m))
     K, v = kernel(cost, f, g, regularisation), np.ones(m)
@@ -107,7 +113,11 @@ def sinkhorn_steps(
 
 
 def sinkhorn(
-    cost: Float[np.ndarray, "n m"], regularisation: float, *, max_sweeps: int = 10_000, tolerance: float = 1e-9
+    cost: Float[np.ndarray, "n m"],
+    regularisation: float,
+    *,
+    max_sweeps: int = 10_000,
+    tolerance: float = 1e-9,
 ) -> Blurred:
     """Return the last state of `sinkhorn_steps`.
 
@@ -139,7 +149,10 @@ def tight_potentials(
 
 
 def kernel(
-    cost: Float[np.ndarray, "n m"], f: Float[np.ndarray, "n"], g: Float[np.ndarray, "m"], regularisation: float
+    cost: Float[np.ndarray, "n m"],
+    f: Float[np.ndarray, "n"],
+    g: Float[np.ndarray, "m"],
+    regularisation: float,
 ) -> Float[np.ndarray, "n m"]:
     """Return exp((f_i + g_j - cost_ij) / regularisation), entries that cannot matter kept above the slow denormals.
 
@@ -165,7 +178,9 @@ def check_cost(cost: np.ndarray) -> None:
     if cost.size == 0:
         raise ValueError(f"a cost of {cost.shape[0]} x {cost.shape[1]} has nothing to move")
     if cost.size > MOST_ENTRIES:
-        raise ValueError(f"a cost of {cost.shape[0]} x {cost.shape[1]} is too large; at most {MOST_ENTRIES:,} entries")
+        raise ValueError(
+            f"a cost of {cost.shape[0]} x {cost.shape[1]} is too large; at most {MOST_ENTRIES:,} entries"
+        )
     if not np.isfinite(cost).all():
         raise ValueError("the cost has entries that are not finite")
 

@@ -15,7 +15,9 @@ def draw(state: State) -> Scene:
         "fixes": Points(state.p, "target", 0.012, name="fixes"),
         "beacon": Points(P_TRUE[None], "truth", 0.03, name="the beacon"),
         "estimate": Points(state.p_estimate[None], "source", 0.03, name="estimate"),
-        "miss": Segments(between(P_TRUE, state.p_estimate), "wrong", 3.0, name="error of the estimate"),
+        "miss": Segments(
+            between(P_TRUE, state.p_estimate), "wrong", 3.0, name="error of the estimate"
+        ),
         "spread": DISTANCE.scalar(state.spread, "weighted RMS distance of the fixes"),
         "error": DISTANCE.scalar(state.error, "error of the estimate", "truth"),
         "caption": caption(state),

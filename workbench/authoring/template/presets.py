@@ -43,8 +43,12 @@ def equal_error(states: Sequence[State]) -> float:
 
 def equal_reason(states: Sequence[State]) -> str:
     """Say what came out, and what the formula of the page says."""
-    rms = 1000 * np.sqrt(3 * 15 * (0.02**2 + 0.2**2)) / 30  # three coordinates, 15 fixes by each sensor
-    return f"It is {equal_error(states):.0f} mm; over all noise the formula says {rms:.0f} mm (RMS)."
+    rms = (
+        1000 * np.sqrt(3 * 15 * (0.02**2 + 0.2**2)) / 30
+    )  # three coordinates, 15 fixes by each sensor
+    return (
+        f"It is {equal_error(states):.0f} mm; over all noise the formula says {rms:.0f} mm (RMS)."
+    )
 
 
 def drop(states: Sequence[State]) -> str:
@@ -62,17 +66,31 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         params=EQUAL,
         unit="mm",
         tolerance=25.0,
-        wrong=((150.0, 400.0, "One fix of the bad sensor is that far off. The mean of many is nearer."),),
+        wrong=(
+            (
+                150.0,
+                400.0,
+                "One fix of the bad sensor is that far off. The mean of many is nearer.",
+            ),
+        ),
     ),
     Question(
         name="what-becomes",
         text="Two of 30 fixes are of another beacon, 85 cm away. The weights do not know. What becomes of the estimate?",
         choices=(
-            Choice("hardly moves", why="It would if strays counted less. Their weight is that of a good fix."),
+            Choice(
+                "hardly moves",
+                why="It would if strays counted less. Their weight is that of a good fix.",
+            ),
             "moves by some 10 cm",
-            Choice("jumps to the other beacon", why="Two fixes would have to outweigh all the others for that."),
+            Choice(
+                "jumps to the other beacon",
+                why="Two fixes would have to outweigh all the others for that.",
+            ),
         ),
-        answer=lambda states: 1 if 0.03 < states[-1].error < 0.4 else 0 if states[-1].error <= 0.03 else 2,
+        answer=lambda states: (
+            1 if 0.03 < states[-1].error < 0.4 else 0 if states[-1].error <= 0.03 else 2
+        ),
         why=drop,
         params=STRAY,
     ),

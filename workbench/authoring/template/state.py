@@ -18,8 +18,12 @@ class Params:
     fixes: Annotated[int, Knob("How many times the beacon is measured", 2, 60)] = 30
     good: Annotated[float, Knob("Standard deviation of the good sensor", 0, 0.3, unit="m")] = 0.02
     bad: Annotated[float, Knob("Standard deviation of the bad sensor", 0, 0.3, unit="m")] = 0.2
-    weights: Annotated[Literal["one over variance", "equal"], Knob("How much a fix counts")] = "one over variance"
-    outliers: Annotated[int, Knob("How many fixes of the good sensor are of another beacon", 0, 5)] = 0
+    weights: Annotated[Literal["one over variance", "equal"], Knob("How much a fix counts")] = (
+        "one over variance"
+    )
+    outliers: Annotated[
+        int, Knob("How many fixes of the good sensor are of another beacon", 0, 5)
+    ] = 0
     seed: Annotated[int, Knob("Which noise is drawn", 0, 99)] = 0
 
 

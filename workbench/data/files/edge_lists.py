@@ -54,7 +54,10 @@ def read_edges(path: Path, most_nodes: int) -> EdgeList:
             cell.strip().strip("\"'")
             for cell in re.split(r"[,;\t]" if re.search(r"[,;\t]", line) else r"\s+", line.strip())
         ]
-        if i == rows[0][0] and [cell.lower() for cell in cells[:2]] in (["source", "target"], ["from", "to"]):
+        if i == rows[0][0] and [cell.lower() for cell in cells[:2]] in (
+            ["source", "target"],
+            ["from", "to"],
+        ):
             continue
         a, b, weight = _row(cells, path.name, i)
         first, second = (number.setdefault(name, len(number)) for name in (a, b))
@@ -62,7 +65,9 @@ def read_edges(path: Path, most_nodes: int) -> EdgeList:
             edge = min(first, second), max(first, second)
             found[edge] = found.get(edge, 0.0) + weight
     if not found:
-        raise InputError(f"{path.name}: no edge between two nodes; a line has two names and maybe a weight")
+        raise InputError(
+            f"{path.name}: no edge between two nodes; a line has two names and maybe a weight"
+        )
     if len(number) > most_nodes:
         raise InputError(f"{path.name}: {len(number):,} nodes; at most {most_nodes:,} are laid out")
     return EdgeList(tuple(number), np.array(list(found)), np.array(list(found.values())))
@@ -71,11 +76,15 @@ def read_edges(path: Path, most_nodes: int) -> EdgeList:
 def _row(cells: list[str], name: str, line: int) -> tuple[str, str, float]:
     """Return both names and the weight of a line."""
     if len(cells) not in (2, 3) or not all(cells[:2]):
-        raise InputError(f"{name}, line {line}: {len(cells)} entries; two names and maybe a weight are wanted")
+        raise InputError(
+            f"{name}, line {line}: {len(cells)} entries; two names and maybe a weight are wanted"
+        )
     try:
         weight = float(cells[2]) if len(cells) == 3 else 1.0
     except ValueError:
-        raise InputError(f"{name}, line {line}: the weight {cells[2][:20]!r} is no number") from None
+        raise InputError(
+            f"{name}, line {line}: the weight {cells[2][:20]!r} is no number"
+        ) from None
     if not (np.isfinite(weight) and weight > 0):
         raise InputError(f"{name}, line {line}: the weight is {weight:g}; weights are positive")
     return cells[0], cells[1], weight

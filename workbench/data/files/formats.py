@@ -47,7 +47,9 @@ def ply_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     if faces:
         raise mesh_error(name, vertices.count, faces)
     if vertices is not elements[0] or vertices.has_lists:
-        raise InputError(f"{name}: the vertices of this ply file are not its first element, or hold lists; not read")
+        raise InputError(
+            f"{name}: the vertices of this ply file are not its first element, or hold lists; not read"
+        )
     not_too_many(vertices.count, name)
     body = content[end.end() :]
     if kind == "ascii":
@@ -92,7 +94,9 @@ def pcd_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
         fields, n = header["FIELDS"], int(header["POINTS"][0])
         sizes, kinds = header["SIZE"], header["TYPE"]
         counts = [int(c) for c in header.get("COUNT", ["1"] * len(fields))]
-        types = [{"F": "<f", "I": "<i", "U": "<u"}[k] + s for k, s in zip(kinds, sizes, strict=True)]
+        types = [
+            {"F": "<f", "I": "<i", "U": "<u"}[k] + s for k, s in zip(kinds, sizes, strict=True)
+        ]
         columns = list(zip(fields, types, counts, strict=True))
         if n < 0 or min(counts) < 1 or any(np.dtype(t).itemsize not in (1, 2, 4, 8) for t in types):
             raise ValueError
@@ -107,13 +111,17 @@ def pcd_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
         return _first_rows(body, n, [int(starts[axis]) for axis in "xyz"], name)
     if kind == "binary":
         table = _table(body, [(f"{f}{i}", t, (c,)) for i, (f, t, c) in enumerate(columns)], n, name)
-        return np.column_stack([table[f"{axis}{fields.index(axis)}"][:, 0] for axis in "xyz"]).astype(float)
+        return np.column_stack(
+            [table[f"{axis}{fields.index(axis)}"][:, 0] for axis in "xyz"]
+        ).astype(float)
     if kind == "binary_compressed":
         return _compressed_columns(body, columns, n, name)
     raise InputError(f"{name}: pcd data {kind!r}; ascii, binary and binary_compressed are read")
 
 
-def _compressed_columns(body: bytes, columns: list[tuple[str, str, int]], n: int, name: str) -> np.ndarray:
+def _compressed_columns(
+    body: bytes, columns: list[tuple[str, str, int]], n: int, name: str
+) -> np.ndarray:
     """Return x, y, z of a compressed pcd body, which stores one field after the other."""
     if len(body) < 8:
         raise InputError(f"{name}: the file is cut short")
@@ -123,7 +131,9 @@ def _compressed_columns(body: bytes, columns: list[tuple[str, str, int]], n: int
         raise InputError(f"{name}: the compressed size does not fit {n:,} points")
     plain, start, found = _unpack_lzf(body[8 : 8 + packed], unpacked, name), 0, {}
     for field, kind, count in columns:
-        found[field] = np.frombuffer(plain, kind, n * count, start).astype(float).reshape(n, count)[:, 0]
+        found[field] = (
+            np.frombuffer(plain, kind, n * count, start).astype(float).reshape(n, count)[:, 0]
+        )
         start += n * count * np.dtype(kind).itemsize
     return np.column_stack([found[axis] for axis in "xyz"])
 
@@ -215,7 +225,9 @@ def _columns(row: str, separator: str | None, name: str) -> tuple[list[int], int
             raise InputError(f"{name}: no columns x, y, z in its first line: {row.strip()[:60]!r}")
         return [letters.index(axis) for axis in "xyz"], 1
     if len(first) < 3:
-        raise InputError(f"{name}: {len(first)} column{'s'[: len(first) > 1]} where x, y and z are wanted")
+        raise InputError(
+            f"{name}: {len(first)} column{'s'[: len(first) > 1]} where x, y and z are wanted"
+        )
     return [0, 1, 2], 0
 
 
@@ -226,7 +238,9 @@ def text_of(content: bytes, name: str) -> str:
         InputError: If it is neither.
     """
     try:
-        text = content.decode("utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+        text = content.decode(
+            "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+        )
     except UnicodeDecodeError:
         text = "\0"
     if "\0" in text:
@@ -260,14 +274,18 @@ def not_too_many(n: int, name: str, what: str = "points") -> None:
     """Raise InputError where there are more points, or lines with a point each, than may be read."""
     most = allowance().points
     if n > most:
-        raise InputError(f"{name}: {n:,} {what}; at most {most:,} are read{allowance().more}; thin the cloud")
+        raise InputError(
+            f"{name}: {n:,} {what}; at most {most:,} are read{allowance().more}; thin the cloud"
+        )
 
 
 def not_too_large(size: int, name: str) -> None:
     """Raise InputError where a file unpacks to more bytes than it may."""
     most = allowance().unpacked
     if size > most:
-        raise InputError(f"{name}: over {most // 10**6} MB unpacked; that is too large{allowance().more}")
+        raise InputError(
+            f"{name}: over {most // 10**6} MB unpacked; that is too large{allowance().more}"
+        )
 
 
 def mesh_error(name: str, vertices: int, faces: int) -> InputError:
@@ -286,7 +304,9 @@ def _numbers(rows: list[str], separator: str | None, columns: list[int], name: s
         for row in rows:
             words = row.split(separator)
             if len(words) <= max(columns) or not all(is_number(words[c]) for c in columns):
-                raise InputError(f"{name}: x, y, z are not three numbers in the row {row.strip()[:60]!r}") from None
+                raise InputError(
+                    f"{name}: x, y, z are not three numbers in the row {row.strip()[:60]!r}"
+                ) from None
         raise InputError(f"{name}: the table of points is not understood") from None
 
 
@@ -312,4 +332,6 @@ def _table(body: bytes, fields: list, n: int, name: str) -> np.ndarray:
 
 def _need_all(found: int, promised: int, name: str) -> None:
     if found < promised:
-        raise InputError(f"{name}: the file is cut short ({found:,} of {promised:,} promised by its header)")
+        raise InputError(
+            f"{name}: the file is cut short ({found:,} of {promised:,} promised by its header)"
+        )

@@ -73,11 +73,15 @@ def _from_arrays(path: Path) -> Matches:
             else None
         )
         if p is None:
-            raise InputError(f"{path.name}: {len(first)} pixels in the first image and {len(second)} in the second")
+            raise InputError(
+                f"{path.name}: {len(first)} pixels in the first image and {len(second)} in the second"
+            )
     elif both is not None:
         p = _rows(path, both, 4)
     else:
-        raise InputError(f"{path.name}: no arrays x1 and x2, nor matches, but {', '.join(arrays) or 'nothing'}")
+        raise InputError(
+            f"{path.name}: no arrays x1 and x2, nor matches, but {', '.join(arrays) or 'nothing'}"
+        )
     quality = _named(arrays, _QUALITY)
     if quality is not None and (quality.shape != (len(p),) or quality.dtype.kind not in "fiu"):
         raise InputError(
@@ -101,12 +105,18 @@ def _from_text(path: Path) -> Matches:
         kept = kept[1:]  # a line of names
     widths = {len(words) for words in kept}
     if len(widths) != 1 or widths <= {0, 1, 2, 3}:
-        raise InputError(f"{path.name}: not lines of four numbers u v u' v', with a quality as the fifth where known")
+        raise InputError(
+            f"{path.name}: not lines of four numbers u v u' v', with a quality as the fifth where known"
+        )
     try:
         table = np.array(kept, dtype=float)
     except ValueError:
-        raise InputError(f"{path.name}: not all of it are numbers; four or five a line are wanted") from None
-    return Matches(table[:, :4].copy(), table[:, 4].copy() if table.shape[1] > 4 else None, None, None)
+        raise InputError(
+            f"{path.name}: not all of it are numbers; four or five a line are wanted"
+        ) from None
+    return Matches(
+        table[:, :4].copy(), table[:, 4].copy() if table.shape[1] > 4 else None, None, None
+    )
 
 
 def _named(arrays: dict[str, np.ndarray], names: tuple[str, ...]) -> np.ndarray | None:
@@ -122,12 +132,20 @@ def _rows(path: Path, array: np.ndarray, columns: int) -> np.ndarray:
 
 
 def _truth(
-    path: Path, arrays: dict[str, np.ndarray], names: tuple[str, ...], shape: tuple[int, ...] = (3, 3)
+    path: Path,
+    arrays: dict[str, np.ndarray],
+    names: tuple[str, ...],
+    shape: tuple[int, ...] = (3, 3),
 ) -> np.ndarray | None:
     matrix = _named(arrays, names)
     if matrix is None:
         return None
-    if matrix.shape != shape or matrix.dtype.kind not in "fiu" or not np.isfinite(matrix).all() or not matrix.any():
+    if (
+        matrix.shape != shape
+        or matrix.dtype.kind not in "fiu"
+        or not np.isfinite(matrix).all()
+        or not matrix.any()
+    ):
         what = "3 x 3 matrix of finite numbers" if shape == (3, 3) else "vector of 3 finite numbers"
         raise InputError(f"{path.name}: {names[0]} is no {what}")
     return matrix.astype(float)

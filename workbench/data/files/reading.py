@@ -80,14 +80,23 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
     try:
         loaded: Any = trimesh.load(io.BytesIO(content), file_type=kind[1:], process=False)
         mesh = _one_mesh(loaded, path.name) if isinstance(loaded, trimesh.Scene) else loaded
-        p, faces = np.array(mesh.vertices, float), np.array(getattr(mesh, "faces", np.empty((0, 3))), np.int64)
+        p, faces = (
+            np.array(mesh.vertices, float),
+            np.array(getattr(mesh, "faces", np.empty((0, 3))), np.int64),
+        )
     except InputError:
         raise
     except Exception as error:  # the readers of trimesh raise whatever they trip over
-        why = NO_VERTEX if isinstance(error, IndexError) or "face index" in str(error) else type(error).__name__
+        why = (
+            NO_VERTEX
+            if isinstance(error, IndexError) or "face index" in str(error)
+            else type(error).__name__
+        )
         raise InputError(f"{path.name}: not readable as a {kind[1:]} mesh ({why})") from None
     if len(faces) == 0:
-        raise InputError(f"{path.name}: {_count(len(p), 'point')} without faces, where a mesh is wanted")
+        raise InputError(
+            f"{path.name}: {_count(len(p), 'point')} without faces, where a mesh is wanted"
+        )
     if not np.isfinite(p).all() or faces.min() < 0 or faces.max() >= len(p):
         raise InputError(f"{path.name}: a vertex is not finite, or {NO_VERTEX}")
     return p, faces
@@ -119,10 +128,16 @@ def read_voxels(path: Path) -> Shaped[np.ndarray, "x y z"]:
     if kind not in (".npy", ".npz"):
         raise InputError(f"{path.name}: {kind or 'no ending'}; voxels are read from npy and npz")
     arrays = read_arrays(content, path.name)
-    found = [values for values in arrays.values() if values.ndim == 3 and values.dtype.kind in "biu" and values.size]
+    found = [
+        values
+        for values in arrays.values()
+        if values.ndim == 3 and values.dtype.kind in "biu" and values.size
+    ]
     if len(found) != 1:
         what = "no array" if not found else f"{len(found)} arrays"
-        raise InputError(f"{path.name}: {what} of three axes with bits or whole numbers; one is wanted")
+        raise InputError(
+            f"{path.name}: {what} of three axes with bits or whole numbers; one is wanted"
+        )
     return found[0]
 
 
@@ -177,13 +192,17 @@ def opened_image(source: Path | io.BytesIO, name: str) -> "Iterator[Image.Image]
     except InputError:
         raise
     except Image.DecompressionBombError:
-        raise InputError(f"{name}: far too many pixels; at most {allowance().pixels:,} are read") from None
+        raise InputError(
+            f"{name}: far too many pixels; at most {allowance().pixels:,} are read"
+        ) from None
     except Exception as error:  # Pillow's decoders raise many kinds
         raise InputError(f"{name}: not readable as an image ({type(error).__name__})") from None
 
 
 @apart
-def read_pose(path: Path, target: Path | None = None, source: Path | None = None) -> Float[np.ndarray, "4 4"]:
+def read_pose(
+    path: Path, target: Path | None = None, source: Path | None = None
+) -> Float[np.ndarray, "4 4"]:
     """Return the T_target_source that a file gives.
 
     The file is 16 numbers row by row (text or npy), or a list of poses by the name of a scan, each from the scan into one
@@ -207,18 +226,25 @@ def read_pose(path: Path, target: Path | None = None, source: Path | None = None
             raise InputError(f"{path.name}: not a pose; 4 x 4 numbers are wanted")
     else:
         if len(content) > MOST_OF_POSES:
-            raise InputError(f"{path.name}: {len(content) / 1e6:,.0f} MB; a pose, or a list of them, has fewer")
+            raise InputError(
+                f"{path.name}: {len(content) / 1e6:,.0f} MB; a pose, or a list of them, has fewer"
+            )
         text = text_of(content, path.name)
         poses = _listed_poses(text)
         if poses:
             return inverse(_pose_of(target, poses, path)) @ _pose_of(source, poses, path)
         words = [
-            w for line in text.splitlines() if not line.lstrip().startswith("#") for w in re.split(r"[\s,;]+", line)
+            w
+            for line in text.splitlines()
+            if not line.lstrip().startswith("#")
+            for w in re.split(r"[\s,;]+", line)
         ]
         try:
             T = np.array([float(word) for word in words if word])
         except ValueError:
-            raise InputError(f"{path.name}: not a pose; a text file of 4 x 4 numbers is wanted") from None
+            raise InputError(
+                f"{path.name}: not a pose; a text file of 4 x 4 numbers is wanted"
+            ) from None
     if T.size != 16:
         raise InputError(f"{path.name}: {_count(T.size, 'number')}, where a pose is 4 x 4")
     return _checked_pose(T.reshape(4, 4).astype(float), path.name)
@@ -232,8 +258,12 @@ def _listed_poses(text: str) -> dict[str, np.ndarray]:
                 x, y, z, a, b, c, w = map(float, words)
                 R = scipy.spatial.transform.Rotation.from_quat([-a, -b, -c, w]).as_matrix()
                 poses[Path(scan).name] = motion(R, np.array([x, y, z]))
-            case [scan, *words] if len(words) in (12, 16) and re.search("[A-Za-z]", scan) and _all_numbers(words):
-                poses[Path(scan).name] = np.vstack([np.array(words[:12], float).reshape(3, 4), [0.0, 0.0, 0.0, 1.0]])
+            case [scan, *words] if (
+                len(words) in (12, 16) and re.search("[A-Za-z]", scan) and _all_numbers(words)
+            ):
+                poses[Path(scan).name] = np.vstack(
+                    [np.array(words[:12], float).reshape(3, 4), [0.0, 0.0, 0.0, 1.0]]
+                )
     return poses
 
 
@@ -246,9 +276,13 @@ def _pose_of(scan: Path | None, poses: dict[str, np.ndarray], path: Path) -> np.
 
 def _checked_pose(T: np.ndarray, name: str) -> np.ndarray:
     R = T[:3, :3]
-    rigid = np.isfinite(T).all() and np.allclose(R @ R.T, np.eye(3), atol=1e-3) and np.linalg.det(R) > 0
+    rigid = (
+        np.isfinite(T).all() and np.allclose(R @ R.T, np.eye(3), atol=1e-3) and np.linalg.det(R) > 0
+    )
     if not rigid or not np.allclose(T[3], [0, 0, 0, 1], atol=1e-9):
-        raise InputError(f"{name}: not a rigid pose (a rotation, a translation, and 0 0 0 1 as last row)")
+        raise InputError(
+            f"{name}: not a rigid pose (a rotation, a translation, and 0 0 0 1 as last row)"
+        )
     return T
 
 
@@ -293,22 +327,30 @@ def finite(
         raise InputError(f"{name}: all {len(p):,} {many} are NaN or infinite")
     if not good.all():
         bad = int((~good).sum())
-        note(f"{name}: {bad:,} of {len(p):,} {one if len(p) == 1 else many} left out: NaN or infinite.")
+        note(
+            f"{name}: {bad:,} of {len(p):,} {one if len(p) == 1 else many} left out: NaN or infinite."
+        )
     return p[good]
 
 
 def _array_points(content: bytes, name: str) -> np.ndarray:
     p = np.asarray(_load_array(content, name))
     if p.ndim != 2 or p.shape[1] < 3 or p.dtype.kind not in "fiu":
-        raise InputError(f"{name}: an array of {p.dtype} {p.shape}, where (n, 3) numbers are wanted")
+        raise InputError(
+            f"{name}: an array of {p.dtype} {p.shape}, where (n, 3) numbers are wanted"
+        )
     return p[:, :3].astype(float)
 
 
 def _load_array(content: bytes, name: str) -> np.ndarray:
     arrays = read_arrays(content, name)
-    names = [n for n in ("p", "points", "xyz", "vertices") if n in arrays] or list(arrays)[: len(arrays) == 1]
+    names = [n for n in ("p", "points", "xyz", "vertices") if n in arrays] or list(arrays)[
+        : len(arrays) == 1
+    ]
     if not names:
-        raise InputError(f"{name}: no array named p, points, xyz or vertices, but {', '.join(arrays)}")
+        raise InputError(
+            f"{name}: no array named p, points, xyz or vertices, but {', '.join(arrays)}"
+        )
     return arrays[names[0]]
 
 
@@ -326,7 +368,9 @@ def _content(path: Path) -> tuple[bytes, str]:
     return content, Path(path.stem).suffix.lower()
 
 
-def text_rows(path: Path, what: str, kinds: tuple[str, ...] | None, comments: str = "#") -> list[tuple[int, str]]:
+def text_rows(
+    path: Path, what: str, kinds: tuple[str, ...] | None, comments: str = "#"
+) -> list[tuple[int, str]]:
     """Return the lines of a text file with their numbers from 1, without empty ones and comments.
 
     Args:
@@ -344,9 +388,13 @@ def text_rows(path: Path, what: str, kinds: tuple[str, ...] | None, comments: st
     text = text_of(_content(path)[0], path.name)
     most, count = allowance().lines, text.count("\n")
     if count > most:
-        raise InputError(f"{path.name}: {count:,} lines; {what} are read from at most {most:,}{allowance().more}")
+        raise InputError(
+            f"{path.name}: {count:,} lines; {what} are read from at most {most:,}{allowance().more}"
+        )
     return [
-        (i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip() and line.lstrip()[0] not in comments
+        (i, line)
+        for i, line in enumerate(text.splitlines(), 1)
+        if line.strip() and line.lstrip()[0] not in comments
     ]
 
 
@@ -384,7 +432,9 @@ def stamp(path: Path) -> tuple[int, int]:
         raise InputError(f"{path}: a folder, not a file")
     most = allowance().unpacked
     if stat.st_size > most:
-        raise InputError(f"{path.name}: {stat.st_size / 1e6:,.0f} MB; at most {most // 10**6} MB are read")
+        raise InputError(
+            f"{path.name}: {stat.st_size / 1e6:,.0f} MB; at most {most // 10**6} MB are read"
+        )
     return stat.st_mtime_ns, stat.st_size
 
 

@@ -53,11 +53,15 @@ def find_rim(photograph: UInt8[np.ndarray, "h w *channels"], pixel: tuple[int, i
     """
     h, w = photograph.shape[:2]
     if max(h, w) > MOST_PIXELS:
-        raise InputError(f"the photograph is {w} by {h} pixels; at most {MOST_PIXELS} are used: make it smaller")
+        raise InputError(
+            f"the photograph is {w} by {h} pixels; at most {MOST_PIXELS} are used: make it smaller"
+        )
     rim = rim_points(photograph, np.minimum(pixel, (w - 1, h - 1)).astype(float), RAYS, FARTHEST)
     whole = fit_algebraic(rim)
     if not (np.isfinite(whole).all() and 0.0 < whole[2] < 4 * FARTHEST):
-        raise InputError("no rim is found round this pixel: pick one inside something bright and round")
+        raise InputError(
+            "no rim is found round this pixel: pick one inside something bright and round"
+        )
     return Rim(photograph, (rim - whole[:2]) * [1.0, -1.0] / whole[2], whole[:2], float(whole[2]))
 
 
@@ -68,7 +72,10 @@ def coins() -> UInt8[np.ndarray, "h w"]:
 
 
 def rim_points(
-    image: UInt8[np.ndarray, "h w *channels"], uv_inside: Float[np.ndarray, "2"], rays: int, farthest: float
+    image: UInt8[np.ndarray, "h w *channels"],
+    uv_inside: Float[np.ndarray, "2"],
+    rays: int,
+    farthest: float,
 ) -> Float[np.ndarray, "n 2"]:
     """Return where the picture darkens most along rays from a pixel, in order round it, pixels.
 

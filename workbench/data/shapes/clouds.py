@@ -93,12 +93,16 @@ def pair(
     """
     if shape not in SHAPES or not 0 < overlap <= 1 or not 0 <= outliers < 1 or count < 1:
         raise ValueError(f"shape {shape!r}, count {count}, overlap {overlap}, outliers {outliers}")
-    cut = (1.0 - overlap) / (2.0 - overlap)  # each scan keeps 1 - cut of the shape; 1 - 2 cut of it is in both
+    cut = (1.0 - overlap) / (
+        2.0 - overlap
+    )  # each scan keeps 1 - cut of the shape; 1 - 2 cut of it is in both
     more = int(np.ceil(count / (1.0 - cut)))
     first, second = (SHAPES[shape](more, rng) for _ in range(2))  # both in the target frame
     first = first[np.argsort(first[:, 0], kind="stable")[:count]]
     second = second[np.argsort(-second[:, 0], kind="stable")[:count]]
-    first, second = (rng.permutation(p) + noise * rng.standard_normal(p.shape) for p in (first, second))
+    first, second = (
+        rng.permutation(p) + noise * rng.standard_normal(p.shape) for p in (first, second)
+    )
     is_outlier = np.arange(count) < round(outliers * count)
     low, high = second.min(axis=0), second.max(axis=0)
     anywhere = rng.uniform(low - 0.5 * (high - low), high + 0.5 * (high - low), (count, 3))

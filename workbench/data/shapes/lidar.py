@@ -35,10 +35,29 @@ def street(rng: np.random.Generator, houses: int = 8, cars: int = 6, poles: int 
     rows = []
     for side in sides[0]:
         size = rng.uniform([5.0, 4.0, 4.0], [12.0, 8.0, 8.0])
-        rows.append([*rng.uniform([-40, 10], [40, 30]) * [1, side], size[2] / 2, *size / 2, rng.uniform(-1.5, 1.5)])
+        rows.append(
+            [
+                *rng.uniform([-40, 10], [40, 30]) * [1, side],
+                size[2] / 2,
+                *size / 2,
+                rng.uniform(-1.5, 1.5),
+            ]
+        )
     for side in sides[1]:
-        rows.append([*rng.uniform([-30, 4.5], [30, 5.5]) * [1, side], 0.75, 2.1, 0.9, 0.75, rng.uniform(-0.15, 0.15)])
-    feet = [[*rng.uniform([-30, 6.2], [30, 6.8]) * [1, side], rng.uniform(0.08, 0.2)] for side in sides[2]]
+        rows.append(
+            [
+                *rng.uniform([-30, 4.5], [30, 5.5]) * [1, side],
+                0.75,
+                2.1,
+                0.9,
+                0.75,
+                rng.uniform(-0.15, 0.15),
+            ]
+        )
+    feet = [
+        [*rng.uniform([-30, 6.2], [30, 6.8]) * [1, side], rng.uniform(0.08, 0.2)]
+        for side in sides[2]
+    ]
     return Street(np.array(rows).reshape(-1, 7), np.array(feet).reshape(-1, 3))
 
 
@@ -61,9 +80,15 @@ def lidar_scan(
         columns: Directions of one turn.
         noise: Standard deviation of each coordinate, metres.
     """
-    azimuth = np.linspace(-np.pi, np.pi, columns, endpoint=False) + rng.uniform(0, 2 * np.pi / columns)
-    up, around = (a.ravel() for a in np.meshgrid(np.linspace(LOWEST, HIGHEST, rings), azimuth, indexing="ij"))
-    v_sensor = np.column_stack([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
+    azimuth = np.linspace(-np.pi, np.pi, columns, endpoint=False) + rng.uniform(
+        0, 2 * np.pi / columns
+    )
+    up, around = (
+        a.ravel() for a in np.meshgrid(np.linspace(LOWEST, HIGHEST, rings), azimuth, indexing="ij")
+    )
+    v_sensor = np.column_stack(
+        [np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)]
+    )
     distance = _distances(scene, T_world_sensor[:3, 3], v_sensor @ T_world_sensor[:3, :3].T)
     seen = distance < RANGE
     p_sensor = v_sensor[seen] * distance[seen, None]
@@ -82,7 +107,9 @@ def lidar_pair(
     scene = street(rng)
     T_world_target = motion(np.eye(3), np.array([0.0, 0.0, SENSOR_HEIGHT]))
     p_target = lidar_scan(scene, T_world_target, rng, rings=rings, columns=columns, noise=noise)
-    p_source = lidar_scan(scene, T_world_target @ T_target_source, rng, rings=rings, columns=columns, noise=noise)
+    p_source = lidar_scan(
+        scene, T_world_target @ T_target_source, rng, rings=rings, columns=columns, noise=noise
+    )
     return p_target, p_source
 
 
@@ -104,7 +131,11 @@ def _towards(off: np.ndarray, reach: float, v_world: np.ndarray, flat: np.ndarra
     """Return which rays, seen from above, pass a middle by `reach` or little more; `flat` is their squared length."""
     along = v_world[:, :2] @ off
     beside = off @ off - (1.01 * reach) ** 2  # square of how far it is to the circle's edge
-    return np.flatnonzero((along > 0) & (along * along >= beside * flat)) if beside > 0 else np.arange(len(flat))
+    return (
+        np.flatnonzero((along > 0) & (along * along >= beside * flat))
+        if beside > 0
+        else np.arange(len(flat))
+    )
 
 
 def _to_box(box: np.ndarray, p_world: np.ndarray, v_world: np.ndarray) -> np.ndarray:
@@ -120,4 +151,6 @@ def _to_pole(pole: np.ndarray, p_world: np.ndarray, v_world: np.ndarray) -> np.n
     a, b, c = (flat**2).sum(axis=1), flat @ off, off @ off - pole[2] ** 2
     root = b * b - a * c
     s = (-b - np.sqrt(np.maximum(root, 0.0))) / a
-    return np.where((root > 0) & (s > 0) & (p_world[2] + s * v_world[:, 2] < POLE_HEIGHT), s, np.inf)
+    return np.where(
+        (root > 0) & (s > 0) & (p_world[2] + s * v_world[:, 2] < POLE_HEIGHT), s, np.inf
+    )

@@ -67,7 +67,9 @@ def rabbit_mesh(spacing: float = 0.03) -> tuple[Float[np.ndarray, "v 3"], Int[np
     from skimage.measure import marching_cubes
 
     counts = np.ceil((_HIGH - _LOW) / spacing).astype(int) + 1
-    grid = np.stack(np.meshgrid(*(np.arange(n) for n in counts), indexing="ij"), axis=-1).reshape(-1, 3)
+    grid = np.stack(np.meshgrid(*(np.arange(n) for n in counts), indexing="ij"), axis=-1).reshape(
+        -1, 3
+    )
     values = rabbit_field(_LOW + spacing * grid)[0].reshape(counts)
     p, faces, _, _ = marching_cubes(values, 0.0, spacing=(spacing,) * 3)
     p, faces = _onto_surface(_LOW + p.astype(float)), faces.astype(np.int64)
@@ -109,7 +111,9 @@ def _ellipsoid(count: int, radii: np.ndarray, rng: np.random.Generator) -> np.nd
     return (u * radii)[rng.random(count) < stretch]
 
 
-def _blob_distance(p: np.ndarray, centre: tuple, radii: tuple, turn: tuple) -> tuple[np.ndarray, np.ndarray]:
+def _blob_distance(
+    p: np.ndarray, centre: tuple, radii: tuple, turn: tuple
+) -> tuple[np.ndarray, np.ndarray]:
     """Return roughly the signed distance to an ellipsoid, and its gradient."""
     R = exp_so3(np.array(turn))
     q = (p - np.array(centre)) @ R / np.array(radii)

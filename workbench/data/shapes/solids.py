@@ -21,7 +21,9 @@ class Solid:
     lines: Float[np.ndarray, "s 2 3"]
 
 
-def outlined(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], angle: float = 0.02) -> Solid:
+def outlined(
+    p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], angle: float = 0.02
+) -> Solid:
     """Return a mesh together with its sharp edges as lines."""
     return Solid(p, faces, p[sharp_edges(p, faces, angle)])
 
@@ -36,7 +38,9 @@ def box(size: tuple[float, float, float] = (1.0, 0.7, 0.6)) -> Solid:
     x, y, z = size
     foot = np.array([[-x / 2, -y / 2], [x / 2, -y / 2], [x / 2, y / 2], [-x / 2, y / 2]])
     p = np.vstack([np.c_[foot, np.zeros(4)], np.c_[foot, np.full(4, z)]])
-    return _of_polygons(p, ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)))
+    return _of_polygons(
+        p, ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+    )
 
 
 def house() -> Solid:
@@ -51,7 +55,9 @@ def house() -> Solid:
 
 def l_block() -> Solid:
     """Return an L-shaped block; its mirror image is the same block turned over."""
-    corners = np.array([[-0.5, -0.35], [0.5, -0.35], [0.5, 0.0], [-0.1, 0.0], [-0.1, 0.35], [-0.5, 0.35]])
+    corners = np.array(
+        [[-0.5, -0.35], [0.5, -0.35], [0.5, 0.0], [-0.1, 0.0], [-0.1, 0.35], [-0.5, 0.35]]
+    )
     p = np.vstack([np.c_[corners, np.zeros(6)], np.c_[corners, np.full(6, 0.5)]])
     sides = tuple((i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6))
     return _of_polygons(p, ((3, 2, 1, 0), (5, 4, 3, 0), (6, 7, 8, 9), (6, 9, 10, 11), *sides))

@@ -45,7 +45,9 @@ class Surface:
         return (self.k1 + self.k2) / 2
 
 
-def sphere(count: int, radius: float = 1.0, *, jitter: float = 0.0, rng: np.random.Generator | None = None) -> Surface:
+def sphere(
+    count: int, radius: float = 1.0, *, jitter: float = 0.0, rng: np.random.Generator | None = None
+) -> Surface:
     """Sample a sphere by a subdivided icosahedron: all vertices have six neighbours but twelve, which have five."""
     normals, faces = _geodesic(max(1, round(np.sqrt(max(count - 2, 10) / 10))))
     if _checked(jitter):
@@ -56,18 +58,32 @@ def sphere(count: int, radius: float = 1.0, *, jitter: float = 0.0, rng: np.rand
 
 
 def torus(
-    count: int, ring: float = 1.0, tube: float = 0.4, *, jitter: float = 0.0, rng: np.random.Generator | None = None
+    count: int,
+    ring: float = 1.0,
+    tube: float = 0.4,
+    *,
+    jitter: float = 0.0,
+    rng: np.random.Generator | None = None,
 ) -> Surface:
     """Sample a torus around z: K > 0 outside, K < 0 inside, K = 0 along the two circles on which it could lie."""
     across = max(3, round(np.sqrt(count * tube / ring)))
     around = max(3, round(count / across))
-    uv, faces = _grid(around, across, (0, 2 * np.pi), (0, 2 * np.pi), closed=(True, True), jitter=jitter, rng=rng)
+    uv, faces = _grid(
+        around, across, (0, 2 * np.pi), (0, 2 * np.pi), closed=(True, True), jitter=jitter, rng=rng
+    )
     (u, v), zero = uv.T, np.zeros(len(uv))
     outward = np.c_[np.cos(u), np.sin(u), zero]
     normals = np.cos(v)[:, None] * outward + np.sin(v)[:, None] * np.array([0, 0, 1.0])
     along_tube = -np.sin(v)[:, None] * outward + np.cos(v)[:, None] * np.array([0, 0, 1.0])
     k_ring = np.cos(v) / (ring + tube * np.cos(v))
-    return Surface(ring * outward + tube * normals, faces, normals, np.full(len(uv), 1 / tube), k_ring, along_tube)
+    return Surface(
+        ring * outward + tube * normals,
+        faces,
+        normals,
+        np.full(len(uv), 1 / tube),
+        k_ring,
+        along_tube,
+    )
 
 
 def cylinder(
@@ -82,7 +98,9 @@ def cylinder(
     around = max(3, round(np.sqrt(count * 2 * np.pi * radius / height)))
     up = max(2, round(count / around))
     span = (-height / 2, height / 2)
-    uv, faces = _grid(around, up, (0, 2 * np.pi), span, closed=(True, False), jitter=jitter, rng=rng)
+    uv, faces = _grid(
+        around, up, (0, 2 * np.pi), span, closed=(True, False), jitter=jitter, rng=rng
+    )
     (u, z), zero = uv.T, np.zeros(len(uv))
     normals = np.c_[np.cos(u), np.sin(u), zero]
     p = radius * normals + np.c_[zero, zero, z]
@@ -90,14 +108,27 @@ def cylinder(
 
 
 def catenoid(
-    count: int, waist: float = 0.5, height: float = 1.2, *, jitter: float = 0.0, rng: np.random.Generator | None = None
+    count: int,
+    waist: float = 0.5,
+    height: float = 1.2,
+    *,
+    jitter: float = 0.0,
+    rng: np.random.Generator | None = None,
 ) -> Surface:
     """Sample a catenoid around z, a minimal surface: H = 0 and K = -1 / (waist^2 cosh^4(z / waist))."""
     # With t = z / waist the metric is waist^2 cosh^2(t) (du^2 + dt^2): square cells in (u, t) are square in space.
     span = height / waist
     around = max(3, round(np.sqrt(count * 2 * np.pi / span)))
     up = max(2, round(count / around))
-    uv, faces = _grid(around, up, (0, 2 * np.pi), (-span / 2, span / 2), closed=(True, False), jitter=jitter, rng=rng)
+    uv, faces = _grid(
+        around,
+        up,
+        (0, 2 * np.pi),
+        (-span / 2, span / 2),
+        closed=(True, False),
+        jitter=jitter,
+        rng=rng,
+    )
     (u, t), zero = uv.T, np.zeros(len(uv))
     p = waist * np.c_[np.cosh(t) * np.cos(u), np.cosh(t) * np.sin(u), t]
     normals = np.c_[np.cos(u), np.sin(u), -np.sinh(t)] / np.cosh(t)[:, None]
@@ -106,18 +137,27 @@ def catenoid(
 
 
 def saddle(
-    count: int, bend: float = 1.0, half: float = 1.0, *, jitter: float = 0.0, rng: np.random.Generator | None = None
+    count: int,
+    bend: float = 1.0,
+    half: float = 1.0,
+    *,
+    jitter: float = 0.0,
+    rng: np.random.Generator | None = None,
 ) -> Surface:
     """Sample z = bend (x^2 - y^2) / 2 over the square |x|, |y| <= half: K < 0 everywhere, K = -bend^2 in the middle."""
     side = max(2, round(np.sqrt(count)))
-    xy, faces = _grid(side, side, (-half, half), (-half, half), closed=(False, False), jitter=jitter, rng=rng)
+    xy, faces = _grid(
+        side, side, (-half, half), (-half, half), closed=(False, False), jitter=jitter, rng=rng
+    )
     x, y = xy.T
     slope = np.c_[bend * x, -bend * y]
     hessian = np.broadcast_to(np.diag([bend, -bend]), (len(xy), 2, 2))
     return _monge(xy, bend * (x**2 - y**2) / 2, slope, hessian, faces)
 
 
-def plane(count: int, half: float = 1.0, *, jitter: float = 0.0, rng: np.random.Generator | None = None) -> Surface:
+def plane(
+    count: int, half: float = 1.0, *, jitter: float = 0.0, rng: np.random.Generator | None = None
+) -> Surface:
     """Sample the square |x|, |y| <= half of the plane z = 0: K = H = 0."""
     return saddle(count, 0.0, half, jitter=jitter, rng=rng)
 
@@ -143,13 +183,21 @@ def inside_out(surface: Surface) -> Surface:
     """Return the surface with its outside in: normals turn round, k1 and k2 change sign and places, K stays."""
     along = np.cross(surface.normals, surface.along_k1)
     return replace(
-        surface, faces=surface.faces[:, ::-1], normals=-surface.normals, k1=-surface.k2, k2=-surface.k1, along_k1=along
+        surface,
+        faces=surface.faces[:, ::-1],
+        normals=-surface.normals,
+        k1=-surface.k2,
+        k2=-surface.k1,
+        along_k1=along,
     )
 
 
 def with_noise(surface: Surface, sigma: float, rng: np.random.Generator) -> Surface:
     """Move every vertex along its normal by Gaussian noise of sigma metres; the analytic values stay the smooth ones."""
-    return replace(surface, p=surface.p + sigma * rng.standard_normal(len(surface.p))[:, None] * surface.normals)
+    return replace(
+        surface,
+        p=surface.p + sigma * rng.standard_normal(len(surface.p))[:, None] * surface.normals,
+    )
 
 
 def _monge(
@@ -184,7 +232,8 @@ def _grid(
 ) -> tuple[UV, Int[np.ndarray, "f 3"]]:
     """Return a grid of parameters, its cells cut along one diagonal; jitter, in cells, leaves open borders alone."""
     ends = [
-        np.linspace(*span, n, endpoint=not c) for span, n, c in zip((u_span, v_span), (n_u, n_v), closed, strict=True)
+        np.linspace(*span, n, endpoint=not c)
+        for span, n, c in zip((u_span, v_span), (n_u, n_v), closed, strict=True)
     ]
     u, v = np.meshgrid(*ends, indexing="ij")
     if _checked(jitter):
@@ -195,7 +244,9 @@ def _grid(
         u = u + shift[0] * (ends[0][1] - ends[0][0])
         v = v + shift[1] * (ends[1][1] - ends[1][0])
     i, j = np.meshgrid(
-        np.arange(n_u if closed[0] else n_u - 1), np.arange(n_v if closed[1] else n_v - 1), indexing="ij"
+        np.arange(n_u if closed[0] else n_u - 1),
+        np.arange(n_v if closed[1] else n_v - 1),
+        indexing="ij",
     )
     a, b = i * n_v + j, (i + 1) % n_u * n_v + j
     c, d = (i + 1) % n_u * n_v + (j + 1) % n_v, i * n_v + (j + 1) % n_v
@@ -211,7 +262,13 @@ def _geodesic(frequency: int) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray,
     edge = np.linalg.norm(corners[:, None] - corners[None], axis=2)
     near = np.abs(edge - edge[edge > 0].min()) < 1e-9
     triangles = np.array(
-        [(a, b, c) for a in range(12) for b in range(a) for c in range(b) if near[a, b] and near[b, c] and near[a, c]]
+        [
+            (a, b, c)
+            for a in range(12)
+            for b in range(a)
+            for c in range(b)
+            if near[a, b] and near[b, c] and near[a, c]
+        ]
     )
     inward = np.linalg.det(corners[triangles]) < 0
     triangles[inward] = triangles[inward][:, ::-1]
@@ -221,8 +278,13 @@ def _geodesic(frequency: int) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray,
     row = np.empty((frequency + 1, frequency + 1), dtype=np.int64)
     row[i, j] = np.arange(len(i))
     up, down = i + j < frequency, i + j < frequency - 1
-    small = [np.stack([row[i, j], row[i + 1, j], row[i, j + 1]], axis=1) for i, j in [(i[up], j[up])]]
-    small += [np.stack([row[i + 1, j], row[i + 1, j + 1], row[i, j + 1]], axis=1) for i, j in [(i[down], j[down])]]
+    small = [
+        np.stack([row[i, j], row[i + 1, j], row[i, j + 1]], axis=1) for i, j in [(i[up], j[up])]
+    ]
+    small += [
+        np.stack([row[i + 1, j], row[i + 1, j + 1], row[i, j + 1]], axis=1)
+        for i, j in [(i[down], j[down])]
+    ]
     faces = (np.concatenate(small) + len(weights) * np.arange(20)[:, None, None]).reshape(-1, 3)
     # Edges and corners were made once per triangle: the same point to 1e-9 is the same vertex.
     _, first, name = np.unique(np.round(p, 9) + 0.0, axis=0, return_index=True, return_inverse=True)

@@ -13,7 +13,11 @@ import numpy as np
 import scipy
 from jaxtyping import Complex, Float, Int, UInt8
 
-SIDES = (800, 1200, 400)  # pixels along the longer side at most, to which a picture is shrunk where corners are sought
+SIDES = (
+    800,
+    1200,
+    400,
+)  # pixels along the longer side at most, to which a picture is shrunk where corners are sought
 BLUR, RING, APART = 1.5, 4.5, 7  # pixels: of the saddles, of the ring around one, between two
 MOST, SEEDS = 500, 120  # saddles that are looked at, and those from which a board is grown
 FOURFOLD = 0.55  # share of a ring's changes that two dark and two bright sectors make
@@ -26,7 +30,9 @@ ITERATIONS, STILL = 40, 1e-3  # pixels
 Table = Int[np.ndarray, "rows columns"]
 
 
-def board_corners(grey: UInt8[np.ndarray, "h w"], columns: int, rows: int) -> Float[np.ndarray, "n 2"] | None:
+def board_corners(
+    grey: UInt8[np.ndarray, "h w"], columns: int, rows: int
+) -> Float[np.ndarray, "n 2"] | None:
     """Return the inner corners of a whole checkerboard, pixels, row by row; None where there is none, or a larger one.
 
     Rows run to the right where the first corner is at the upper left. That is the one of the two ends between dark squares
@@ -42,7 +48,12 @@ def board_corners(grey: UInt8[np.ndarray, "h w"], columns: int, rows: int) -> Fl
         h, w = (length // k for length in grey.shape)
         if min(h, w) <= 2 * RING + 1:
             return None
-        small = grey[: h * k, : w * k].reshape(h, k, w, k).mean(axis=(1, 3), dtype=np.float32).astype(float)
+        small = (
+            grey[: h * k, : w * k]
+            .reshape(h, k, w, k)
+            .mean(axis=(1, 3), dtype=np.float32)
+            .astype(float)
+        )
         uv, wave = _saddles(small)
         for table in _tables(uv, wave, columns, rows):
             found = k * (uv[_from_the_first(uv, wave, table)] + 0.5) - 0.5
@@ -51,7 +62,9 @@ def board_corners(grey: UInt8[np.ndarray, "h w"], columns: int, rows: int) -> Fl
     return None
 
 
-def refined(grey: UInt8[np.ndarray, "h w"], uv: Float[np.ndarray, "n 2"], half: int) -> Float[np.ndarray, "n 2"]:
+def refined(
+    grey: UInt8[np.ndarray, "h w"], uv: Float[np.ndarray, "n 2"], half: int
+) -> Float[np.ndarray, "n 2"]:
     """Return corners where the gradients around them, each at right angles to the way there, put them, pixels.
 
     Args:
@@ -71,10 +84,14 @@ def refined(grey: UInt8[np.ndarray, "h w"], uv: Float[np.ndarray, "n 2"], half: 
     for _ in range(ITERATIONS):
         gx, gy = level(0, 1) - level(0, -1), level(1, 0) - level(-1, 0)
         xx, xy, yy = weight * gx * gx, weight * gx * gy, weight * gy * gy
-        A = np.stack([xx.sum(axis=1), xy.sum(axis=1), xy.sum(axis=1), yy.sum(axis=1)], axis=1).reshape(-1, 2, 2)
+        A = np.stack(
+            [xx.sum(axis=1), xy.sum(axis=1), xy.sum(axis=1), yy.sum(axis=1)], axis=1
+        ).reshape(-1, 2, 2)
         b = np.stack([(xx * dx + xy * dy).sum(axis=1), (xy * dx + yy * dy).sum(axis=1)], axis=1)
         flat = np.linalg.det(A) <= 1e-9 * np.trace(A, axis1=1, axis2=2) ** 2
-        move = np.linalg.solve(np.where(flat[:, None, None], np.eye(2), A), np.where(flat[:, None], 0.0, b)[..., None])
+        move = np.linalg.solve(
+            np.where(flat[:, None, None], np.eye(2), A), np.where(flat[:, None], 0.0, b)[..., None]
+        )
         found = found + move[..., 0]
         away = np.abs(found - uv).max(axis=1) > half
         found[away] = uv[away]
@@ -85,19 +102,25 @@ def refined(grey: UInt8[np.ndarray, "h w"], uv: Float[np.ndarray, "n 2"], half: 
 
 def _saddles(grey: np.ndarray) -> tuple[Float[np.ndarray, "n 2"], Complex[np.ndarray, " n"]]:
     """Return pixels around which dark and bright take turns twice, and where they do: twice the angle of the bright."""
-    yy, xx, xy = (scipy.ndimage.gaussian_filter(grey, BLUR, order=order) for order in ((2, 0), (0, 2), (1, 1)))
+    yy, xx, xy = (
+        scipy.ndimage.gaussian_filter(grey, BLUR, order=order) for order in ((2, 0), (0, 2), (1, 1))
+    )
     strength = xy * xy - xx * yy
     v, u = np.nonzero((strength == scipy.ndimage.maximum_filter(strength, APART)) & (strength > 0))
     strongest = np.argsort(-strength[v, u], kind="stable")[: 4 * MOST]
     u, v = u[strongest], v[strongest]
     angle = np.arange(32) * np.pi / 16
     around = [v[:, None] + RING * np.sin(angle), u[:, None] + RING * np.cos(angle)]
-    ring = scipy.ndimage.map_coordinates(scipy.ndimage.gaussian_filter(grey, 1.0), around, order=1, mode="nearest")
+    ring = scipy.ndimage.map_coordinates(
+        scipy.ndimage.gaussian_filter(grey, 1.0), around, order=1, mode="nearest"
+    )
     ring -= ring.mean(axis=1, keepdims=True)
     wave = ring @ np.exp(2j * angle) / len(angle)
     changes = np.maximum(np.square(ring).mean(axis=1), 1e-9)
     fourfold = 2 * np.abs(wave) ** 2 > FOURFOLD * changes
-    unlike = np.square(ring - np.roll(ring, len(angle) // 2, axis=1)).mean(axis=1) / 4 > UNLIKE * changes
+    unlike = (
+        np.square(ring - np.roll(ring, len(angle) // 2, axis=1)).mean(axis=1) / 4 > UNLIKE * changes
+    )
     kept = np.flatnonzero(fourfold & ~unlike & (np.abs(wave) > FAINT))[:MOST]
     return np.column_stack([u, v])[kept].astype(float), wave[kept] / np.abs(wave[kept])
 
@@ -129,20 +152,30 @@ def _differ(wave: Any, other: Any) -> Any:
     return np.real(wave * np.conj(other)) < -0.2
 
 
-def _grown(uv: np.ndarray, wave: np.ndarray, tree: "scipy.spatial.cKDTree", grid: dict) -> dict[tuple[int, int], int]:
+def _grown(
+    uv: np.ndarray, wave: np.ndarray, tree: "scipy.spatial.cKDTree", grid: dict
+) -> dict[tuple[int, int], int]:
     """Return the grid with all saddles that lie where those next to them let expect one."""
     used, waiting = set(grid.values()), list(grid)
     for i, j in waiting:  # grows
         for di, dj in ((0, 1), (1, 0), (0, -1), (-1, 0)):
             behind, place = (i - di, j - dj), (i + di, j + dj)
-            sides = [((i + s * dj, j + s * di), (i + di + s * dj, j + dj + s * di)) for s in (1, -1)]
+            sides = [
+                ((i + s * dj, j + s * di), (i + di + s * dj, j + dj + s * di)) for s in (1, -1)
+            ]
             ways = [(grid[behind], grid[i, j])] if behind in grid else []
-            ways += [(grid[here], grid[there]) for here, there in sides if here in grid and there in grid]
+            ways += [
+                (grid[here], grid[there]) for here, there in sides if here in grid and there in grid
+            ]
             if place in grid or not ways:
                 continue
             step = uv[ways[0][1]] - uv[ways[0][0]]
             away, k = tree.query(uv[grid[i, j]] + step)
-            if away < NEAR * np.linalg.norm(step) and int(k) not in used and _differ(wave[grid[i, j]], wave[k]):
+            if (
+                away < NEAR * np.linalg.norm(step)
+                and int(k) not in used
+                and _differ(wave[grid[i, j]], wave[k])
+            ):
                 grid[place] = int(k)
                 used.add(int(k))
                 waiting.append(place)

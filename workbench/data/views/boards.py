@@ -23,7 +23,9 @@ _TRIES = 40
 _MARGIN = 3.0  # pixels that corners stay away from the border
 
 
-def board_points(columns: int = COLUMNS, rows: int = ROWS, square: float = SQUARE) -> Float[np.ndarray, "n 3"]:
+def board_points(
+    columns: int = COLUMNS, rows: int = ROWS, square: float = SQUARE
+) -> Float[np.ndarray, "n 3"]:
     """Return the inner corners of a board in its own frame, metres: row by row, Z = 0, the first at the origin."""
     y, x = np.mgrid[:rows, :columns]
     return square * np.stack([x.ravel(), y.ravel(), np.zeros(columns * rows)], axis=1)
@@ -41,11 +43,15 @@ def printed(p_board: Float[np.ndarray, "n 3"], fault: Fault) -> Float[np.ndarray
     return p_board * [*STRETCH.get(fault, (1.0, 1.0)), 1.0]
 
 
-def board_mesh() -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"], UInt8[np.ndarray, "f 3"]]:
+def board_mesh() -> tuple[
+    Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"], UInt8[np.ndarray, "f 3"]
+]:
     """Return the squares of the board as triangles: corners in metres, faces, and a colour for each face."""
     j, i = (axis.ravel() for axis in np.mgrid[-1:ROWS, -1:COLUMNS])
     corner = np.stack([i, j, np.zeros_like(i)], axis=1)
-    p = SQUARE * (corner[:, None] + np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])).reshape(-1, 3)
+    p = SQUARE * (corner[:, None] + np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])).reshape(
+        -1, 3
+    )
     faces = (4 * np.arange(len(i))[:, None, None] + np.array([[0, 1, 2], [0, 2, 3]])).reshape(-1, 3)
     shade = np.where((i + j) % 2 == 0, 60, 245).astype(np.uint8)
     return p, faces, np.repeat(shade, 2)[:, None].repeat(3, axis=1)
@@ -76,7 +82,9 @@ def board_poses(
             n = np.array([np.cos(np.pi * axis), np.sin(np.pi * axis), 0.0])
             R = exp_so3(size * n) @ exp_so3(np.array([0.0, 0.0, 0.6 * roll]))
             depth = distance * (1.1 + 0.2 * away)
-            inwards = 1.0 - k / (_TRIES - 1)  # from the sides to the middle, until all is in the picture
+            inwards = 1.0 - k / (
+                _TRIES - 1
+            )  # from the sides to the middle, until all is in the picture
             aside = inwards * spread * depth * np.array([0.38 * right, 0.3 * down])
             T = motion(R, np.array([*aside, depth]) - R @ middle)
             uv = project(p_board, T, K_TRUE, LENS_TRUE)
@@ -107,5 +115,8 @@ def board_pixels(
     uv = np.stack([project(p, T, K_TRUE, LENS_TRUE) for T in Ts_camera_board])
     uv += sigma * rng.standard_normal(uv.shape)
     if bad_corners:
-        uv[1, (np.arange(bad_corners) * COLUMNS) % len(p) + np.arange(bad_corners) // ROWS] += [4.0, 3.0]
+        uv[1, (np.arange(bad_corners) * COLUMNS) % len(p) + np.arange(bad_corners) // ROWS] += [
+            4.0,
+            3.0,
+        ]
     return uv

@@ -26,10 +26,17 @@ from workbench.errors import InputError
 from workbench.numerals import counted
 
 MOST_VIEWS, MOST_POINTS = 40, 1000
-STRETCHED = 0.01  # share by which the shape of a picture may differ from that which corners were found in
+STRETCHED = (
+    0.01  # share by which the shape of a picture may differ from that which corners were found in
+)
 Which = Literal["first", "second"]
 _BOARD = ("object_points", "p_board", "board")
-_PIXELS = (("left", "right"), ("uv", "uv2"), ("corners", "corners2"), ("image_points", "image_points2"))
+_PIXELS = (
+    ("left", "right"),
+    ("uv", "uv2"),
+    ("corners", "corners2"),
+    ("image_points", "image_points2"),
+)
 _SIZES = (
     (640, 480), (752, 480), (800, 600), (1024, 768), (1280, 720), (1280, 960), (1600, 1200), (1920, 1080), (2048, 1536),
     (2592, 1944), (3264, 2448), (3840, 2160), (4032, 3024), (5184, 3456), (6000, 4000),
@@ -91,7 +98,9 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
     stamp(path)
     given = _from_arrays(path, which) if path.suffix.lower() == ".npz" else _from_text(path)
     if given.count > MOST_VIEWS:
-        raise InputError(f"{path.name}: {given.count} views; from 2 to {MOST_VIEWS} are calibrated from")
+        raise InputError(
+            f"{path.name}: {given.count} views; from 2 to {MOST_VIEWS} are calibrated from"
+        )
     if len(given.p_board) > MOST_POINTS:
         raise InputError(
             f"{path.name}: {len(given.p_board)} points on the board; from 4 to {MOST_POINTS} are calibrated from"
@@ -100,14 +109,18 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
     p, uv = found.p_board, found.uv
     left = " left without NaN and infinity" if found is not given else ""
     if len(uv) < 2:
-        raise InputError(f"{path.name}: {len(uv)} views{left}; from 2 to {MOST_VIEWS} are calibrated from")
+        raise InputError(
+            f"{path.name}: {len(uv)} views{left}; from 2 to {MOST_VIEWS} are calibrated from"
+        )
     if len(p) < 4:
         raise InputError(
             f"{path.name}: {len(p)} points on the board{left}; from 4 to {MOST_POINTS} are calibrated from"
         )
     reach = np.linalg.svd(p[:, :2] - p[:, :2].mean(axis=0), compute_uv=False)
     if not reach[1] > 1e-6 * reach[0] > 0 or np.ptp(p[:, 2]) > 1e-6 * reach[0]:
-        raise InputError(f"{path.name}: the board's points lie on one line, or not in a plane Z = 0")
+        raise InputError(
+            f"{path.name}: the board's points lie on one line, or not in a plane Z = 0"
+        )
     if (np.ptp(uv, axis=1).min(axis=1) <= 0).any():
         raise InputError(f"{path.name}: in a view all corners are on one row or column of pixels")
     return found
@@ -129,9 +142,13 @@ def pictures_below(found: Corners, path: Path, only: int) -> Pictures:
     pictures = pictures_of(path, matched(path, found.names, count) if holds_many(path) else one)
     (w, h), (u, v), stated = pictures.size, found.uv.reshape(-1, 2).max(axis=0), found.stated
     if stated is None and not (u < w and v < h):
-        raise InputError(f"{path.name or path}: pictures of {w} x {h} pixels, and corners as far as ({u:.0f}, {v:.0f})")
+        raise InputError(
+            f"{path.name or path}: pictures of {w} x {h} pixels, and corners as far as ({u:.0f}, {v:.0f})"
+        )
     if stated is not None and abs(w * stated[1] / (h * stated[0]) - 1) > STRETCHED:
-        raise InputError(f"{path.name or path}: pictures of {w} x {h} pixels, and corners of {stated[0]} x {stated[1]}")
+        raise InputError(
+            f"{path.name or path}: pictures of {w} x {h} pixels, and corners of {stated[0]} x {stated[1]}"
+        )
     return pictures
 
 
@@ -150,7 +167,9 @@ def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures
     """
     names = names_in(path) if holds_many(path) else (path.name,)
     if len(names) > MOST_VIEWS:
-        raise InputError(f"{path.name or path}: {len(names)} pictures; up to {MOST_VIEWS} are calibrated from")
+        raise InputError(
+            f"{path.name or path}: {len(names)} pictures; up to {MOST_VIEWS} are calibrated from"
+        )
     size = pictures_of(path, names).size
     found = {name: _found(path, name, stamp_of(path, name), columns, rows) for name in names}
     with_board = {name: uv for name, uv in found.items() if uv is not None}
@@ -165,17 +184,25 @@ def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures
         names=tuple(with_board),
         stated=size,
     )
-    return corners, Pictures(path, tuple(with_board), size), tuple(name for name in names if name not in with_board)
+    return (
+        corners,
+        Pictures(path, tuple(with_board), size),
+        tuple(name for name in names if name not in with_board),
+    )
 
 
 @functools.lru_cache(maxsize=4 * MOST_VIEWS)
-def _found(path: Path, name: str, _stamp: tuple[int, int], columns: int, rows: int) -> np.ndarray | None:
+def _found(
+    path: Path, name: str, _stamp: tuple[int, int], columns: int, rows: int
+) -> np.ndarray | None:
     return board_corners(grey_picture(path, name), columns, rows)
 
 
 def _with_numbers(given: Corners, name: str) -> Corners:
     """Return the views and points that all have numbers, and tell how many corners have none and what went with them."""
-    unknown: np.ndarray = np.asarray(~np.isfinite(given.uv).all(axis=2) | ~np.isfinite(given.p_board).all(axis=1))
+    unknown: np.ndarray = np.asarray(
+        ~np.isfinite(given.uv).all(axis=2) | ~np.isfinite(given.p_board).all(axis=1)
+    )
     if not unknown.any():
         return given
     if unknown.all():
@@ -192,7 +219,9 @@ def _with_numbers(given: Corners, name: str) -> Corners:
     if without:
         lost.append(f"{'view' if len(without) == 1 else 'views'} {', '.join(map(str, without))}")
     if len(points) < len(given.p_board):
-        lost.append(f"{counted(len(given.p_board) - len(points), 'point')} of the board in all views")
+        lost.append(
+            f"{counted(len(given.p_board) - len(points), 'point')} of the board in all views"
+        )
     note(
         f"{name}: {int(unknown.sum()):,} of {counted(unknown.size, 'corner')} left out, NaN or infinite, and with them"
         f" {' and '.join(lost)}."
@@ -217,9 +246,16 @@ def _from_arrays(path: Path, which: Which) -> Corners:
         uv = uv[:, :, 0]  # as OpenCV has them
     if board.ndim == 3 and len(board):
         board = board[0]
-    shapes = board.ndim == 2 and board.shape[1] in (2, 3) and uv.ndim == 3 and uv.shape[1:] == (len(board), 2)
+    shapes = (
+        board.ndim == 2
+        and board.shape[1] in (2, 3)
+        and uv.ndim == 3
+        and uv.shape[1:] == (len(board), 2)
+    )
     if not shapes or board.dtype.kind not in "fiu" or uv.dtype.kind not in "fiu":
-        raise InputError(f"{path.name}: arrays {board.shape} and {uv.shape}, where (n, 3) and (k, n, 2) are wanted")
+        raise InputError(
+            f"{path.name}: arrays {board.shape} and {uv.shape}, where (n, 3) and (k, n, 2) are wanted"
+        )
     p = np.zeros((len(board), 3))
     p[:, : board.shape[1]] = board
     size = arrays.get("size", arrays.get("image_size"))
@@ -228,7 +264,10 @@ def _from_arrays(path: Path, which: Which) -> Corners:
     ):
         raise InputError(f"{path.name}: size is two numbers, width and height in pixels")
     said = (f"{pair[which == 'second']}_names", "names")
-    names = next((arrays[one] for one in said if one in arrays and arrays[one].shape == uv.shape[:1]), np.empty(0, str))
+    names = next(
+        (arrays[one] for one in said if one in arrays and arrays[one].shape == uv.shape[:1]),
+        np.empty(0, str),
+    )
     return Corners(
         p_board=p,
         uv=uv.astype(float),
@@ -244,10 +283,14 @@ def _from_text(path: Path) -> Corners:
             numbers = [float(word) for word in words]
         except ValueError:
             if views:
-                raise InputError(f"{path.name}, line {i}: not numbers X Y u v behind the view") from None
+                raise InputError(
+                    f"{path.name}, line {i}: not numbers X Y u v behind the view"
+                ) from None
             continue  # a line of names
         if len(numbers) != 4:
-            raise InputError(f"{path.name}, line {i}: {len(numbers)} numbers behind the view; X Y u v are wanted")
+            raise InputError(
+                f"{path.name}, line {i}: {len(numbers)} numbers behind the view; X Y u v are wanted"
+            )
         views.setdefault(view, []).append(numbers)
     if len({len(rows) for rows in views.values()}) > 1:
         raise InputError(f"{path.name}: not all views have the same number of points")
@@ -255,11 +298,17 @@ def _from_text(path: Path) -> Corners:
         raise InputError(f"{path.name}: no lines view X Y u v")
     table = np.array(list(views.values()))
     known: np.ndarray = np.asarray(np.isfinite(table).all(axis=2))
-    first = table[known.argmax(axis=0), np.arange(table.shape[1]), :2]  # of each point, in the first view that has it
+    first = table[
+        known.argmax(axis=0), np.arange(table.shape[1]), :2
+    ]  # of each point, in the first view that has it
     if np.abs(table[:, :, :2] - first)[known].max(initial=0.0) > 0:
-        raise InputError(f"{path.name}: the views do not list the same points of the board in the same order")
+        raise InputError(
+            f"{path.name}: the views do not list the same points of the board in the same order"
+        )
     p = np.column_stack([first, np.zeros(table.shape[1])])
-    return Corners(p_board=p, uv=np.where(known[:, :, None], table[:, :, 2:], np.nan), names=tuple(views))
+    return Corners(
+        p_board=p, uv=np.where(known[:, :, None], table[:, :, 2:], np.nan), names=tuple(views)
+    )
 
 
 def _size_of(uv: np.ndarray) -> tuple[int, int]:
@@ -267,4 +316,6 @@ def _size_of(uv: np.ndarray) -> tuple[int, int]:
     if not np.isfinite(uv).all() or not uv.size:
         return _SIZES[0]
     u, v = uv.reshape(-1, 2).max(axis=0)
-    return next(((w, h) for w, h in _SIZES if u < w and v < h), (int(1.05 * u) + 1, int(1.05 * v) + 1))
+    return next(
+        ((w, h) for w, h in _SIZES if u < w and v < h), (int(1.05 * u) + 1, int(1.05 * v) + 1)
+    )

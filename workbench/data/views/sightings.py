@@ -54,7 +54,9 @@ def some_of(n: int, share: float, rng: np.random.Generator) -> Bool[np.ndarray, 
     return rng.permutation(n) < round(share * n)
 
 
-def points_on_box(size: Float[np.ndarray, "3"], n: int, rng: np.random.Generator) -> Float[np.ndarray, "n 3"]:
+def points_on_box(
+    size: Float[np.ndarray, "3"], n: int, rng: np.random.Generator
+) -> Float[np.ndarray, "n 3"]:
     """Return points on the faces of a box about the origin, each pair of faces alike, metres."""
     p, axis = rng.uniform(-0.5, 0.5, (n, 3)), rng.integers(0, 3, n)
     p[np.arange(n), axis] = np.where(rng.random(n) < 0.5, -0.5, 0.5)
@@ -63,7 +65,9 @@ def points_on_box(size: Float[np.ndarray, "3"], n: int, rng: np.random.Generator
 
 def random_views(
     count: int, n: int, rng: np.random.Generator
-) -> tuple[Float[np.ndarray, "count 3 3"], Float[np.ndarray, "count n 3"], Float[np.ndarray, "count n 2"]]:
+) -> tuple[
+    Float[np.ndarray, "count 3 3"], Float[np.ndarray, "count n 3"], Float[np.ndarray, "count n 2"]
+]:
     """Return R_camera_world of cameras turned anyhow, n points 4 to 8 m before each, and where it sees them, normalised."""
     z = rng.uniform(4.0, 8.0, (count, n, 1))
     p_camera = np.concatenate([rng.uniform(-2.0, 2.0, (count, n, 2)), z], axis=2)

@@ -11,7 +11,10 @@ from workbench.data.views.street import Solid, chequered, lit
 from workbench.geometry.cameras.raster import MeshItem, SegmentItem
 
 VALLEY = -83.0  # metres, +Z up: its ground; the camera stands at about 0 and looks along +Y
-LANDMARK = (84.0, 300.0), (24.0, 24.0, 125.0)  # where the middle of the tallest tower's foot is, and its size
+LANDMARK = (
+    (84.0, 300.0),
+    (24.0, 24.0, 125.0),
+)  # where the middle of the tallest tower's foot is, and its size
 BLOCKS = (270.0, 330.0, 400.0, 490.0, 600.0, 740.0, 920.0)  # how far rows of towers are
 STOREYS = 6.0  # metres from line to line on a wall
 WALLS = ((216, 202, 178), (200, 198, 206), (232, 222, 204), (186, 196, 208), (206, 186, 176))
@@ -61,12 +64,19 @@ def skyline_items() -> tuple[MeshItem | SegmentItem, ...]:
     """Return what `workbench.geometry.cameras.raster.render` takes to make a photograph of the city."""
     scene = skyline()
     meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids]
-    return (*meshes, SegmentItem(scene.storeys, np.tile(np.array(LINE_COLOR, np.uint8), (len(scene.storeys), 1))))
+    return (
+        *meshes,
+        SegmentItem(
+            scene.storeys, np.tile(np.array(LINE_COLOR, np.uint8), (len(scene.storeys), 1))
+        ),
+    )
 
 
 def _mountains() -> Solid:
     x = np.linspace(-1400.0, 1500.0, 30)
-    high = 130.0 + 60.0 * np.sin(x / 190.0) + 45.0 * np.sin(x / 83.0 + 1.0) + 25.0 * np.sin(x / 41.0)
+    high = (
+        130.0 + 60.0 * np.sin(x / 190.0) + 45.0 * np.sin(x / 83.0 + 1.0) + 25.0 * np.sin(x / 41.0)
+    )
     foot = np.stack([x, 1300.0 + 60.0 * np.sin(x / 130.0), np.full(len(x), VALLEY)], axis=1)
     crest = np.stack([x, np.full(len(x), 1650.0), VALLEY + high], axis=1)
     k, n = np.arange(len(foot) - 1)[:, None], len(foot)

@@ -70,9 +70,13 @@ def synthetic_pair(
     behind, _ = look(things, p_right, rays(u - d, v, camera.f, camera.cx, camera.cy))
     partner = u - (d - camera.doffs)
     visible = (
-        (partner >= 0) & (partner <= w - 1) & ((behind >= depth * (1 - 1e-9)) | np.isinf(depth) & np.isinf(behind))
+        (partner >= 0)
+        & (partner <= w - 1)
+        & ((behind >= depth * (1 - 1e-9)) | np.isinf(depth) & np.isinf(behind))
     )
-    left, right = (_exposed(picture + rng.normal(0.0, noise, picture.shape)) for picture in (left, right))
+    left, right = (
+        _exposed(picture + rng.normal(0.0, noise, picture.shape)) for picture in (left, right)
+    )
     return StereoPair(left, right, camera, d - camera.doffs, visible)
 
 
@@ -83,7 +87,9 @@ def motorcycle_pair() -> StereoPair:
     Reference: Scharstein et al., High-resolution stereo datasets with subpixel-accurate ground truth, GCPR 2014.
     """
     left, right = (shipped_image(f"motorcycle_{side}.png") for side in ("left", "right"))
-    disparity = read_arrays(shipped("motorcycle_disp.npz").read_bytes(), "motorcycle_disp.npz")["arr_0"]
+    disparity = read_arrays(shipped("motorcycle_disp.npz").read_bytes(), "motorcycle_disp.npz")[
+        "arr_0"
+    ]
     camera = StereoCamera(f=994.978, cx=311.193, cy=254.877, baseline=0.193001, doffs=31.086)
     d = np.where(np.isfinite(disparity), disparity, np.nan).astype(float)
     return StereoPair(left, right, camera, d, in_both(d))
@@ -123,9 +129,13 @@ def shrunk(pair: StereoPair, k: int) -> StereoPair:
     """
     h, w = (side // k for side in pair.left.shape[:2])
     if min(h, w) < 1:
-        raise InputError(f"pictures of {pair.left.shape[1]} x {pair.left.shape[0]} pixels cannot shrink {k} times")
+        raise InputError(
+            f"pictures of {pair.left.shape[1]} x {pair.left.shape[0]} pixels cannot shrink {k} times"
+        )
     left, right = (
-        np.rint(picture[: h * k, : w * k].reshape(h, k, w, k, 3).mean(axis=(1, 3), dtype=np.float32)).astype(np.uint8)
+        np.rint(
+            picture[: h * k, : w * k].reshape(h, k, w, k, 3).mean(axis=(1, 3), dtype=np.float32)
+        ).astype(np.uint8)
         for picture in (pair.left, pair.right)
     )
     middle = (slice(k // 2, h * k, k), slice(k // 2, w * k, k))

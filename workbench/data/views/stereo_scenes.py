@@ -14,7 +14,16 @@ from jaxtyping import Float
 Paint = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """paint(s, t) -> brightness 0 .. 1 of the surface point (s, t), in metres along it."""
 
-COLORS = np.array([(214, 206, 190), (196, 160, 120), (110, 150, 190), (190, 110, 96), (130, 170, 120), (180, 140, 180)])
+COLORS = np.array(
+    [
+        (214, 206, 190),
+        (196, 160, 120),
+        (110, 150, 190),
+        (190, 110, 96),
+        (130, 170, 120),
+        (180, 140, 180),
+    ]
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +38,9 @@ class Board:
 
     def hit(self, p_eye: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return per ray the depth of the hit, infinity where there is none, and the surface point (s, t)."""
-        corner, right, down = (np.array(a, float) for a in (self.p_corner, self.v_right, self.v_down))
+        corner, right, down = (
+            np.array(a, float) for a in (self.p_corner, self.v_right, self.v_down)
+        )
         normal = np.cross(right, down)
         with np.errstate(divide="ignore", invalid="ignore"):
             depth = ((corner - p_eye) @ normal) / (v @ normal)
@@ -55,7 +66,9 @@ class Ball:
         root = b * b - a * (to_center @ to_center - self.radius**2)
         depth = np.where(root > 0, (b - np.sqrt(np.maximum(root, 0.0))) / a, np.inf)
         depth = np.where(depth > 0, depth, np.inf)
-        x, y, z = np.moveaxis(np.where(np.isfinite(depth), depth, 0.0)[..., None] * v - to_center, -1, 0)
+        x, y, z = np.moveaxis(
+            np.where(np.isfinite(depth), depth, 0.0)[..., None] * v - to_center, -1, 0
+        )
         return depth, self.radius * np.arctan2(x, -z), y + self.radius
 
 
@@ -74,7 +87,9 @@ class Sky:
 Thing = Board | Ball | Sky
 
 
-def look(things: tuple[Thing, ...], p_eye: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def look(
+    things: tuple[Thing, ...], p_eye: np.ndarray, v: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return per ray the depth of the nearest thing (infinity for the sky) and its colour 0 .. 255, (..., 3).
 
     Args:
@@ -102,7 +117,9 @@ def speckle(rng: np.random.Generator, grain: float, contrast: float = 1.0) -> Pa
     fine, coarse = rng.random((128, 128)), rng.random((128, 128))
 
     def paint(s: np.ndarray, t: np.ndarray) -> np.ndarray:
-        blots = 0.55 * _between(fine, s / grain, t / grain) + 0.25 * _between(coarse, s / grain / 4, t / grain / 4)
+        blots = 0.55 * _between(fine, s / grain, t / grain) + 0.25 * _between(
+            coarse, s / grain / 4, t / grain / 4
+        )
         return 0.6 + contrast * (blots - 0.4)
 
     return paint
@@ -124,14 +141,18 @@ def _between(lattice: Float[np.ndarray, "n n"], s: np.ndarray, t: np.ndarray) ->
 
 
 def _wall(depth: float, paint: Paint, color: int = 0) -> Board:
-    return Board((-4 * depth, -4 * depth, depth), (8 * depth, 0, 0), (0, 8 * depth, 0), paint, color)
+    return Board(
+        (-4 * depth, -4 * depth, depth), (8 * depth, 0, 0), (0, 8 * depth, 0), paint, color
+    )
 
 
 def planes(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
     """Return a wall that recedes to the right, a floor and a tilted board."""
     wall = Board((-3.0, -3.0, 1.3), (6.0, 0, 1.8), (0, 6.0, 0), speckle(rng, 5 * pixel))
     floor = Board((-3.0, 0.45, 0.5), (6.0, 0, 0), (0, 0, 4.0), speckle(rng, 4 * pixel), 1)
-    board = Board((-0.25, -0.35, 1.35), (0.55, 0.05, -0.25), (0.0, 0.6, 0.12), speckle(rng, 3 * pixel), 2)
+    board = Board(
+        (-0.25, -0.35, 1.35), (0.55, 0.05, -0.25), (0.0, 0.6, 0.12), speckle(rng, 3 * pixel), 2
+    )
     return wall, floor, board
 
 
@@ -172,7 +193,13 @@ def repeated(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
 def boards(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
     """Return boards at 1, 5 and 20 m before an infinitely far sky, none of which hides another; made for f = 640 px."""
     flat = [
-        Board((x * z, y * z, z), (side * z, 0, 0), (0, 0.06 * z, 0), speckle(rng, 2.5 * pixel * z), color)
+        Board(
+            (x * z, y * z, z),
+            (side * z, 0, 0),
+            (0, 0.06 * z, 0),
+            speckle(rng, 2.5 * pixel * z),
+            color,
+        )
         for z, x, y, side, color in (
             (1.0, 0.02, 0.012, 0.085, 2),
             (5.0, -0.08, -0.07, 0.08, 3),
@@ -193,6 +220,8 @@ SCENES: Mapping[str, Callable[[np.random.Generator, float], tuple[Thing, ...]]] 
 """Scenes by name; each is made from `rng` and the width of a pixel at 1 m, so that its texture is as fine as the picture."""
 
 
-def rays(u: Float[np.ndarray, "*n"], v: Float[np.ndarray, "*n"], f: float, cx: float, cy: float) -> np.ndarray:
+def rays(
+    u: Float[np.ndarray, "*n"], v: Float[np.ndarray, "*n"], f: float, cx: float, cy: float
+) -> np.ndarray:
     """Return the directions (..., 3), Z = 1, of the rays of pixels (u, v)."""
     return np.stack([(u - cx) / f, (v - cy) / f, np.ones_like(u)], axis=-1)

@@ -50,11 +50,17 @@ class Street:
 @functools.cache
 def street() -> Street:
     """Return the street; it is the same each time."""
-    house, roof, door = _box((4.6, 11.0, 0.0), (3.2, 4.0, 2.4)), _roof((4.6, 11.0, 2.4), (3.6, 4.4, 1.5)), _door()
+    house, roof, door = (
+        _box((4.6, 11.0, 0.0), (3.2, 4.0, 2.4)),
+        _roof((4.6, 11.0, 2.4), (3.6, 4.4, 1.5)),
+        _door(),
+    )
     crate, tower = _box((-1.9, 6.0, 0.0), (1.0, 1.0, 1.0)), _box((-4.5, 14.0, 0.0), (1.6, 1.6, 5.0))
     sleepers = [_box((0.0, y, -0.02), (2.2, 0.25, 0.06)) for y in np.arange(1.0, 40.0, 1.5)]
     solids = {
-        "ground": chequered(np.arange(-5, 5), np.arange(-2, 30), 2.0, -0.03, ((214, 214, 214), (226, 226, 226))),
+        "ground": chequered(
+            np.arange(-5, 5), np.arange(-2, 30), 2.0, -0.03, ((214, 214, 214), (226, 226, 226))
+        ),
         "sleepers": lit(_merge(sleepers), (164, 154, 146)),
         "crate": lit(crate, (216, 202, 178)),
         "tower": lit(tower, (200, 198, 206)),
@@ -64,8 +70,12 @@ def street() -> Street:
         "ball": lit(_ball(BALL_CENTER, BALL_RADIUS), (186, 196, 208)),
         "far ball": lit(_ball(np.array([-2.6, 11.0, 0.9]), 0.9), (194, 206, 192)),
     }
-    rails = np.array([[[x, 0.0, 0.06], [x, RAIL_END, 0.06]] for x in (-RAIL_HALF_GAUGE, RAIL_HALF_GAUGE)])
-    edges = np.concatenate([_box_edges(mesh) for mesh in (crate, tower, house)] + [_roof_edges(roof)])
+    rails = np.array(
+        [[[x, 0.0, 0.06], [x, RAIL_END, 0.06]] for x in (-RAIL_HALF_GAUGE, RAIL_HALF_GAUGE)]
+    )
+    edges = np.concatenate(
+        [_box_edges(mesh) for mesh in (crate, tower, house)] + [_roof_edges(roof)]
+    )
     named = {
         "the roof's ridge": roof[0][4],
         "the crate's corner": crate[0][5],
@@ -74,16 +84,30 @@ def street() -> Street:
         "the rail, 40 m along": rails[1, 0] + np.array([0.0, 40.0, 0.0]),
         "the lamp": np.array([0.9, -5.2, 2.4]),
     }
-    along = np.array([[x, y, 0.06] for x in (-RAIL_HALF_GAUGE, RAIL_HALF_GAUGE) for y in np.arange(3.0, 36.0, 3.0)])
+    along = np.array(
+        [
+            [x, y, 0.06]
+            for x in (-RAIL_HALF_GAUGE, RAIL_HALF_GAUGE)
+            for y in np.arange(3.0, 36.0, 3.0)
+        ]
+    )
     balls = [solids[name].p_world[::40] for name in ("ball", "far ball")]
-    points = np.concatenate([list(named.values()), crate[0], tower[0], house[0], roof[0], along, *balls])
+    points = np.concatenate(
+        [list(named.values()), crate[0], tower[0], house[0], roof[0], along, *balls]
+    )
     return Street(solids, rails, edges, points, tuple(named))
 
 
 @functools.cache
 def standing() -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
     """Return vertices and faces of all that stands in the street or lies on its ground."""
-    return _merge([(solid.p_world, solid.faces) for name, solid in street().solids.items() if name != "ground"])
+    return _merge(
+        [
+            (solid.p_world, solid.faces)
+            for name, solid in street().solids.items()
+            if name != "ground"
+        ]
+    )
 
 
 @functools.cache
@@ -109,15 +133,21 @@ def _box(foot: tuple[float, float, float], size: tuple[float, float, float]) -> 
     """Return a box standing on the middle of its floor; vertex bits 1, 2, 4 say high x, y, z."""
     bits = (np.arange(8)[:, None] >> np.arange(3)) & 1
     p = np.array(foot) + (bits - np.array([0.5, 0.5, 0.0])) * np.array(size)
-    quads = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+    quads = np.array(
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    )
     return p, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 
 
 def _roof(foot: tuple[float, float, float], size: tuple[float, float, float]) -> Mesh:
     """Return a gable along y: four eaves corners, then the two ends of the ridge, the one at low y first."""
     x, y, h = np.array(size) * (0.5, 0.5, 1.0)
-    p = np.array(foot) + np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0], [0, -y, h], [0, y, h]])
-    return p, np.array([[0, 1, 4], [2, 3, 5], [1, 2, 5], [1, 5, 4], [3, 0, 4], [3, 4, 5], [0, 2, 1], [0, 3, 2]])
+    p = np.array(foot) + np.array(
+        [[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0], [0, -y, h], [0, y, h]]
+    )
+    return p, np.array(
+        [[0, 1, 4], [2, 3, 5], [1, 2, 5], [1, 5, 4], [3, 0, 4], [3, 4, 5], [0, 2, 1], [0, 3, 2]]
+    )
 
 
 def _door() -> Mesh:
@@ -130,17 +160,26 @@ def _ball(center: np.ndarray, radius: float, rings: int = 16) -> Mesh:
     polar = np.linspace(0, np.pi, rings + 1)[1:-1, None]
     around = np.linspace(0, 2 * np.pi, turn, endpoint=False)[None, :]
     unit = np.stack(
-        np.broadcast_arrays(np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)), axis=-1
+        np.broadcast_arrays(
+            np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)
+        ),
+        axis=-1,
     ).reshape(-1, 3)
     p = np.concatenate([unit, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]])
     here = np.arange(turn)
     there = (here + 1) % turn
     top, bottom = np.full(turn, len(unit)), np.full(turn, len(unit) + 1)
     last = (rings - 2) * turn
-    faces = [np.stack([top, here, there], axis=1), np.stack([bottom, last + there, last + here], axis=1)]
+    faces = [
+        np.stack([top, here, there], axis=1),
+        np.stack([bottom, last + there, last + here], axis=1),
+    ]
     for ring in range(rings - 2):
         a, b = ring * turn, (ring + 1) * turn
-        faces += [np.stack([a + here, b + here, b + there], axis=1), np.stack([a + here, b + there, a + there], axis=1)]
+        faces += [
+            np.stack([a + here, b + here, b + there], axis=1),
+            np.stack([a + here, b + there, a + there], axis=1),
+        ]
     return center + radius * p, np.concatenate(faces)
 
 
@@ -165,7 +204,9 @@ def chequered(
     first = 4 * np.arange(len(corner))[:, None]
     faces = np.concatenate([first + np.array(corners) for corners in ((0, 1, 2), (0, 2, 3))])
     shown = np.array(colors, np.uint8)[corner.sum(axis=1) % 2]
-    return Solid(np.column_stack([p, np.full(len(p), height)]), faces, np.concatenate([shown, shown]))
+    return Solid(
+        np.column_stack([p, np.full(len(p), height)]), faces, np.concatenate([shown, shown])
+    )
 
 
 def _merge(meshes: list[Mesh]) -> Mesh:

@@ -89,7 +89,9 @@ def made_views(
     """
     views, p_first, both = _taken(what, baseline, heading)
     if len(both) < count:
-        raise InputError(f"the two cameras see {len(both)} points in common, {count} matches are asked for")
+        raise InputError(
+            f"the two cameras see {len(both)} points in common, {count} matches are asked for"
+        )
     order = rng.permutation(len(both))
     rows = order[:count]
     return replace(
@@ -111,7 +113,9 @@ def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.nd
     T_second_world = T_second_first @ T_first_world
     w, h = SIZE
     K = intrinsics(FOCAL, (w - 1) / 2, (h - 1) / 2)
-    first, second = (_photograph(T.tobytes(), what == "far") for T in (T_first_world, T_second_world))
+    first, second = (
+        _photograph(T.tobytes(), what == "far") for T in (T_first_world, T_second_world)
+    )
     uv = np.random.default_rng(0).integers(0, SIZE, (CANDIDATES, 2))
     z = first.depth[uv[:, 1], uv[:, 0]]
     between = np.flatnonzero((z > NEAREST) & (z < (np.inf if what == "far" else FARTHEST)))
@@ -142,7 +146,9 @@ def _photograph(T_camera_world: bytes, far: bool) -> Image:
     w, h = SIZE
     K = intrinsics(FOCAL, (w - 1) / 2, (h - 1) / 2)
     T = np.frombuffer(T_camera_world).reshape(4, 4)
-    return render(skyline_items() if far else street_items(), T, K, w, h, background=(238, 243, 248))
+    return render(
+        skyline_items() if far else street_items(), T, K, w, h, background=(238, 243, 248)
+    )
 
 
 def own_views(
@@ -195,8 +201,12 @@ def shown_length(views: TwoViews) -> float:
         return float(np.linalg.norm(views.T_second_first[:3, 3])) or 1.0
     uv_first, uv_second = views.matches[:, :2], views.matches[:, 2:]
     xy = normalize(uv_first, views.K_first), normalize(uv_second, views.K_second)
-    E = essential_from_fundamental(fit_fundamental(uv_first, uv_second), views.K_first, views.K_second)
-    z = max((midpoints(T, *xy)[:, 2] for T in essential_to_poses(E)), key=lambda z: int((z > 0).sum()))
+    E = essential_from_fundamental(
+        fit_fundamental(uv_first, uv_second), views.K_first, views.K_second
+    )
+    z = max(
+        (midpoints(T, *xy)[:, 2] for T in essential_to_poses(E)), key=lambda z: int((z > 0).sum())
+    )
     middle = float(np.median(np.abs(z[np.isfinite(z)]))) if np.isfinite(z).any() else 0.0
     return SHOWN_DEPTH / middle if middle > 0 else 1.0
 

@@ -66,7 +66,9 @@ def shut(settings: dict[str, Any]) -> None:
     _prctl(PR_SET_NO_NEW_PRIVS, 1)
     if settings["landlock"] is not None:
         _landlock(settings["landlock"])
-    _checked(_libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24)))  # of an administrator's powers, none
+    _checked(
+        _libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24))
+    )  # of an administrator's powers, none
     machine = platform.machine()
     if machine in syscalls.MACHINES:
         lines = syscalls.program(machine, writes=settings["writes"])
@@ -102,7 +104,9 @@ def _become(user: int, closed: Iterable[str]) -> None:
 
 def _prctl(what: int, *arguments: Any) -> None:
     given = [*arguments, 0, 0, 0, 0][:4]
-    _checked(_libc().prctl(what, *(n if isinstance(n, bytes) else ctypes.c_ulong(n) for n in given)))
+    _checked(
+        _libc().prctl(what, *(n if isinstance(n, bytes) else ctypes.c_ulong(n) for n in given))
+    )
 
 
 def _call(number: int, *arguments: Any) -> int:

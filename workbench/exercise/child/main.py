@@ -100,7 +100,10 @@ def main() -> None:
     pack, unpack, sizes = wire.pack, wire.unpack, wire.lengths
     sys.argv[1:] = []
     sys.stdout = sys.stderr = io.TextIOWrapper(
-        io.BufferedWriter(Kept(settings["output"])), "utf-8", "backslashreplace", line_buffering=True
+        io.BufferedWriter(Kept(settings["output"])),
+        "utf-8",
+        "backslashreplace",
+        line_buffering=True,
     )
     lockdown.shut(settings)
 
@@ -128,7 +131,9 @@ def main() -> None:
         reply: Message = {"nonce": request["nonce"]}
         try:
             if request["do"] == "load":
-                function = load(request["source"], request["file"], request["name"], dict(request["modules"]))
+                function = load(
+                    request["source"], request["file"], request["name"], dict(request["modules"])
+                )
             elif request["do"] == "call":
                 value = function(*request["args"], **dict(request["options"]))  # type: ignore[misc]
                 reply |= {"value": value, "changed": pack(request) != start + header + payload}
@@ -177,7 +182,11 @@ def _said(error: BaseException) -> str:
 def _line(error: BaseException, file: str) -> int:
     if isinstance(error, SyntaxError) and error.filename == file:
         return error.lineno or 0
-    lines = [frame.lineno or 0 for frame in traceback.extract_tb(error.__traceback__) if frame.filename == file]
+    lines = [
+        frame.lineno or 0
+        for frame in traceback.extract_tb(error.__traceback__)
+        if frame.filename == file
+    ]
     return lines[-1] if lines else 0
 
 

@@ -52,7 +52,9 @@ def read(file: str, content: bytes) -> dict[str, Any]:
     Raises:
         UnreadableError: If it is no text, or a notebook that is none.
     """
-    source = of_notebook(file, content) if file.lower().endswith(".ipynb") else decoded(file, content)
+    source = (
+        of_notebook(file, content) if file.lower().endswith(".ipynb") else decoded(file, content)
+    )
     found: dict[str, Any] = {"source": source, "said": list(dict.fromkeys(MARK.findall(source)))}
     try:
         tree = ast.parse(source)
@@ -78,8 +80,14 @@ def decoded(file: str, content: bytes) -> str:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(content).readline)
         return io.TextIOWrapper(io.BytesIO(content), encoding).read()
     except (SyntaxError, LookupError, ValueError) as error:
-        said = "not UTF-8" if isinstance(error, UnicodeDecodeError) or "utf-8" in str(error) else str(error)
-        raise UnreadableError(f"{file}: cannot be read as text ({said}): save it as UTF-8") from None
+        said = (
+            "not UTF-8"
+            if isinstance(error, UnicodeDecodeError) or "utf-8" in str(error)
+            else str(error)
+        )
+        raise UnreadableError(
+            f"{file}: cannot be read as text ({said}): save it as UTF-8"
+        ) from None
 
 
 def imported(tree: ast.Module) -> Iterator[str]:
@@ -99,7 +107,12 @@ def names(body: list[ast.stmt]) -> Iterator[str]:
             continue
         if isinstance(node, (ast.Assign, ast.AnnAssign)):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-            yield from (name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name))
+            yield from (
+                name.id
+                for target in targets
+                for name in ast.walk(target)
+                if isinstance(name, ast.Name)
+            )
         elif isinstance(node, (ast.Import, ast.ImportFrom)):
             yield from (alias.asname or alias.name for alias in node.names)
         for inner in ("body", "orelse", "finalbody"):
@@ -121,15 +134,26 @@ def parts(tree: ast.Module) -> Iterator[dict[str, Any]]:
     scipy.spatial.distance, and so do `from scipy import spatial`, and a text that is handed to `import_module`.
     """
     known = dict[str, str]()  # by the name in this file, the path that it stands for
-    nodes = [node for node in ast.walk(tree) if isinstance(node, (ast.Import, ast.ImportFrom, ast.Assign))]
+    nodes = [
+        node
+        for node in ast.walk(tree)
+        if isinstance(node, (ast.Import, ast.ImportFrom, ast.Assign))
+    ]
     for node in sorted(nodes, key=lambda node: node.lineno):
         if isinstance(node, ast.Assign):
             path = path_of(node.value, known)
-            known |= {} if path is None else {one.id: path for one in node.targets if isinstance(one, ast.Name)}
+            known |= (
+                {}
+                if path is None
+                else {one.id: path for one in node.targets if isinstance(one, ast.Name)}
+            )
         else:
             known |= dict(bound(node))
     for statement in tree.body:
-        defines, imports = isinstance(statement, DEFINITIONS), isinstance(statement, (ast.Import, ast.ImportFrom))
+        defines, imports = (
+            isinstance(statement, DEFINITIONS),
+            isinstance(statement, (ast.Import, ast.ImportFrom)),
+        )
         read = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
         yield {
             "binds": sorted(set(names([statement]))),
@@ -221,15 +245,26 @@ def of_notebook(file: str, content: bytes) -> str:
         UnreadableError: If it is no notebook.
     """
     try:
-        cells = [cell for cell in json.loads(content.decode("utf-8-sig"))["cells"] if cell["cell_type"] == "code"]
+        cells = [
+            cell
+            for cell in json.loads(content.decode("utf-8-sig"))["cells"]
+            if cell["cell_type"] == "code"
+        ]
         texts = ["".join(cell["source"]) for cell in cells]
         tagged = [bool(TAGS & set(cell.get("metadata", {}).get("tags", []))) for cell in cells]
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise UnreadableError(f"{file}: not a notebook") from None
-    ordered = [text for is_tagged in (False, True) for text, tag in zip(texts, tagged, strict=True) if tag is is_tagged]
+    ordered = [
+        text
+        for is_tagged in (False, True)
+        for text, tag in zip(texts, tagged, strict=True)
+        if tag is is_tagged
+    ]
     kept: list[str] = []
     for text in ordered:
-        lines = ["" if line.lstrip().startswith(("%", "!", "?")) else line for line in text.splitlines()]
+        lines = [
+            "" if line.lstrip().startswith(("%", "!", "?")) else line for line in text.splitlines()
+        ]
         try:
             body = ast.parse("\n".join(lines)).body
         except NOT_PARSED:
@@ -249,10 +284,21 @@ def is_constant(node: ast.stmt) -> bool:
     if not isinstance(node, (ast.Assign, ast.AnnAssign)) or node.value is None:
         return False
     calls = [call.func for call in ast.walk(node.value) if isinstance(call, ast.Call)]
-    made = {"array", "eye", "zeros", "ones", "diag", "radians", "deg2rad", "sqrt", "finfo", "float64"}
-    return all(isinstance(call, ast.Attribute) and call.attr in made for call in calls) or isinstance(
-        node.value, ast.Lambda
-    )
+    made = {
+        "array",
+        "eye",
+        "zeros",
+        "ones",
+        "diag",
+        "radians",
+        "deg2rad",
+        "sqrt",
+        "finfo",
+        "float64",
+    }
+    return all(
+        isinstance(call, ast.Attribute) and call.attr in made for call in calls
+    ) or isinstance(node.value, ast.Lambda)
 
 
 if __name__ == "__main__":

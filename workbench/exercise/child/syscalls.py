@@ -10,8 +10,12 @@ Source: Linux, Documentation/userspace-api/seccomp_filter.rst and include/uapi/l
 
 import struct
 
-Numbers = tuple[int | None, int | None]  # of a call on x86_64 and on aarch64; None where there is none
-Way = tuple[tuple[int, int, tuple[int, ...]], ...]  # of each word, these bits are one of these values
+Numbers = tuple[
+    int | None, int | None
+]  # of a call on x86_64 and on aarch64; None where there is none
+Way = tuple[
+    tuple[int, int, tuple[int, ...]], ...
+]  # of each word, these bits are one of these values
 
 MAY: dict[str, Numbers] = {
     "brk": (12, 214), "mmap": (9, 222), "mprotect": (10, 226), "munmap": (11, 215), "mremap": (25, 216),
@@ -40,10 +44,18 @@ CHANGE: dict[str, Numbers] = {
     "umask": (95, 166), "fsync": (74, 82), "fdatasync": (75, 83),
 }  # fmt: skip
 
-ALL = 0xFFFFFFFF  # bits of a word; argument k, from 0, is the words 2 k and, its upper half, 2 k + 1
+ALL = (
+    0xFFFFFFFF  # bits of a word; argument k, from 0, is the words 2 k and, its upper half, 2 k + 1
+)
 CHANGING = 0x3 | 0x40 | 0x200  # O_ACCMODE, O_CREAT, O_TRUNC
-READ_ONLY: dict[str, tuple[Way, ...]] = {"open": (((2, CHANGING, (0,)),),), "openat": (((4, CHANGING, (0,)),),)}
-CLONE_THREAD, OF_THREADS = 0x10000, 0x7D0F00  # the one that makes a thread; all that the C libraries give for one
+READ_ONLY: dict[str, tuple[Way, ...]] = {
+    "open": (((2, CHANGING, (0,)),),),
+    "openat": (((4, CHANGING, (0,)),),),
+}
+CLONE_THREAD, OF_THREADS = (
+    0x10000,
+    0x7D0F00,
+)  # the one that makes a thread; all that the C libraries give for one
 O_ASYNC = 0x2000
 MAY_IF: dict[str, tuple[Numbers, tuple[Way, ...]]] = {
     # name: its numbers, and the ways in which it may be called
@@ -65,14 +77,26 @@ MAY_IF: dict[str, tuple[Numbers, tuple[Way, ...]]] = {
     "madvise": ((28, 233), (((4, ALL, (4, 8, 14, 15, 102, 103)),),)),
     "mbind": ((237, 235), (((10, ALL, (0,)),),)),  # says where memory shall be and moves none
     "membarrier": ((324, 283), (((0, ALL, (0, 8, 16)),),)),  # of its own threads
-    "prlimit64": ((302, 261), (((0, ALL, (0,)), (4, ALL, (0,)), (5, ALL, (0,))),)),  # its own, and no new ones
+    "prlimit64": (
+        (302, 261),
+        (((0, ALL, (0,)), (4, ALL, (0,)), (5, ALL, (0,))),),
+    ),  # its own, and no new ones
 }
 NEW = 424
 """Calls from this number on are of 2019 or later: they are unknown, not refused, so that libraries take older ones."""
 
-MACHINES = {"x86_64": (0, 0xC000003E), "aarch64": (1, 0xC00000B7)}  # column above, audit's number of the architecture
+MACHINES = {
+    "x86_64": (0, 0xC000003E),
+    "aarch64": (1, 0xC00000B7),
+}  # column above, audit's number of the architecture
 NUMBER, ARCHITECTURE, WORDS = 0, 4, 16  # where struct seccomp_data has them
-LOAD, AND, EQUAL, AT_LEAST, RETURN = 0x20, 0x54, 0x15, 0x35, 0x06  # BPF: take a word, mask it, jump if, end
+LOAD, AND, EQUAL, AT_LEAST, RETURN = (
+    0x20,
+    0x54,
+    0x15,
+    0x35,
+    0x06,
+)  # BPF: take a word, mask it, jump if, end
 ALLOW, EPERM, ENOSYS = 0x7FFF0000, 0x00050001, 0x00050000 | 38
 Line = tuple[int, int, int, int]  # what, lines to skip if so, lines to skip if not, with
 ENDS: list[Line] = [(RETURN, 0, 0, EPERM), (RETURN, 0, 0, ENOSYS), (RETURN, 0, 0, ALLOW)]
@@ -87,17 +111,35 @@ def program(machine: str, *, writes: bool) -> bytes:
     """
     column, architecture = MACHINES[machine]
     free = MAY | OPEN | CHANGE if writes else MAY
-    bound = MAY_IF if writes else MAY_IF | {name: (OPEN[name], ways) for name, ways in READ_ONLY.items()}
-    asked: list[tuple[int | None, list[Line]]] = [(numbers[column], []) for numbers in free.values()]
+    bound = (
+        MAY_IF
+        if writes
+        else MAY_IF | {name: (OPEN[name], ways) for name, ways in READ_ONLY.items()}
+    )
+    asked: list[tuple[int | None, list[Line]]] = [
+        (numbers[column], []) for numbers in free.values()
+    ]
     asked += [(numbers[column], _part(ways)) for numbers, ways in bound.values()]
     asked = [(number, part) for number, part in asked if number is not None]
 
-    lines: list[Line] = [(LOAD, 0, 0, ARCHITECTURE), (EQUAL, 1, 0, architecture), ENDS[0], (LOAD, 0, 0, NUMBER)]
+    lines: list[Line] = [
+        (LOAD, 0, 0, ARCHITECTURE),
+        (EQUAL, 1, 0, architecture),
+        ENDS[0],
+        (LOAD, 0, 0, NUMBER),
+    ]
     parts: list[Line] = []
     for k, (number, part) in enumerate(asked):
         to_ends = len(asked) - k  # the numbers after this one, and the line below
         to_part = to_ends + len(ENDS) + len(parts)
-        lines.append((EQUAL, to_part if part else to_ends + ENDS.index((RETURN, 0, 0, ALLOW)), 0, number or 0))
+        lines.append(
+            (
+                EQUAL,
+                to_part if part else to_ends + ENDS.index((RETURN, 0, 0, ALLOW)),
+                0,
+                number or 0,
+            )
+        )
         parts += part
     lines.append((AT_LEAST, 1, 0, NEW))  # over the first of the ends to the second
     return b"".join(struct.pack("=HBBI", *line) for line in (*lines, *ENDS, *parts))
@@ -109,8 +151,12 @@ def _part(ways: tuple[Way, ...]) -> list[Line]:
     for way in ways:
         rest: list[Line] = [(RETURN, 0, 0, ALLOW)]  # of this way, from its end
         for word, mask, values in reversed(way):
-            tests: list[Line] = [(EQUAL, len(values) - k - 1, 0, value) for k, value in enumerate(values[:-1])]
-            tests.append((EQUAL, 0, len(rest), values[-1]))  # none of them: over the rest, to the next way
+            tests: list[Line] = [
+                (EQUAL, len(values) - k - 1, 0, value) for k, value in enumerate(values[:-1])
+            ]
+            tests.append(
+                (EQUAL, 0, len(rest), values[-1])
+            )  # none of them: over the rest, to the next way
             rest = [(LOAD, 0, 0, WORDS + 4 * word), (AND, 0, 0, mask), *tests, *rest]
         lines += rest
     return [*lines, (RETURN, 0, 0, EPERM)]

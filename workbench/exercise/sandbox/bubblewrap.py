@@ -19,7 +19,14 @@ def program() -> str | None:
 
 def arguments(python: Python) -> list[str]:
     """Return the command that shuts in what follows it; nothing of ours is in sight but `child`."""
-    command = [program() or "bwrap", "--unshare-all", "--die-with-parent", "--new-session", "--cap-drop", "ALL"]
+    command = [
+        program() or "bwrap",
+        "--unshare-all",
+        "--die-with-parent",
+        "--new-session",
+        "--cap-drop",
+        "ALL",
+    ]
     command += ["--uid", "65534", "--gid", "65534", "--hostname", "student"]
     for tree in python.trees:
         command += ["--ro-bind", tree, tree]
@@ -28,7 +35,11 @@ def arguments(python: Python) -> list[str]:
     sealed = ["/", *python.masked]
     for folder in python.masked:
         command += ["--tmpfs", folder]
-    for path in (python.executable, *python.packages, *(file for file in FILES if os.path.exists(file))):
+    for path in (
+        python.executable,
+        *python.packages,
+        *(file for file in FILES if os.path.exists(file)),
+    ):
         command += ["--ro-bind", path, path]
     command += ["--ro-bind", str(CHILD_FILES), CHILD]
     for device in DEVICES:
@@ -46,7 +57,9 @@ def arguments(python: Python) -> list[str]:
 def _knows_sizes() -> bool:
     """Whether a folder's size can be bounded; an older bubblewrap gives a folder that nobody can write to."""
     try:
-        said = subprocess.run([program() or "bwrap", "--help"], capture_output=True, timeout=SECONDS, check=False)
+        said = subprocess.run(
+            [program() or "bwrap", "--help"], capture_output=True, timeout=SECONDS, check=False
+        )
     except (OSError, subprocess.SubprocessError):
         return False
     return b"--size" in said.stdout

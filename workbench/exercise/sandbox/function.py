@@ -35,7 +35,9 @@ class StudentError(InputError):
         errors: The names of the exception's class and of the classes it is one of.
     """
 
-    def __init__(self, message: str, kind: str, error: str = "", line: int = 0, errors: tuple[str, ...] = ()):
+    def __init__(
+        self, message: str, kind: str, error: str = "", line: int = 0, errors: tuple[str, ...] = ()
+    ):
         super().__init__(message)
         self.kind, self.error, self.line, self.errors = kind, error, line, errors or (error,)
 
@@ -85,10 +87,14 @@ class SandboxedFunction:
         """
         with self._lock:
             if self._budget is not None and self._budget.over:
-                raise StudentError(f"{self.name} was not called: {self._budget.over}", self._budget.kind)
+                raise StudentError(
+                    f"{self.name} was not called: {self._budget.over}", self._budget.kind
+                )
             if self._process is None or self._process.poll() is not None:
                 self.start()
-            reply = self._called({"do": "call", "args": list(args), "options": list(options.items())})
+            reply = self._called(
+                {"do": "call", "args": list(args), "options": list(options.items())}
+            )
             self.changed_inputs = reply.get("changed") is True
             return reply.get("value")
 
@@ -141,12 +147,19 @@ class SandboxedFunction:
         self._must_be_open()
         self._ask({"do": "start"}, START_SECONDS)
         modules = [list(pair) for pair in self.submission.modules.items()]
-        self._ask({"do": "load", "source": self.source, "name": self.name, "modules": modules}, LOAD_SECONDS)
+        self._ask(
+            {"do": "load", "source": self.source, "name": self.name, "modules": modules},
+            LOAD_SECONDS,
+        )
 
     def printed(self, most: int = 8000) -> str:
         """Return the beginning of what the student's code printed."""
         try:
-            return "" if self._printed is None else os.pread(self._printed.fileno(), most, 0).decode("utf-8", "replace")
+            return (
+                ""
+                if self._printed is None
+                else os.pread(self._printed.fileno(), most, 0).decode("utf-8", "replace")
+            )
         except (ValueError, AttributeError):  # another thread closed it just now
             return ""
 
@@ -188,10 +201,14 @@ class SandboxedFunction:
         assert self._pipe is not None
         nonce = secrets.token_hex(8)
         try:
-            reply = self._pipe.ask(request | {"nonce": nonce, "file": self.submission.file}, seconds, self._lost)
+            reply = self._pipe.ask(
+                request | {"nonce": nonce, "file": self.submission.file}, seconds, self._lost
+            )
         except WireError as error:
             self._end()
-            raise StudentError(f"{self.name}: what came back is no result ({error})", "result") from None
+            raise StudentError(
+                f"{self.name}: what came back is no result ({error})", "result"
+            ) from None
         except TimeoutError:
             self._end()
             raise self._too_long(request["do"], seconds) from None
@@ -199,7 +216,9 @@ class SandboxedFunction:
             raise self._gone(request["do"]) from None
         if reply.get("nonce") != nonce:
             self._end()
-            raise StudentError(f"{self.name}: something else than the result was written to the grader", "result")
+            raise StudentError(
+                f"{self.name}: something else than the result was written to the grader", "result"
+            )
         if "error" in reply:
             raise self._raised(reply, loading=request["do"] == "load")
         return reply
@@ -209,16 +228,24 @@ class SandboxedFunction:
         return 0.0 if self._process is None else waited(self._process.pid)
 
     def _raised(self, reply: dict[str, Any], loading: bool) -> StudentError:
-        error, said, line = str(reply["error"])[:80], str(reply.get("message", ""))[:500], reply.get("line")
+        error, said, line = (
+            str(reply["error"])[:80],
+            str(reply.get("message", ""))[:500],
+            reply.get("line"),
+        )
         names = reply.get("errors")
         errors = tuple(str(name)[:80] for name in names[:12]) if isinstance(names, list) else ()
         line = line if isinstance(line, int) and not isinstance(line, bool) else 0
         where = f"{self.submission.file}, line {line}: " if line else f"{self.submission.file}: "
         if loading:
             self._end()
-            return StudentError(f"{where}the file does not load: {error}: {said}", "load", error, line)
+            return StudentError(
+                f"{where}the file does not load: {error}: {said}", "load", error, line
+            )
         if error == "WireError":
-            return StudentError(f"{where}{self.name} returned what is no result: {said}", "result", "", line)
+            return StudentError(
+                f"{where}{self.name} returned what is no result: {said}", "result", "", line
+            )
         if error == "NotImplementedError":
             return StudentError(f"{where}{self.name} is not written yet", "raised", error, line)
         said = f"{where}{self.name} raised {error}" + (f": {said}" if said else "")
@@ -226,21 +253,31 @@ class SandboxedFunction:
 
     def _too_long(self, doing: str, seconds: float) -> StudentError:
         if doing == "start":
-            return StudentError(f"Python did not start within {seconds:g} s: is this machine too busy?", "died")
+            return StudentError(
+                f"Python did not start within {seconds:g} s: is this machine too busy?", "died"
+            )
         what = self.name if doing == "call" else f"{self.submission.file}: loading the file"
         return StudentError(
-            f"{what} took more than {seconds:g} s, the limit, and was stopped: an endless loop, or too slow?", "timeout"
+            f"{what} took more than {seconds:g} s, the limit, and was stopped: an endless loop, or too slow?",
+            "timeout",
         )
 
     def _gone(self, doing: str) -> StudentError:
         process = self._process
         if process is not None:
             with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(2.0)  # its pipe is closed: it is about to end, and its exit code tells why
+                process.wait(
+                    2.0
+                )  # its pipe is closed: it is about to end, and its exit code tells why
         code = self._end()
         if doing == "start":
-            return StudentError(f"Python did not start: {self.printed().strip()[-200:] or f'exit code {code}'}", "died")
-        number = None if code is None else -code if code < 0 else code - 128  # bubblewrap says 128 and the signal
+            return StudentError(
+                f"Python did not start: {self.printed().strip()[-200:] or f'exit code {code}'}",
+                "died",
+            )
+        number = (
+            None if code is None else -code if code < 0 else code - 128
+        )  # bubblewrap says 128 and the signal
         how = f"ended (exit code {code}): does it call exit, or crash a library?"
         if number in (signal.SIGKILL, signal.SIGXCPU):
             how = "was killed: too much memory, or processor time?"

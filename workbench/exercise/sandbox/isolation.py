@@ -46,7 +46,14 @@ class Wall:
         return self.name != "none"
 
     def start(
-        self, *, pipe_in: int, pipe_out: int, printed: IO[bytes], folder: str, megabytes: int, cpu_seconds: int
+        self,
+        *,
+        pipe_in: int,
+        pipe_out: int,
+        printed: IO[bytes],
+        folder: str,
+        megabytes: int,
+        cpu_seconds: int,
     ) -> subprocess.Popen:
         """Start a student's process; it dies with this one wherever the wall holds.
 
@@ -69,8 +76,14 @@ class Wall:
         }  # fmt: skip
         child = f"{bubblewrap.CHILD}/main.py" if boxed else str(python.CHILD_FILES / "main.py")
         quiet = ["-W", "ignore::RuntimeWarning"]  # numpy's are not what the student printed
-        environment = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": bubblewrap.FOLDER if boxed else folder}
-        environment |= as_here()  # so that a mistake which hangs on the last bit is known for what it is
+        environment = {
+            "PATH": "/usr/bin:/bin",
+            "LANG": "C.UTF-8",
+            "HOME": bubblewrap.FOLDER if boxed else folder,
+        }
+        environment |= (
+            as_here()
+        )  # so that a mistake which hangs on the last bit is known for what it is
         command = [files.executable, "-I", "-S", "-B", "-u", *quiet, child, json.dumps(settings)]
         if boxed:
             known = [word for pair in environment.items() for word in ("--setenv", *pair)]
@@ -129,7 +142,9 @@ def _without(name: str) -> str:
         return f"{name} needs Linux"
     if name == "bubblewrap" and not bubblewrap.program():
         return "bubblewrap is not installed (apt install bubblewrap)"
-    return "another user needs to be started by root" if name == "user" and os.geteuid() != 0 else ""
+    return (
+        "another user needs to be started by root" if name == "user" and os.geteuid() != 0 else ""
+    )
 
 
 @functools.cache
@@ -141,7 +156,12 @@ def _tried(wall: Wall) -> str:
     with anonymous() as said:
         try:
             process = wall.start(
-                pipe_in=pipe_in, pipe_out=pipe_out, printed=said, folder="/", megabytes=2048, cpu_seconds=60
+                pipe_in=pipe_in,
+                pipe_out=pipe_out,
+                printed=said,
+                folder="/",
+                megabytes=2048,
+                cpu_seconds=60,
             )
             try:
                 code = process.wait(START_SECONDS)
@@ -155,7 +175,9 @@ def _tried(wall: Wall) -> str:
             os.close(pipe_in)
             os.close(pipe_out)
         said.seek(0)
-        lines = said.read(1 << 16).decode("utf-8", "replace").strip().splitlines() or [f"exit code {code}"]
+        lines = said.read(1 << 16).decode("utf-8", "replace").strip().splitlines() or [
+            f"exit code {code}"
+        ]
     return "" if code == 0 else f"{wall.name} cannot do its work here ({lines[-1][:200]})"
 
 

@@ -16,12 +16,21 @@ class _Deadline:
     """Moves on by what a process waits for a processor."""
 
     def __init__(self, seconds: float, lost: Callable[[], float]):
-        self._seconds, self._lost, self._began, self._before = seconds, lost, time.monotonic(), lost()
+        self._seconds, self._lost, self._began, self._before = (
+            seconds,
+            lost,
+            time.monotonic(),
+            lost(),
+        )
 
     def left(self) -> float:
         """Return the seconds that are left."""
         left = self._seconds - (time.monotonic() - self._began)
-        return left if left > 0 else left + min(self._lost() - self._before, (MOST_TIMES - 1) * self._seconds)
+        return (
+            left
+            if left > 0
+            else left + min(self._lost() - self._before, (MOST_TIMES - 1) * self._seconds)
+        )
 
 
 class Pipe:
@@ -48,7 +57,9 @@ class Pipe:
         os.close(self._to)
         os.close(self._from)
 
-    def ask(self, message: dict[str, Any], seconds: float, lost: Callable[[], float] = lambda: 0.0) -> dict[str, Any]:
+    def ask(
+        self, message: dict[str, Any], seconds: float, lost: Callable[[], float] = lambda: 0.0
+    ) -> dict[str, Any]:
         """Send a message and return the answer.
 
         Args:

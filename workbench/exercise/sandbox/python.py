@@ -39,7 +39,11 @@ class Python:
     @property
     def places(self) -> dict[str, str]:
         """Where each allowed package is: the folder that holds its folder."""
-        return {os.path.basename(path): os.path.dirname(path) for path in self.packages if not path.endswith(".libs")}
+        return {
+            os.path.basename(path): os.path.dirname(path)
+            for path in self.packages
+            if not path.endswith(".libs")
+        }
 
     def listed(self) -> Iterator[str]:
         """Yield what the trees hold without what is masked: for Landlock, which can only add."""
@@ -61,11 +65,20 @@ def here() -> Python:
     for prefix in {sys.base_prefix, sys.base_exec_prefix} - {"/usr"}:
         wanted += [os.path.join(prefix, name) for name in ("lib", "lib64")]
     trees = sorted({path for path in wanted if os.path.isdir(path)})
-    trees = [path for path in trees if not any(_inside(path, other) for other in trees if other != path)]
+    trees = [
+        path for path in trees if not any(_inside(path, other) for other in trees if other != path)
+    ]
     masked = [path for path in ours() if any(_inside(path, tree) for tree in trees)]
     for tree in trees:
-        masked += [str(path) for name in OTHERS for depth in ("*", ".") for path in Path(tree).glob(f"{depth}/{name}")]
-    packages = [path for name in ALLOWED for folder in _folder(name) for path in _with_libraries(folder)]
+        masked += [
+            str(path)
+            for name in OTHERS
+            for depth in ("*", ".")
+            for path in Path(tree).glob(f"{depth}/{name}")
+        ]
+    packages = [
+        path for name in ALLOWED for folder in _folder(name) for path in _with_libraries(folder)
+    ]
     return Python(
         executable=executable,
         trees=tuple(trees),

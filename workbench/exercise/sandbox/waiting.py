@@ -14,7 +14,9 @@ def waited(process: int) -> float:
     and waited; proc(5), "/proc/<pid>/stat": ticks that all threads ran, also those that ended.
     """
     try:
-        ran, longest = (int(part) / 1e9 for part in Path(f"/proc/{process}/schedstat").read_text().split()[:2])
+        ran, longest = (
+            int(part) / 1e9 for part in Path(f"/proc/{process}/schedstat").read_text().split()[:2]
+        )
         times = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[11:13]
         children = Path(f"/proc/{process}/task/{process}/children").read_text().split()
     except (OSError, ValueError, IndexError):  # it is gone, or this is no Linux

@@ -19,7 +19,9 @@ _SKEW = np.stack([skew(axis) for axis in np.eye(3)])
 
 
 def reprojection_errors(
-    Ts_camera_world: Float[np.ndarray, "*k 4 4"], p_world: Float[np.ndarray, "*j n 3"], xy: Float[np.ndarray, "*i n 2"]
+    Ts_camera_world: Float[np.ndarray, "*k 4 4"],
+    p_world: Float[np.ndarray, "*j n 3"],
+    xy: Float[np.ndarray, "*i n 2"],
 ) -> Float[np.ndarray, "*k n"]:
     """Return how far each point is seen from where it was observed, in units of the image plane; infinite from behind.
 
@@ -28,14 +30,19 @@ def reprojection_errors(
         p_world: The points, metres.
         xy: Where they were observed.
     """
-    p_camera = p_world @ np.swapaxes(Ts_camera_world[..., :3, :3], -1, -2) + Ts_camera_world[..., None, :3, 3]
+    p_camera = (
+        p_world @ np.swapaxes(Ts_camera_world[..., :3, :3], -1, -2)
+        + Ts_camera_world[..., None, :3, 3]
+    )
     with np.errstate(all="ignore"):
         off = p_camera[..., :2] / p_camera[..., 2:] - xy
         return np.where(p_camera[..., 2] > 0.0, np.sqrt(np.square(off).sum(axis=-1)), np.inf)
 
 
 def rms_reprojection(
-    Ts_camera_world: Float[np.ndarray, "*k 4 4"], p_world: Float[np.ndarray, "*j n 3"], xy: Float[np.ndarray, "*i n 2"]
+    Ts_camera_world: Float[np.ndarray, "*k 4 4"],
+    p_world: Float[np.ndarray, "*j n 3"],
+    xy: Float[np.ndarray, "*i n 2"],
 ) -> Float[np.ndarray, "*k"]:
     """Return the root mean square of the reprojection errors of each motion; infinite where a point is behind it.
 
@@ -44,11 +51,15 @@ def rms_reprojection(
         p_world: The points, metres.
         xy: Where they were observed.
     """
-    return np.asarray(np.sqrt(np.square(reprojection_errors(Ts_camera_world, p_world, xy)).mean(axis=-1)))
+    return np.asarray(
+        np.sqrt(np.square(reprojection_errors(Ts_camera_world, p_world, xy)).mean(axis=-1))
+    )
 
 
 def linearised(
-    Ts_camera_world: Float[np.ndarray, "*k 4 4"], p_world: Float[np.ndarray, "*k n 3"], xy: Float[np.ndarray, "*k n 2"]
+    Ts_camera_world: Float[np.ndarray, "*k 4 4"],
+    p_world: Float[np.ndarray, "*k n 3"],
+    xy: Float[np.ndarray, "*k n 2"],
 ) -> tuple[Float[np.ndarray, "*k m"], Float[np.ndarray, "*k m 6"]]:
     """Return the residuals, u and v of point after point, and their derivatives by a twist composed on the left.
 
@@ -61,7 +72,10 @@ def linearised(
 
     Reference: Hartley and Zisserman, 2nd ed., A6.6; Solà et al. 2018, eq. 182 for the derivative of a moved point.
     """
-    p_camera = p_world @ np.swapaxes(Ts_camera_world[..., :3, :3], -1, -2) + Ts_camera_world[..., None, :3, 3]
+    p_camera = (
+        p_world @ np.swapaxes(Ts_camera_world[..., :3, :3], -1, -2)
+        + Ts_camera_world[..., None, :3, 3]
+    )
     near = 1.0 / p_camera[..., 2]
     x, y = p_camera[..., 0] * near, p_camera[..., 1] * near
     J = np.zeros((*x.shape, 2, 6))
@@ -74,7 +88,9 @@ def linearised(
 
 
 def gauss_newton_step(
-    T_camera_world: Float[np.ndarray, "4 4"], p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "n 2"]
+    T_camera_world: Float[np.ndarray, "4 4"],
+    p_world: Float[np.ndarray, "n 3"],
+    xy: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "4 4"]:
     """Return the motion after one Gauss-Newton step on the squared reprojection errors.
 
@@ -131,7 +147,9 @@ def refined(
             diagonal += 1e-300
             gradient = (np.swapaxes(J, -1, -2) @ residuals[..., None])[..., 0]
             good = np.isfinite(A).all(axis=(1, 2)) & (np.abs(np.linalg.det(A)) > 0.0)
-            step = -np.linalg.solve(np.where(good[:, None, None], A, np.eye(6)), gradient[..., None])[..., 0]
+            step = -np.linalg.solve(
+                np.where(good[:, None, None], A, np.eye(6)), gradient[..., None]
+            )[..., 0]
             trial = _retracted(T[active], np.where(np.isfinite(step), step, 0.0))
             again, J_again = _weighted(*linearised(trial, q[active], xy[active]), root)
             ahead = (q[active] @ trial[:, 2, :3, None])[..., 0] + trial[:, 2, 3, None] > 0.0
@@ -141,7 +159,10 @@ def refined(
             settled |= ~better & (np.abs(step).max(axis=1) < 1e-12)
             T[active[better]], cost[active[better]] = trial[better], lower[better]
             damping[active] *= np.where(better, 0.1, 10.0)
-            residuals, J = np.where(better[:, None], again, residuals), np.where(better[:, None, None], J_again, J)
+            residuals, J = (
+                np.where(better[:, None], again, residuals),
+                np.where(better[:, None, None], J_again, J),
+            )
             going = ~settled & (damping[active] < 1e12)
             active, residuals, J = active[going], residuals[going], J[going]
             if not len(active):
@@ -174,7 +195,9 @@ def dlt_motion(
     if centred:
         scale = np.sqrt(3.0) / max(float(np.linalg.norm(p_world - p_mean, axis=1).mean()), 1e-300)
     X = homogeneous(scale * (p_world - p_mean))
-    A = np.concatenate([np.hstack([X, 0 * X, -xy[:, :1] * X]), np.hstack([0 * X, X, -xy[:, 1:] * X])])
+    A = np.concatenate(
+        [np.hstack([X, 0 * X, -xy[:, :1] * X]), np.hstack([0 * X, X, -xy[:, 1:] * X])]
+    )
     P = np.linalg.svd(A, full_matrices=False)[2][-1].reshape(3, 4)
     U, S, Vt = np.linalg.svd(P[:, :3])
     sign = np.sign(np.linalg.det(U) * np.linalg.det(Vt))
@@ -204,12 +227,19 @@ def sqpnp(
     """
     if p_world.shape[-2] < 3:
         raise ValueError(f"three points at least are needed, not {p_world.shape[-2]}")
-    batch, (p, xy) = p_world.shape[:-2], (p_world.reshape(-1, *p_world.shape[-2:]), xy.reshape(-1, *xy.shape[-2:]))
+    batch, (p, xy) = (
+        p_world.shape[:-2],
+        (p_world.reshape(-1, *p_world.shape[-2:]), xy.reshape(-1, *xy.shape[-2:])),
+    )
     p_mean = p.mean(axis=1) if centred else np.zeros((len(p), 3))
     q = p - p_mean[:, None]
     omega, t_of_r = _quadratic_form(q, xy)
-    vectors = np.swapaxes(np.linalg.eigh(omega)[1][..., :_STARTS], -1, -2).reshape(len(p), _STARTS, 3, 3)
-    starts = vectors @ (np.swapaxes(q, 1, 2) @ q)[:, None]  # whose nearest rotation moves these points most alike
+    vectors = np.swapaxes(np.linalg.eigh(omega)[1][..., :_STARTS], -1, -2).reshape(
+        len(p), _STARTS, 3, 3
+    )
+    starts = (
+        vectors @ (np.swapaxes(q, 1, 2) @ q)[:, None]
+    )  # whose nearest rotation moves these points most alike
     R = nearest_rotation(np.concatenate([starts, -starts], axis=1))
     rows, mean = np.arange(len(p))[:, None], q.mean(axis=1)
     for programs, kept in ((2, 2), (_PROGRAMS, 1)):
@@ -217,7 +247,9 @@ def sqpnp(
         r = R.reshape(*R.shape[:2], 9)
         t = r @ np.swapaxes(t_of_r, -1, -2)
         ahead = (R[:, :, 2] @ mean[..., None])[..., 0] + t[..., 2] > 0.0
-        order = np.argsort(np.where(ahead, ((r @ omega) * r).sum(axis=-1), np.inf), axis=1)[:, :kept]
+        order = np.argsort(np.where(ahead, ((r @ omega) * r).sum(axis=-1), np.inf), axis=1)[
+            :, :kept
+        ]
         R, t = R[rows, order], t[rows, order]
     T = np.zeros((len(p), 4, 4))
     T[:, :3, :3], T[:, :3, 3], T[:, 3, 3] = R[:, 0], t[:, 0], 1.0
@@ -249,7 +281,12 @@ def _quadratic_form(q: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarr
     n, C = q.shape[1], ray_forms(xy)
     flat = C.reshape(len(q), n, 9)
     outer = (q[..., :, None] * q[..., None, :]).reshape(len(q), n, 9)
-    omega = (np.swapaxes(flat, 1, 2) @ outer).reshape(-1, 3, 3, 3, 3).transpose(0, 1, 3, 2, 4).reshape(-1, 9, 9)
+    omega = (
+        (np.swapaxes(flat, 1, 2) @ outer)
+        .reshape(-1, 3, 3, 3, 3)
+        .transpose(0, 1, 3, 2, 4)
+        .reshape(-1, 9, 9)
+    )
     mixed = (np.swapaxes(flat, 1, 2) @ q).reshape(-1, 3, 9)
     t_of_r = -np.linalg.solve(C.sum(axis=1), mixed)
     return omega + np.swapaxes(mixed, -1, -2) @ t_of_r, t_of_r
@@ -288,5 +325,7 @@ def _about(T: np.ndarray, p: np.ndarray) -> np.ndarray:
     return moved
 
 
-def _weighted(residuals: np.ndarray, J: np.ndarray, root: np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
+def _weighted(
+    residuals: np.ndarray, J: np.ndarray, root: np.ndarray | None
+) -> tuple[np.ndarray, np.ndarray]:
     return (residuals, J) if root is None else (root * residuals, root[:, None] * J)

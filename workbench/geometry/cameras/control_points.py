@@ -18,7 +18,9 @@ from workbench.geometry.motions.alignment import nearest_rotation
 _STEPS, _NUDGE = 10, 1e-12
 
 
-def epnp(p_world: Float[np.ndarray, "*k n 3"], xy: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray, "*k 4 4"]:
+def epnp(
+    p_world: Float[np.ndarray, "*k n 3"], xy: Float[np.ndarray, "*k n 2"]
+) -> Float[np.ndarray, "*k 4 4"]:
     """Return the motions T_camera_world by EPnP: mixes of N = 1 to 4 null vectors, of which the best reprojects best.
 
     Points of one plane have three control points and mixes of up to three vectors. Leading dimensions are problems that
@@ -40,7 +42,10 @@ def epnp(p_world: Float[np.ndarray, "*k n 3"], xy: Float[np.ndarray, "*k n 2"]) 
     """
     if p_world.shape[-2] < 4:
         raise ValueError(f"EPnP takes four points or more, not {p_world.shape[-2]}")
-    batch, (p, xy) = p_world.shape[:-2], (p_world.reshape(-1, *p_world.shape[-2:]), xy.reshape(-1, *xy.shape[-2:]))
+    batch, (p, xy) = (
+        p_world.shape[:-2],
+        (p_world.reshape(-1, *p_world.shape[-2:]), xy.reshape(-1, *xy.shape[-2:])),
+    )
     p_mean = p.mean(axis=1)
     q = p - p_mean[:, None]
     _, extents, axes = np.linalg.svd(q, full_matrices=False)
@@ -49,9 +54,13 @@ def epnp(p_world: Float[np.ndarray, "*k n 3"], xy: Float[np.ndarray, "*k n 2"]) 
     flat, T = extents[:, 2] <= FLAT * extents[:, 1], np.tile(np.eye(4), (len(p), 1, 1))
     for rows, directions in ((flat, 2), (~flat, 3)):
         if rows.any():
-            arms = (extents[rows, :directions, None] / np.sqrt(q.shape[1])) * axes[rows, :directions]
+            arms = (extents[rows, :directions, None] / np.sqrt(q.shape[1])) * axes[
+                rows, :directions
+            ]
             along = q[rows] @ np.swapaxes(arms, 1, 2)
-            lean = (along * along * along).sum(axis=1)  # either end of an axis would do: the heavier one
+            lean = (along * along * along).sum(
+                axis=1
+            )  # either end of an axis would do: the heavier one
             T[rows] = _motions(q[rows], xy[rows], np.where(lean < 0.0, -1.0, 1.0)[..., None] * arms)
     T[:, :3, 3] -= (T[:, :3, :3] @ p_mean[..., None])[..., 0]
     return T.reshape(*batch, 4, 4)
@@ -60,7 +69,9 @@ def epnp(p_world: Float[np.ndarray, "*k n 3"], xy: Float[np.ndarray, "*k n 2"]) 
 def _motions(q: np.ndarray, xy: np.ndarray, arms: np.ndarray) -> np.ndarray:
     """Return the motions for points about their mean; control points are the mean and the ends of the arms from it."""
     along = q @ np.swapaxes(arms / np.square(arms).sum(axis=-1, keepdims=True), 1, 2)
-    shares = np.concatenate([1.0 - along.sum(axis=-1, keepdims=True), along], axis=-1)  # (k, n, c), barycentric
+    shares = np.concatenate(
+        [1.0 - along.sum(axis=-1, keepdims=True), along], axis=-1
+    )  # (k, n, c), barycentric
     controls = np.concatenate([np.zeros_like(arms[:, :1]), arms], axis=1)
     vectors = _null_vectors(shares, xy)
     first, second = np.triu_indices(controls.shape[1], 1)
@@ -84,7 +95,9 @@ def _null_vectors(shares: np.ndarray, xy: np.ndarray) -> np.ndarray:
     blocks = (np.swapaxes(pairs, 1, 2) @ ray_forms(xy).reshape(k, n, 9)).reshape(k, c, c, 3, 3)
     MtM = blocks.transpose(0, 1, 3, 2, 4).reshape(k, 3 * c, 3 * c)
     nudge = np.trace(MtM, axis1=1, axis2=2)[:, None] * _NUDGE * np.arange(3 * c)
-    MtM[:, range(3 * c), range(3 * c)] += nudge  # of four points any basis would do: not rounding shall choose it
+    MtM[:, range(3 * c), range(3 * c)] += (
+        nudge  # of four points any basis would do: not rounding shall choose it
+    )
     return np.swapaxes(np.linalg.eigh(MtM)[1][..., :c], 1, 2).reshape(k, c, c, 3)
 
 

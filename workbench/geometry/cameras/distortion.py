@@ -149,7 +149,13 @@ def columns(rows: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "d n"]:
 
 
 def bend(
-    x: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"], k1: float, k2: float, p1: float, p2: float, k3: float
+    x: Float[np.ndarray, " n"],
+    y: Float[np.ndarray, " n"],
+    k1: float,
+    k2: float,
+    p1: float,
+    p2: float,
+    k3: float,
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
     """Return x' and y' of eq. 1, from columns.
 
@@ -195,7 +201,9 @@ def _newton(target_x, target_y, lens: Distortion):
             if np.abs(bent_x).max() < 1e-8 and np.abs(bent_y).max() < 1e-8:
                 break  # quadratic: the step just taken has squared this residual
         bent_x, bent_y = bend(x, y, *lens)
-        solved = np.hypot(bent_x - target_x, bent_y - target_y) < SOLVED * (1 + np.hypot(target_x, target_y))
+        solved = np.hypot(bent_x - target_x, bent_y - target_y) < SOLVED * (
+            1 + np.hypot(target_x, target_y)
+        )
     return x, y, solved
 
 

@@ -15,7 +15,14 @@ import math
 import numpy as np
 from jaxtyping import Bool, Float
 
-from workbench.geometry.cameras.distortion import NONE, Distortion, bend, chunks, invertible_radius, undistort
+from workbench.geometry.cameras.distortion import (
+    NONE,
+    Distortion,
+    bend,
+    chunks,
+    invertible_radius,
+    undistort,
+)
 from workbench.geometry.motions import across, apply, inverse, motion
 
 OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
@@ -62,7 +69,9 @@ def focal_from_field_of_view(angle: float, size: int) -> float:
     return 0.5 * size / math.tan(0.5 * angle)
 
 
-def crop_intrinsics(K: Float[np.ndarray, "3 3"], left: float, top: float) -> Float[np.ndarray, "3 3"]:
+def crop_intrinsics(
+    K: Float[np.ndarray, "3 3"], left: float, top: float
+) -> Float[np.ndarray, "3 3"]:
     """Return the K of the part of a picture whose pixel (0, 0) was (left, top): only the principal point moves.
 
     Args:
@@ -73,7 +82,9 @@ def crop_intrinsics(K: Float[np.ndarray, "3 3"], left: float, top: float) -> Flo
     return np.array([[1.0, 0.0, -left], [0.0, 1.0, -top], [0.0, 0.0, 1.0]]) @ K
 
 
-def resize_intrinsics(K: Float[np.ndarray, "3 3"], scale_u: float, scale_v: float) -> Float[np.ndarray, "3 3"]:
+def resize_intrinsics(
+    K: Float[np.ndarray, "3 3"], scale_u: float, scale_v: float
+) -> Float[np.ndarray, "3 3"]:
     """Return the K of a picture whose width and height were multiplied by these factors.
 
     Pixel centres are at integers, so it is the edge at -0.5 that stays: u_new + 0.5 = scale_u (u + 0.5).
@@ -88,7 +99,9 @@ def resize_intrinsics(K: Float[np.ndarray, "3 3"], scale_u: float, scale_v: floa
     """
     if not (scale_u > 0 and scale_v > 0):
         raise ValueError(f"a picture is resized by positive factors, got {scale_u} and {scale_v}")
-    S = np.array([[scale_u, 0.0, 0.5 * scale_u - 0.5], [0.0, scale_v, 0.5 * scale_v - 0.5], [0.0, 0.0, 1.0]])
+    S = np.array(
+        [[scale_u, 0.0, 0.5 * scale_u - 0.5], [0.0, scale_v, 0.5 * scale_v - 0.5], [0.0, 0.0, 1.0]]
+    )
     return S @ K
 
 
@@ -119,7 +132,9 @@ def look_at(
     v_forward = p_world_target - p_world_eye
     distance = np.linalg.norm(v_forward)
     if not distance > 0:
-        raise ValueError(f"eye and target coincide at {p_world_eye}: the viewing direction is undefined")
+        raise ValueError(
+            f"eye and target coincide at {p_world_eye}: the viewing direction is undefined"
+        )
     n_forward = v_forward / distance
     v_right = np.cross(n_forward, up)
     if np.linalg.norm(v_right) < 1e-9 * np.linalg.norm(up):
@@ -142,7 +157,9 @@ def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray,
     return -R_camera_world.T @ t
 
 
-def depths(p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, " n"]:
+def depths(
+    p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"]
+) -> Float[np.ndarray, " n"]:
     """Return Z in the camera frame, metres: the distance along the optical axis, not along the ray."""
     return p_world @ T_camera_world[2, :3] + T_camera_world[2, 3]
 
@@ -213,7 +230,9 @@ def project(
 
 
 def project_orthographic(
-    p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"], K: Float[np.ndarray, "3 3"]
+    p_world: Float[np.ndarray, "n 3"],
+    T_camera_world: Float[np.ndarray, "4 4"],
+    K: Float[np.ndarray, "3 3"],
 ) -> Float[np.ndarray, "n 2"]:
     """Return pixels of a parallel projection: (u, v, 1) = K (X, Y, 1), depth plays no part.
 
@@ -230,7 +249,10 @@ def project_orthographic(
 
 
 def dolly(
-    T_camera_world: Float[np.ndarray, "4 4"], K: Float[np.ndarray, "3 3"], subject_depth: float, factor: float
+    T_camera_world: Float[np.ndarray, "4 4"],
+    K: Float[np.ndarray, "3 3"],
+    subject_depth: float,
+    factor: float,
 ) -> tuple[Float[np.ndarray, "4 4"], Float[np.ndarray, "3 3"]]:
     """Return the camera moved back along its axis with f lengthened, so that the plane of the subject keeps its size.
 
@@ -374,7 +396,10 @@ def vanishing_points(
 
 
 def sphere_outline(
-    p_world_center: Float[np.ndarray, "3"], radius: float, T_camera_world: Float[np.ndarray, "4 4"], n: int = 96
+    p_world_center: Float[np.ndarray, "3"],
+    radius: float,
+    T_camera_world: Float[np.ndarray, "4 4"],
+    n: int = 96,
 ) -> Float[np.ndarray, "n 3"]:
     """Return n points of the circle in which the camera's rays touch a sphere, metres; in the picture it is an ellipse.
 
@@ -390,7 +415,9 @@ def sphere_outline(
     v_center = p_world_center - camera_center(T_camera_world)
     distance = float(np.linalg.norm(v_center))
     if not distance > radius:
-        raise ValueError(f"the camera is inside the sphere: distance {distance:.3g} m, radius {radius:.3g} m")
+        raise ValueError(
+            f"the camera is inside the sphere: distance {distance:.3g} m, radius {radius:.3g} m"
+        )
     n_axis = v_center / distance
     n_side, n_up = across(n_axis)
     angle = np.linspace(0.0, 2.0 * np.pi, n, endpoint=False)

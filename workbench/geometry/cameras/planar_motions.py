@@ -21,7 +21,9 @@ def is_flat(p_world: Float[np.ndarray, "*k n 3"]) -> bool:
         >>> is_flat(square), is_flat(square + [[0, 0, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]])
         (True, False)
     """
-    a, b, c = np.moveaxis(np.linalg.svd(p_world - p_world.mean(axis=-2, keepdims=True), compute_uv=False), -1, 0)
+    a, b, c = np.moveaxis(
+        np.linalg.svd(p_world - p_world.mean(axis=-2, keepdims=True), compute_uv=False), -1, 0
+    )
     return bool(((c <= FLAT * b) & (b > 1e-9 * a)).all())
 
 
@@ -46,7 +48,9 @@ def planar_motions(
     Reference: Collins and Bartoli 2014, eq. 8 to 13 (J, its singular value, both rotations).
     """
     if p_world.shape[-2] < 4 or not is_flat(p_world):
-        raise ValueError(f"IPPE takes four points or more of one plane, not these {p_world.shape[-2]}")
+        raise ValueError(
+            f"IPPE takes four points or more of one plane, not these {p_world.shape[-2]}"
+        )
     p_mean = p_world.mean(axis=-2)
     q = p_world - p_mean[..., None, :]
     axes = np.linalg.svd(q, full_matrices=False)[2]
@@ -58,17 +62,26 @@ def planar_motions(
     R_ray = _turns_to(middle[..., 0])
     B = R_ray[..., :2, :2] - middle @ R_ray[..., 2:, :2]
     A = np.linalg.solve(B, J)
-    top = A / np.linalg.svd(A, compute_uv=False)[..., :1, None]  # the upper left of the rotation, relative to the ray
+    top = (
+        A / np.linalg.svd(A, compute_uv=False)[..., :1, None]
+    )  # the upper left of the rotation, relative to the ray
     rest = np.eye(2) - np.swapaxes(top, -1, -2) @ top
     b = np.sqrt(np.maximum(np.stack([rest[..., 0, 0], rest[..., 1, 1]], axis=-1), 0.0))
     b[..., 1] *= np.where(rest[..., 0, 1] < 0.0, -1.0, 1.0)
     third = np.stack([b, -b], axis=-2)[..., None, :]
-    columns = np.concatenate([np.broadcast_to(top[..., None, :, :], (*third.shape[:-2], 2, 2)), third], axis=-2)
+    columns = np.concatenate(
+        [np.broadcast_to(top[..., None, :, :], (*third.shape[:-2], 2, 2)), third], axis=-2
+    )
     across = np.cross(columns[..., 0], columns[..., 1])
-    R = nearest_rotation(R_ray[..., None, :, :] @ np.concatenate([columns, across[..., None]], axis=-1))
+    R = nearest_rotation(
+        R_ray[..., None, :, :] @ np.concatenate([columns, across[..., None]], axis=-1)
+    )
     T = np.zeros((*R.shape[:-2], 4, 4))
     T[..., :3, :3] = R = R @ axes[..., None, :, :]
-    T[..., :3, 3] = _translations(R, q[..., None, :, :], xy[..., None, :, :]) - (R @ p_mean[..., None, :, None])[..., 0]
+    T[..., :3, 3] = (
+        _translations(R, q[..., None, :, :], xy[..., None, :, :])
+        - (R @ p_mean[..., None, :, None])[..., 0]
+    )
     T[..., 3, 3] = 1.0
     return T
 

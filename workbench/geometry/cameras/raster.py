@@ -16,7 +16,13 @@ from jaxtyping import Bool, Float, Int, UInt8
 
 from workbench.geometry.cameras.distortion import NONE, Distortion, invertible_radius
 from workbench.geometry.cameras.pinhole import depths, normalize, project
-from workbench.geometry.clipping import clip_segments, clip_to_rectangle, clip_triangles, cut_finely, over_corners
+from workbench.geometry.clipping import (
+    clip_segments,
+    clip_to_rectangle,
+    clip_triangles,
+    cut_finely,
+    over_corners,
+)
 from workbench.geometry.motions import apply
 
 ToPixels = Callable[[np.ndarray], np.ndarray]
@@ -25,7 +31,10 @@ ToPixels = Callable[[np.ndarray], np.ndarray]
 PIECE = 0.06  # longest normalised edge that is drawn straight through a bending lens: 1/8 px off at f = 300, k1 = -0.3
 FAVOUR = 1.002
 STRAY = 3.0  # how far beyond the true picture a given camera model may look
-SLACK = 1e-6, 0.1  # pixels that a row is longer at each end, so that neighbours leave no crack: straight, bent lens
+SLACK = (
+    1e-6,
+    0.1,
+)  # pixels that a row is longer at each end, so that neighbours leave no crack: straight, bent lens
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +85,9 @@ class _Eye:
     height: int
     near: float
     bends: bool
-    window: np.ndarray  # (2, 2): lowest and highest x, y in normalised coordinates that can be in the picture
+    window: (
+        np.ndarray
+    )  # (2, 2): lowest and highest x, y in normalised coordinates that can be in the picture
 
     def flatten(self, p_world: np.ndarray) -> np.ndarray:
         """Return ideal normalised coordinates, those of a camera without lens."""
@@ -157,7 +168,9 @@ def in_sight(
     return inside & (np.abs(depth[row, column] - z) < 0.02 * z)
 
 
-def _resolve(parts: list[_Fragments], width: int, height: int, background: tuple[int, int, int]) -> Image:
+def _resolve(
+    parts: list[_Fragments], width: int, height: int, background: tuple[int, int, int]
+) -> Image:
     """Keep the nearest fragment of each pixel; of equals, the last."""
     nearest, inverse_depth = np.zeros(width * height), np.zeros(width * height)
     colors = np.tile(np.array(background, np.uint8), (width * height, 1))
@@ -187,12 +200,22 @@ def _draw_segments(item: SegmentItem, eye: _Eye) -> _Fragments:
     size = np.array([eye.width, eye.height])
     start, stop = clip_to_rectangle(uv, np.full(2, -0.5 - item.width), size - 0.5 + item.width)
     shown = start < stop
-    uv, w, owner, start, length = uv[shown], w[shown], owner[shown], start[shown], (stop - start)[shown]
-    steps = np.ceil(length * np.abs(uv[:, 1] - uv[:, 0]).max(axis=1, initial=0.0)).astype(np.int64) + 1
+    uv, w, owner, start, length = (
+        uv[shown],
+        w[shown],
+        owner[shown],
+        start[shown],
+        (stop - start)[shown],
+    )
+    steps = (
+        np.ceil(length * np.abs(uv[:, 1] - uv[:, 0]).max(axis=1, initial=0.0)).astype(np.int64) + 1
+    )
     row, step = _ragged(steps)
     share = start[row] + (length / np.maximum(steps - 1, 1))[row] * step
     at = uv[row, 0] + share[:, None] * (uv[row, 1] - uv[row, 0])
-    return _stamp(at, w[row, 0] + share * (w[row, 1] - w[row, 0]), owner[row], item.colors, item.width, eye)
+    return _stamp(
+        at, w[row, 0] + share * (w[row, 1] - w[row, 0]), owner[row], item.colors, item.width, eye
+    )
 
 
 def _draw_mesh(item: MeshItem, eye: _Eye) -> _Fragments:
@@ -202,7 +225,9 @@ def _draw_mesh(item: MeshItem, eye: _Eye) -> _Fragments:
     return _fill(uv, w, owner, item.colors, eye)
 
 
-def _project(p_world: np.ndarray, owner: np.ndarray, eye: _Eye) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _project(
+    p_world: np.ndarray, owner: np.ndarray, eye: _Eye
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return pixels and 1/Z of the corners of segments or triangles, cut where the lens bends them, and their owners."""
     corners = p_world.shape[1]
     if eye.bends:
@@ -256,9 +281,15 @@ def _fill(uv, w, owner, colors, eye: _Eye) -> _Fragments:
     span, u = _ragged(np.maximum(right - left + 1, 0))
     u = u + left[span]
     triangle, v = triangle[span], v[span]
-    inverse_depth = w[triangle, 0] + w_u[triangle] * (u - uv[triangle, 0, 0]) + w_v[triangle] * (v - uv[triangle, 0, 1])
+    inverse_depth = (
+        w[triangle, 0]
+        + w_u[triangle] * (u - uv[triangle, 0, 0])
+        + w_v[triangle] * (v - uv[triangle, 0, 1])
+    )
     # A sliver's slope may overshoot beyond its corners, where no depth is.
-    inverse_depth = np.clip(inverse_depth, over_corners(np.minimum, w)[triangle], over_corners(np.maximum, w)[triangle])
+    inverse_depth = np.clip(
+        inverse_depth, over_corners(np.minimum, w)[triangle], over_corners(np.maximum, w)[triangle]
+    )
     return _Fragments(v * eye.width + u, inverse_depth, owner[kept][triangle], colors)
 
 

@@ -38,7 +38,9 @@ class StereoCamera:
 
     def __post_init__(self) -> None:
         if not (0 < self.f < math.inf and 0 < self.baseline < math.inf):
-            raise ValueError(f"f and baseline must be positive and finite, got {self.f} px and {self.baseline} m")
+            raise ValueError(
+                f"f and baseline must be positive and finite, got {self.f} px and {self.baseline} m"
+            )
 
     @property
     def K(self) -> Float[np.ndarray, "3 3"]:
@@ -52,10 +54,14 @@ class StereoCamera:
     def shrunk(self, k: int) -> "StereoCamera":
         """Return the cameras of pictures with blocks of k x k pixels averaged: all but the baseline shrinks."""
         K = resize_intrinsics(self.K, 1.0 / k, 1.0 / k)
-        return StereoCamera(float(K[0, 0]), float(K[0, 2]), float(K[1, 2]), self.baseline, self.doffs / k)
+        return StereoCamera(
+            float(K[0, 0]), float(K[0, 2]), float(K[1, 2]), self.baseline, self.doffs / k
+        )
 
 
-def depth_from_disparity(d: Float[np.ndarray, "..."], f: float, baseline: float) -> Float[np.ndarray, "..."]:
+def depth_from_disparity(
+    d: Float[np.ndarray, "..."], f: float, baseline: float
+) -> Float[np.ndarray, "..."]:
     """Return the depth Z = f B / d that a disparity stands for: the nearer, the larger the shift.
 
     Args:
@@ -77,7 +83,9 @@ def depth_from_disparity(d: Float[np.ndarray, "..."], f: float, baseline: float)
         return np.where(d >= 0.0, f * baseline / np.abs(d), np.nan)
 
 
-def disparity_from_depth(depth: Float[np.ndarray, "..."], f: float, baseline: float) -> Float[np.ndarray, "..."]:
+def disparity_from_depth(
+    depth: Float[np.ndarray, "..."], f: float, baseline: float
+) -> Float[np.ndarray, "..."]:
     """Return the disparity d = f B / Z, pixels, of points at these depths, metres; infinity gives 0.
 
     Args:
@@ -143,7 +151,9 @@ def depth_cloud(
     """
     seen = np.isfinite(depth) & (depth > 0)
     v, u = np.nonzero(seen)
-    return back_project(np.column_stack([u, v]).astype(float), depth[seen], np.eye(4), camera.K), seen
+    return back_project(
+        np.column_stack([u, v]).astype(float), depth[seen], np.eye(4), camera.K
+    ), seen
 
 
 def points_on_ray(
@@ -156,4 +166,6 @@ def points_on_ray(
         depth: Depths, metres.
         camera: Its left camera took the picture.
     """
-    return back_project(np.broadcast_to(np.array(uv, float), (len(depth), 2)), depth, np.eye(4), camera.K)
+    return back_project(
+        np.broadcast_to(np.array(uv, float), (len(depth), 2)), depth, np.eye(4), camera.K
+    )

@@ -13,7 +13,9 @@ from jaxtyping import Float, Int
 from workbench.geometry.two_views.homography import homogeneous
 
 _REAL = 1e-6  # an imaginary part below this share of a root is rounding
-_SOLVED = 1e-9  # how well, in shares of a triangle's largest side squared, the law of cosines has to hold
+_SOLVED = (
+    1e-9  # how well, in shares of a triangle's largest side squared, the law of cosines has to hold
+)
 _OPPOSITE = ((1, 2), (0, 2), (0, 1))  # the ends of the sides a, b, c
 _BAD = 1e300
 _TWOFOLD, _SAME = 1e-5, 1e-6
@@ -30,7 +32,9 @@ def unit_rays(xy: Float[np.ndarray, "*k 2"]) -> Float[np.ndarray, "*k 3"]:
     return v_camera / np.linalg.norm(v_camera, axis=-1, keepdims=True)
 
 
-def quartics(p_world: Float[np.ndarray, "k 3 3"], n_camera: Float[np.ndarray, "k 3 3"]) -> Float[np.ndarray, "k 5"]:
+def quartics(
+    p_world: Float[np.ndarray, "k 3 3"], n_camera: Float[np.ndarray, "k 3 3"]
+) -> Float[np.ndarray, "k 5"]:
     """Return Grunert's quartics in v = s3 / s1, the coefficient of the highest power first.
 
     Args:
@@ -65,7 +69,9 @@ def three_point_lengths(
         companion = np.zeros((len(p_world), 4, 4))
         companion[:, 1:, :3] = np.eye(3)
         companion[:, :, 3] = -coefficients[:, :0:-1] / coefficients[:, :1]
-        usable = np.isfinite(companion[:, :, 3]).all(axis=1) & (np.abs(companion[:, :, 3]).max(axis=1) < _BAD)
+        usable = np.isfinite(companion[:, :, 3]).all(axis=1) & (
+            np.abs(companion[:, :, 3]).max(axis=1) < _BAD
+        )
         roots = np.linalg.eigvals(np.where(usable[:, None, None], companion, 0.0))
         v = roots.real
         real = usable[:, None] & (np.abs(roots.imag) < _REAL * (1.0 + np.abs(v))) & (v > 0.0)
@@ -81,19 +87,27 @@ def three_point_lengths(
         rows = np.concatenate([np.arange(len(u)), twofold])
         u, v, s1 = np.concatenate([u, cos_c[twofold] - apart]), v[rows], s1[rows]
         of_sample = of_sample[rows]
-        s, left = _polished(np.stack([s1, u * s1, v * s1], axis=1), sides[:, of_sample], cosines[:, of_sample])
+        s, left = _polished(
+            np.stack([s1, u * s1, v * s1], axis=1), sides[:, of_sample], cosines[:, of_sample]
+        )
         largest = np.max(sides[:, of_sample], axis=0, initial=0.0)
         kept = (s > 0.0).all(axis=1) & (left < _SOLVED * largest) & (u > 0.0)
     for sample in np.unique(of_sample[len(of_sample) - len(twofold) :]):
         same = np.flatnonzero(kept & (of_sample == sample))
         for k, row in enumerate(same):
-            kept[row] = not (np.abs(s[same[:k]] - s[row]) < _SAME * s[row]).all(axis=1)[kept[same[:k]]].any()
+            kept[row] = (
+                not (np.abs(s[same[:k]] - s[row]) < _SAME * s[row])
+                .all(axis=1)[kept[same[:k]]]
+                .any()
+            )
     order = np.flatnonzero(kept)[np.argsort(of_sample[kept], kind="stable")]
     return s[order], of_sample[order]
 
 
 def motions_from_lengths(
-    p_world: Float[np.ndarray, "m 3 3"], n_camera: Float[np.ndarray, "m 3 3"], s: Float[np.ndarray, "m 3"]
+    p_world: Float[np.ndarray, "m 3 3"],
+    n_camera: Float[np.ndarray, "m 3 3"],
+    s: Float[np.ndarray, "m 3"],
 ) -> Float[np.ndarray, "m 4 4"]:
     """Return the T_camera_world that takes each three points to the ends of their rays; NaN where they are on one line.
 
@@ -140,7 +154,9 @@ def p3p(
     return Ts[kept], of_sample[kept]
 
 
-def solution_counts(p_world: Float[np.ndarray, "k 3 3"], xy: Float[np.ndarray, "k 3 2"]) -> Int[np.ndarray, "5"]:
+def solution_counts(
+    p_world: Float[np.ndarray, "k 3 3"], xy: Float[np.ndarray, "k 3 2"]
+) -> Int[np.ndarray, "5"]:
     """Return how many of the samples have none, one, ..., four solutions."""
     _, of_sample = p3p(p_world, xy)
     return np.bincount(np.bincount(of_sample, minlength=len(p_world)), minlength=5)
@@ -158,19 +174,33 @@ def _quartics(sides: np.ndarray, cosines: np.ndarray) -> np.ndarray:
         p, q, r, w = (a2 - c2) / b2, (a2 + c2) / b2, (b2 - c2) / b2, (b2 - a2) / b2
         A4 = (p - 1) ** 2 - 4 * c2 / b2 * cos_a**2
         A3 = 4 * (p * (1 - p) * cos_b - (1 - q) * cos_a * cos_c + 2 * c2 / b2 * cos_a**2 * cos_b)
-        A2 = 2 * (p**2 - 1 + 2 * p**2 * cos_b**2 + 2 * r * cos_a**2 - 4 * q * cos_a * cos_b * cos_c + 2 * w * cos_c**2)
+        A2 = 2 * (
+            p**2
+            - 1
+            + 2 * p**2 * cos_b**2
+            + 2 * r * cos_a**2
+            - 4 * q * cos_a * cos_b * cos_c
+            + 2 * w * cos_c**2
+        )
         A1 = 4 * (-p * (1 + p) * cos_b + 2 * a2 / b2 * cos_c**2 * cos_b - (1 - q) * cos_a * cos_c)
         A0 = (1 + p) ** 2 - 4 * a2 / b2 * cos_c**2
     return np.stack([A4, A3, A2, A1, A0], axis=-1)
 
 
-def _polished(s: np.ndarray, sides: np.ndarray, cosines: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _polished(
+    s: np.ndarray, sides: np.ndarray, cosines: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Take Newton steps on the law of cosines of the three sides; return the lengths and what is left of it."""
     left = np.full(len(s), np.inf)
     for _ in range(3):
-        ends = [(s[:, i], s[:, j], cosine) for (i, j), cosine in zip(_OPPOSITE, cosines, strict=True)]
+        ends = [
+            (s[:, i], s[:, j], cosine) for (i, j), cosine in zip(_OPPOSITE, cosines, strict=True)
+        ]
         g = np.stack(
-            [x * x + y * y - 2 * x * y * cosine - side for (x, y, cosine), side in zip(ends, sides, strict=True)]
+            [
+                x * x + y * y - 2 * x * y * cosine - side
+                for (x, y, cosine), side in zip(ends, sides, strict=True)
+            ]
         )
         left = np.abs(g).max(axis=0, initial=0.0)
         J = np.zeros((len(s), 3, 3))

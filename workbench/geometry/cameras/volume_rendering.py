@@ -59,7 +59,9 @@ def seen(
         color: Of each sample.
         behind: The background, grey.
     """
-    return np.einsum("rs,rsc->rc", weights, color) + behind * (1 - weights.sum(axis=1, keepdims=True))
+    return np.einsum("rs,rsc->rc", weights, color) + behind * (
+        1 - weights.sum(axis=1, keepdims=True)
+    )
 
 
 def through_seen(
@@ -86,5 +88,9 @@ def through_seen(
     weights = ray_weights(density, spacing)
     gain = np.einsum("rsc,rc->rs", color, slope)
     shown = weights * gain
-    after = shown[:, ::-1].cumsum(axis=1)[:, ::-1] - shown + passed[:, -1:] * behind * slope.sum(axis=1, keepdims=True)
+    after = (
+        shown[:, ::-1].cumsum(axis=1)[:, ::-1]
+        - shown
+        + passed[:, -1:] * behind * slope.sum(axis=1, keepdims=True)
+    )
     return spacing * (passed * gain - after), weights[:, :, None] * slope[:, None]

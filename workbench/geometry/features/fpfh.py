@@ -54,7 +54,9 @@ def pair_angles(
     phi = np.where(swap, -second, first)  # u d
     other = np.where(swap, -first, second)  # n d
     aligned = np.einsum("ij,ij->i", n_i, n_j)  # u n
-    triple = np.einsum("ij,ij->i", np.cross(d, n_i), n_j)  # swaps of d and of the normals change its sign, each once
+    triple = np.einsum(
+        "ij,ij->i", np.cross(d, n_i), n_j
+    )  # swaps of d and of the normals change its sign, each once
     sine = np.sqrt(np.maximum(1.0 - phi * phi, 0.0))  # |d x u|
     framed = (sine > 1e-7) & (lengths > 0)
     sine = np.where(framed, sine, 1.0)
@@ -106,7 +108,9 @@ def fpfh(
         back[tied] = _bins(np.asarray(pair_angles(p[other], n[other], p[one], n[one]), float))
     size, own = count * BINS, np.empty((count, 3 * BINS))
     for k in range(3):  # a pair counts at both of its points
-        both = np.bincount(i * BINS + bins[:, k], minlength=size) + np.bincount(j * BINS + back[:, k], minlength=size)
+        both = np.bincount(i * BINS + bins[:, k], minlength=size) + np.bincount(
+            j * BINS + back[:, k], minlength=size
+        )
         own[:, k * BINS : (k + 1) * BINS] = both.reshape(count, BINS)
     degrees = np.bincount(i, minlength=count) + np.bincount(j, minlength=count)
     own *= (100.0 / np.maximum(degrees, 1))[:, None]

@@ -36,11 +36,16 @@ def harris_response(image: Image) -> Image:
     Reference: Harris and Stephens 1988, section 3.
     """
     g_u, g_v = gradient(image)
-    a, b, c = (scipy.ndimage.gaussian_filter(product, GATHER) for product in (g_u * g_u, g_u * g_v, g_v * g_v))
+    a, b, c = (
+        scipy.ndimage.gaussian_filter(product, GATHER)
+        for product in (g_u * g_u, g_u * g_v, g_v * g_v)
+    )
     return a * c - b * b - HARRIS * (a + c) ** 2
 
 
-def strongest(response: Image, count: int, *, apart: int = 4, border: int = 0) -> Int[np.ndarray, "k 2"]:
+def strongest(
+    response: Image, count: int, *, apart: int = 4, border: int = 0
+) -> Int[np.ndarray, "k 2"]:
     """Return the pixels (u, v) of the largest local maxima of a response, the strongest first.
 
     Args:
@@ -67,13 +72,20 @@ def patches(image: Image, uv: Int[np.ndarray, "n 2"], side: int) -> Float[np.nda
         side: Odd, pixels.
     """
     smooth, d = scipy.ndimage.gaussian_filter(image, DERIVE), np.arange(side) - side // 2
-    found = smooth[uv[:, 1, None, None] + d[:, None], uv[:, 0, None, None] + d].reshape(len(uv), side * side)
+    found = smooth[uv[:, 1, None, None] + d[:, None], uv[:, 0, None, None] + d].reshape(
+        len(uv), side * side
+    )
     found = found - found.mean(axis=1, keepdims=True)
     return found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-9)
 
 
 def iss_keypoints(
-    p: Float[np.ndarray, "n 3"], radius: float, apart: float, *, ratio: float = 0.975, fewest: int = 5
+    p: Float[np.ndarray, "n 3"],
+    radius: float,
+    apart: float,
+    *,
+    ratio: float = 0.975,
+    fewest: int = 5,
 ) -> Int[np.ndarray, " k"]:
     """Return the indices of salient points: spread three different ways, and the largest around in the least.
 
@@ -96,7 +108,9 @@ def iss_keypoints(
     for a in range(3):
         for b in range(a, 3):
             product = v[:, a] * v[:, b]
-            M[:, a, b] = M[:, b, a] = np.bincount(i, product, count) + np.bincount(j, product, count)
+            M[:, a, b] = M[:, b, a] = np.bincount(i, product, count) + np.bincount(
+                j, product, count
+            )
     least, middle, most = np.linalg.eigvalsh(M / np.maximum(neighbours, 1)[:, None, None]).T
     salient = (neighbours >= fewest) & (middle < ratio * most) & (least < ratio * middle)
     saliency = np.where(salient, least, 0.0)

@@ -73,7 +73,9 @@ def nearest_both_ways(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]) 
     return Nearest(index, np.minimum(distance, second), np.maximum(distance, second), back)
 
 
-def mutual_matches(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float) -> Int[np.ndarray, " n"]:
+def mutual_matches(
+    a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float
+) -> Int[np.ndarray, " n"]:
     """Return for each descriptor of a the nearest of b, or -1 where that one is not much nearer, or nearest both ways.
 
     Args:
@@ -111,6 +113,8 @@ def filtered(
     if how == "both" and mutual is not None:
         kept = np.asarray(mutual).astype(int)
         if kept.shape != found.index.shape or (kept >= len(found.back)).any():
-            raise ValueError("mutual_matches has to give one index, or -1, for every descriptor of the first set")
+            raise ValueError(
+                "mutual_matches has to give one index, or -1, for every descriptor of the first set"
+            )
     rows = np.flatnonzero(kept >= 0)
     return np.column_stack([rows, kept[rows]])

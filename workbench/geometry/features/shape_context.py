@@ -7,7 +7,9 @@ import numpy as np
 from jaxtyping import Float
 
 RINGS, SECTORS = 5, 12
-EDGES = np.geomspace(0.125, 2.0, RINGS)  # of the rings, in mean distances; nearer points count to the first ring
+EDGES = np.geomspace(
+    0.125, 2.0, RINGS
+)  # of the rings, in mean distances; nearer points count to the first ring
 
 Outline = Float[np.ndarray, "n 2"]
 
@@ -40,11 +42,15 @@ def shape_contexts(p: Outline, *, along_tangent: bool) -> Float[np.ndarray, "n 6
     sector = np.floor((turn % (2 * np.pi)) / (2 * np.pi) * SECTORS).astype(int) % SECTORS
     i, j = np.nonzero(others & (r <= EDGES[-1]))
     size = RINGS * SECTORS
-    found = np.bincount(i * size + ring[i, j] * SECTORS + sector[i, j], minlength=n * size).reshape(n, size)
+    found = np.bincount(i * size + ring[i, j] * SECTORS + sector[i, j], minlength=n * size).reshape(
+        n, size
+    )
     return found / np.maximum(found.sum(axis=1, keepdims=True), 1)
 
 
-def context_costs(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]) -> Float[np.ndarray, "n m"]:
+def context_costs(
+    a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]
+) -> Float[np.ndarray, "n m"]:
     """Return how different histograms are, from 0 to 1: half the chi-squared distance of each pair.
 
     Reference: Belongie, Malik and Puzicha 2002, section 3.1.

@@ -17,7 +17,11 @@ Faces = Int[np.ndarray, "f 3"]
 Queries = Float[np.ndarray, "n 3"]
 
 _BLOCK = 1_000  # points that are looked at together: what they need stays near the processor
-_ORDER = (0, 2, 1)  # in which coordinates are summed; rounding, and so every recording, depends on it
+_ORDER = (
+    0,
+    2,
+    1,
+)  # in which coordinates are summed; rounding, and so every recording, depends on it
 
 
 def box_sdf(p: Queries, half_size: Float[np.ndarray, "3"]) -> Float[np.ndarray, " n"]:
@@ -117,7 +121,9 @@ def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
         for level, (low, high) in enumerate(mesh.boxes):
             if level:
                 rows, box = np.repeat(rows, 2), (2 * box[:, None] + [0, 1]).ravel()
-            kept = np.flatnonzero(_squared_beyond(columns_of_q, rows, low, high, box) < best.take(rows))
+            kept = np.flatnonzero(
+                _squared_beyond(columns_of_q, rows, low, high, box) < best.take(rows)
+            )
             rows, box = rows.take(kept), box.take(kept)
         nearer = _squared_distances(columns_of_q.take(rows, axis=1), mesh.corners.take(box, axis=2))
         np.minimum.at(best, rows, nearer)
@@ -127,7 +133,9 @@ def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
     return np.where(windings(mesh.columns, q) != 0, -found, found)
 
 
-def _squared_beyond(q: np.ndarray, rows: np.ndarray, low: np.ndarray, high: np.ndarray, box: np.ndarray) -> np.ndarray:
+def _squared_beyond(
+    q: np.ndarray, rows: np.ndarray, low: np.ndarray, high: np.ndarray, box: np.ndarray
+) -> np.ndarray:
     """Return squared distances of points to boxes, pair by pair."""
     total = np.zeros(len(rows))
     for axis in _ORDER:

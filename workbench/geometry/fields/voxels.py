@@ -44,7 +44,10 @@ class Grid:
 
 
 def grid_over(
-    low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"], cells: int, shift: Float[np.ndarray, "3"]
+    low: Float[np.ndarray, "3"],
+    high: Float[np.ndarray, "3"],
+    cells: int,
+    shift: Float[np.ndarray, "3"],
 ) -> Grid:
     """Return a grid of cubes over a box: so many fit into its longest side, and one more along each axis covers the shift.
 
@@ -75,14 +78,18 @@ def windings_on(p: Points, faces: Faces, grid: Grid) -> Int[np.ndarray, "x y z"]
         grid: The cells.
     """
     corners, (nx, ny, nz) = p[faces], grid.shape
-    flat = (corners[:, :, :2] - grid.low[:2]) / grid.spacing[:2] - 0.5  # so that middles stand at whole numbers
+    flat = (corners[:, :, :2] - grid.low[:2]) / grid.spacing[
+        :2
+    ] - 0.5  # so that middles stand at whole numbers
     first = np.maximum(np.ceil(flat.min(axis=1)).astype(int), 0)
     last = np.minimum(np.floor(flat.max(axis=1)).astype(int), [nx - 1, ny - 1])
     face, across = spread_boxes(np.maximum(last - first + 1, 0))
     i, j = (first[face] + across).T
     xy = grid.low[:2] + grid.spacing[:2] * (np.stack([i, j], axis=1) + 0.5)
     sign, height = crossings(corners[face], xy)
-    below = np.ceil((height - grid.low[2]) / grid.spacing[2] - 0.5).astype(int)  # so many middles lie below
+    below = np.ceil((height - grid.low[2]) / grid.spacing[2] - 0.5).astype(
+        int
+    )  # so many middles lie below
     hit = (sign != 0) & (below > 0)
     at = np.ravel_multi_index((i[hit], j[hit], np.minimum(below[hit], nz) - 1), grid.shape)
     steps = np.bincount(at, sign[hit], nx * ny * nz).reshape(grid.shape)
@@ -138,7 +145,9 @@ def counted_surface(bits: Bits, grid: Grid) -> tuple[Points, Faces]:
     used, name = np.unique(np.concatenate(keys), return_inverse=True)
     a, b, c, d = name.reshape(-1, 4).T
     ijk = np.stack([used // (ny * nz), used // nz % ny, used % nz], axis=1)
-    return grid.low + grid.spacing * ijk, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    return grid.low + grid.spacing * ijk, np.concatenate(
+        [np.stack([a, b, c], 1), np.stack([a, c, d], 1)]
+    )
 
 
 def marched_surface(bits: Bits, grid: Grid) -> tuple[Points, Faces]:

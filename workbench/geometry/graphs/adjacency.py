@@ -40,11 +40,15 @@ def neighbours(p: Points, k: int) -> tuple[Int[np.ndarray, "n {k}"], Float[np.nd
     d, found = np.empty((len(p), k + 1)), np.empty((len(p), k + 1), dtype=np.intp)
     d[order], found[order] = tree.query(p[order], k + 1)
     others = found != np.arange(len(p))[:, None]
-    others[others.all(axis=1), -1] = False  # so many points at one place that it did not find itself
+    others[others.all(axis=1), -1] = (
+        False  # so many points at one place that it did not find itself
+    )
     return found[others].reshape(len(p), k), d[others].reshape(len(p), k)
 
 
-def directed_graph(rows: Int[np.ndarray, "n k"], lengths: Float[np.ndarray, "n k"] | None = None) -> Sparse:
+def directed_graph(
+    rows: Int[np.ndarray, "n k"], lengths: Float[np.ndarray, "n k"] | None = None
+) -> Sparse:
     """Return the directed graph with an edge from every point to each of its neighbours, of weight 1 or the length given."""
     n, k = rows.shape
     weights = np.ones(n * k) if lengths is None else lengths.ravel()
@@ -71,7 +75,9 @@ def knn_adjacency(p: Points, k: int) -> Float[np.ndarray, "n n"]:
     return np.maximum(adjacency, adjacency.T)
 
 
-def graph_of(edges: Int[np.ndarray, "e 2"], count: int, weights: Float[np.ndarray, " e"] | None = None) -> Sparse:
+def graph_of(
+    edges: Int[np.ndarray, "e 2"], count: int, weights: Float[np.ndarray, " e"] | None = None
+) -> Sparse:
     """Return the symmetric adjacency of undirected edges.
 
     Args:
@@ -88,7 +94,9 @@ def graph_of(edges: Int[np.ndarray, "e 2"], count: int, weights: Float[np.ndarra
 def edges_of(adjacency: Sparse) -> Int[np.ndarray, "e 2"]:
     """Return every edge between two nodes once, smaller node first, in ascending order; of a directed graph either way."""
     a, b = adjacency.nonzero()
-    once = np.unique(np.minimum(a, b)[a != b].astype(np.int64) * adjacency.shape[0] + np.maximum(a, b)[a != b])
+    once = np.unique(
+        np.minimum(a, b)[a != b].astype(np.int64) * adjacency.shape[0] + np.maximum(a, b)[a != b]
+    )
     return np.stack(np.divmod(once, adjacency.shape[0]), axis=1)
 
 
@@ -112,9 +120,13 @@ def components(adjacency: Sparse) -> Int[np.ndarray, " n"]:
     return rank[names]
 
 
-def hops(adjacency: Sparse, sources: Int[np.ndarray, " s"] | None = None) -> Float[np.ndarray, "s n"]:
+def hops(
+    adjacency: Sparse, sources: Int[np.ndarray, " s"] | None = None
+) -> Float[np.ndarray, "s n"]:
     """Return how many edges away every node is from each source, all nodes being sources by default; inf out of reach."""
-    return scipy.sparse.csgraph.dijkstra(adjacency, directed=False, unweighted=True, indices=sources)
+    return scipy.sparse.csgraph.dijkstra(
+        adjacency, directed=False, unweighted=True, indices=sources
+    )
 
 
 def laplacian(adjacency: Matrix) -> Matrix:
@@ -181,7 +193,9 @@ def conductance(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
     return cut_weight(adjacency, side) / smaller if smaller > 0 else float("nan")
 
 
-def sweep(adjacency: Sparse, values: Float[np.ndarray, " n"]) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, " m"]]:
+def sweep(
+    adjacency: Sparse, values: Float[np.ndarray, " n"]
+) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, " m"]]:
     """Return the nodes in ascending order of a value, and the conductance of each of the n - 1 cuts along that order.
 
     Cut k has the first k + 1 nodes on one side. Where a side has no edges it is given 1, so that it is not the best. One
@@ -197,7 +211,9 @@ def sweep(adjacency: Sparse, values: Float[np.ndarray, " n"]) -> tuple[Int[np.nd
     edges = adjacency.tocoo()
     a, b = place[edges.row], place[edges.col]
     # An edge is cut from where its first end has come to the near side until its second has: +w and -w, added up.
-    change = np.bincount(np.minimum(a, b), edges.data, n) - np.bincount(np.maximum(a, b), edges.data, n)
+    change = np.bincount(np.minimum(a, b), edges.data, n) - np.bincount(
+        np.maximum(a, b), edges.data, n
+    )
     cut = np.cumsum(change / 2)[:-1]  # every edge is listed from both its ends
     d = degrees(adjacency)[order]
     near = np.cumsum(d)[:-1]

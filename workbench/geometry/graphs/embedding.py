@@ -7,7 +7,9 @@ import numpy as np
 from jaxtyping import Float
 
 
-def classical_scaling(distances: Float[np.ndarray, "n n"], dims: int) -> Float[np.ndarray, "n {dims}"]:
+def classical_scaling(
+    distances: Float[np.ndarray, "n n"], dims: int
+) -> Float[np.ndarray, "n {dims}"]:
     """Return points whose distances fit the given ones best in the sense of inner products, about the origin.
 
     Where the distances are those of points in so many dimensions, these are the points but for a motion or a mirror. Axes
@@ -21,7 +23,9 @@ def classical_scaling(distances: Float[np.ndarray, "n n"], dims: int) -> Float[n
     found = vectors[:, ::-1][:, :dims] * np.sqrt(np.maximum(values[::-1][:dims], 0.0))
     out = np.zeros((len(distances), dims))
     largest = np.abs(found).argmax(axis=0)
-    out[:, : found.shape[1]] = found * np.where(found[largest, np.arange(found.shape[1])] < 0, -1.0, 1.0)
+    out[:, : found.shape[1]] = found * np.where(
+        found[largest, np.arange(found.shape[1])] < 0, -1.0, 1.0
+    )
     return out
 
 
@@ -38,7 +42,9 @@ def stress_layout(
     Reference: Borg and Groenen 2005, section 8.6 (SMACOF), all weights being 1.
     """
     p, n = classical_scaling(distances, dims), len(distances)
-    p = p + 1e-3 * np.sin(np.arange(1.0, p.size + 1.0) ** 2).reshape(p.shape)  # nodes at one place would stay there
+    p = p + 1e-3 * np.sin(np.arange(1.0, p.size + 1.0) ** 2).reshape(
+        p.shape
+    )  # nodes at one place would stay there
     for _ in range(iterations):
         apart = np.linalg.norm(p[:, None] - p, axis=2)
         ratio = np.divide(distances, apart, out=np.zeros((n, n)), where=apart > 0)

@@ -51,7 +51,9 @@ class Laplacian:
         )
         return float(largest[0])
 
-    def smallest(self, count: int) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, "n {count}"]]:
+    def smallest(
+        self, count: int
+    ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, "n {count}"]]:
         """Return the smallest eigenvalues in ascending order, and their functions u: L u = lambda M u, u^T M u = 1.
 
         Functions of equal eigenvalues may come in any rotation, and every one with either sign.
@@ -64,7 +66,9 @@ class Laplacian:
         values, vectors = smallest_eigenpairs(self.symmetric(), count)
         return values, vectors / np.sqrt(self.mass)[:, None]
 
-    def second(self, count: int = 2) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, " n"]]:
+    def second(
+        self, count: int = 2
+    ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, " n"]]:
         """Return the smallest eigenvalues, and a function of the second that holds nothing of the constant.
 
         A solver may return any mixture of the functions of one eigenvalue. Where 0 is double, the graph being in two pieces,
@@ -74,7 +78,11 @@ class Laplacian:
             ValueError: If `count` is not between 2 and the number of nodes.
         """
         values, functions = self.smallest(max(count, 2))
-        zeros = int(np.count_nonzero(np.abs(values) < ZERO * max(float(self.matrix.diagonal().max()), 1e-300)))
+        zeros = int(
+            np.count_nonzero(
+                np.abs(values) < ZERO * max(float(self.matrix.diagonal().max()), 1e-300)
+            )
+        )
         if zeros < 2:
             return values, functions[:, 1]
         of_zero = functions[:, :zeros]
@@ -107,11 +115,18 @@ def smallest_eigenpairs(
     try:
         # A symmetric matrix with a symmetric order and no pivoting: several times faster than the defaults.
         factor = scipy.sparse.linalg.splu(
-            shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+            shifted,
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
         )
         inverse = scipy.sparse.linalg.LinearOperator(matrix.shape, matvec=factor.solve, dtype=float)
-        values, vectors = scipy.sparse.linalg.eigsh(matrix, count, sigma=at, OPinv=inverse, v0=_start(n))
-    except RuntimeError as error:  # a singular factor, or no convergence: the matrix is none that was asked for
+        values, vectors = scipy.sparse.linalg.eigsh(
+            matrix, count, sigma=at, OPinv=inverse, v0=_start(n)
+        )
+    except (
+        RuntimeError
+    ) as error:  # a singular factor, or no convergence: the matrix is none that was asked for
         raise np.linalg.LinAlgError(str(error)) from None
     order = np.argsort(values)
     return values[order], vectors[:, order]

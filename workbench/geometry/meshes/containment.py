@@ -117,7 +117,9 @@ def crossings(
         upwards = above[spans]
         lower_x, upper_x = np.where(upwards, (ux[spans], vx[spans]), (vx[spans], ux[spans]))
         lower_y, upper_y = np.where(upwards, (uy[spans], vy[spans]), (vy[spans], uy[spans]))
-        right = lower_x + (y[spans] - lower_y) / (upper_y - lower_y) * (upper_x - lower_x) > x[spans]
+        right = (
+            lower_x + (y[spans] - lower_y) / (upper_y - lower_y) * (upper_x - lower_x) > x[spans]
+        )
         sign[spans] += right * np.where(upwards, 1, -1)
     height = np.zeros(len(xy))
     hit = sign != 0
@@ -126,7 +128,9 @@ def crossings(
     off = n[:, 0] * (x[hit] - a[:, 0]) + n[:, 1] * (y[hit] - a[:, 1])
     plane = a[:, 2] - off / np.where(n[:, 2] == 0, 1.0, n[:, 2])
     lowest, highest = (end(end(a[:, 2], b[:, 2]), c[:, 2]) for end in (np.minimum, np.maximum))
-    height[hit] = np.clip(plane, lowest, highest)  # of an upright face, which is hit by rounding alone
+    height[hit] = np.clip(
+        plane, lowest, highest
+    )  # of an upright face, which is hit by rounding alone
     return sign, height
 
 
@@ -154,11 +158,15 @@ def winding_numbers(p: Points, faces: Faces, q: Queries) -> Float[np.ndarray, " 
         la, lb, lc = (np.linalg.norm(v, axis=2) for v in (a, b, c))
         ab, bc, ca = (np.einsum("nfx,nfx->nf", u, v) for u, v in ((a, b), (b, c), (c, a)))
         volume = np.einsum("nfx,nfx->nf", a, np.cross(b, c))
-        total[start : start + block] = np.arctan2(volume, la * lb * lc + ab * lc + bc * la + ca * lb).sum(axis=1)
+        total[start : start + block] = np.arctan2(
+            volume, la * lb * lc + ab * lc + bc * la + ca * lb
+        ).sum(axis=1)
     return total / (2 * np.pi)
 
 
-def spread_boxes(counts: Int[np.ndarray, "n d"]) -> tuple[Int[np.ndarray, " m"], Int[np.ndarray, "m d"]]:
+def spread_boxes(
+    counts: Int[np.ndarray, "n d"],
+) -> tuple[Int[np.ndarray, " m"], Int[np.ndarray, "m d"]]:
     """Return every cell of some boxes: which box it is of, and its place in it along each axis.
 
     Examples:

@@ -59,7 +59,9 @@ def curvatures(p: Points, faces: Faces) -> Curvatures:
     defects = _angle_defects(measured, border)
     gaussian = _per_area(defects, areas, border)
     mean = mean_from_normals(_mean_curvature_normals(measured, areas, border), normals)
-    return Curvatures(areas, defects, normals, border, gaussian, mean, *principal_curvatures(gaussian, mean))
+    return Curvatures(
+        areas, defects, normals, border, gaussian, mean, *principal_curvatures(gaussian, mean)
+    )
 
 
 def angle_defects(p: Points, faces: Faces) -> PerVertex:
@@ -160,7 +162,9 @@ def tangents(normals: Points) -> tuple[Points, Points]:
     sign = np.copysign(1.0, z)
     a = -1 / (sign + z)
     b = x * y * a
-    return np.stack([1 + sign * x * x * a, sign * b, -sign * x], 1), np.stack([b, sign + y * y * a, -y], 1)
+    return np.stack([1 + sign * x * x * a, sign * b, -sign * x], 1), np.stack(
+        [b, sign + y * y * a, -y], 1
+    )
 
 
 def along(angles: PerVertex, right: Points, up: Points) -> tuple[Points, Points]:
@@ -191,7 +195,9 @@ def _angle_defects(measured: Corners, border: Bool[np.ndarray, " v"]) -> PerVert
     return np.where(border, np.pi, 2 * np.pi) - measured.sums(measured.angles)
 
 
-def _mean_curvature_normals(measured: Corners, areas: PerVertex, border: Bool[np.ndarray, " v"]) -> Points:
+def _mean_curvature_normals(
+    measured: Corners, areas: PerVertex, border: Bool[np.ndarray, " v"]
+) -> Points:
     # Every edge pushes its two ends apart by its cotangent: at each corner the edge that ends there, less the one that
     # leaves.
     total = np.empty((3, len(areas)))

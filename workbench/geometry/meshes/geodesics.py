@@ -31,12 +31,16 @@ def length_graph(edges: Edges, lengths: Lengths, count: int) -> Sparse:
         lengths: Of the edges; one of length 0 keeps its place in the matrix.
         count: How many nodes there are.
     """
-    return _one_way(np.concatenate([edges, edges[:, ::-1]]), np.concatenate([lengths, lengths]), count)
+    return _one_way(
+        np.concatenate([edges, edges[:, ::-1]]), np.concatenate([lengths, lengths]), count
+    )
 
 
 def _one_way(edges: Edges, lengths: Lengths, count: int) -> Sparse:
     """Return the matrix of edges that lead as they are given; of equal ones the shortest."""
-    graph = scipy.sparse.csr_array((np.maximum(lengths, TINY), tuple(edges.T)), shape=(count, count))
+    graph = scipy.sparse.csr_array(
+        (np.maximum(lengths, TINY), tuple(edges.T)), shape=(count, count)
+    )
     if graph.nnz < len(edges):  # some came twice, and their lengths were added up
         order = np.lexsort((lengths, edges[:, 1], edges[:, 0]))
         kept = order[np.r_[True, (np.diff(edges[order], axis=0) != 0).any(axis=1)]]
@@ -44,7 +48,9 @@ def _one_way(edges: Edges, lengths: Lengths, count: int) -> Sparse:
     return graph
 
 
-def shortest_distances(edges: Edges, lengths: Lengths, count: int, source: int) -> Float[np.ndarray, " {count}"]:
+def shortest_distances(
+    edges: Edges, lengths: Lengths, count: int, source: int
+) -> Float[np.ndarray, " {count}"]:
     """Return the length of the shortest way from the source to every node along undirected edges; inf out of reach.
 
     Args:
@@ -113,12 +119,20 @@ def with_points_on_edges(
     a, b = p[own[:, 0], None], p[own[:, 1], None]
     nodes = np.concatenate([p, (a + t * (b - a)).reshape(-1, 3)])
     index = {k: np.searchsorted(meshes.edge_keys(own), _keys(faces, k)) for k in range(3)}
-    on = [len(p) + count * index[k][:, None] + np.arange(count) for k in range(3)]  # (f, count): of the edge opposite k
+    on = [
+        len(p) + count * index[k][:, None] + np.arange(count) for k in range(3)
+    ]  # (f, count): of the edge opposite k
     pairs = [_chains(own, len(p), count)]
     for k in range(3):
         first, second = on[k], on[(k + 1) % 3]
-        pairs.append(np.stack([np.repeat(first, count, axis=1), np.tile(second, (1, count))], axis=-1).reshape(-1, 2))
-        pairs.append(np.stack([np.repeat(faces[:, [k]], count, axis=1), first], axis=-1).reshape(-1, 2))
+        pairs.append(
+            np.stack(
+                [np.repeat(first, count, axis=1), np.tile(second, (1, count))], axis=-1
+            ).reshape(-1, 2)
+        )
+        pairs.append(
+            np.stack([np.repeat(faces[:, [k]], count, axis=1), first], axis=-1).reshape(-1, 2)
+        )
     edges = np.concatenate(pairs)
     return nodes, edges, edge_lengths(nodes, edges)
 
@@ -173,7 +187,9 @@ def distance_past_wall(
     return np.where(blocked, np.linalg.norm(q - tip) + np.linalg.norm(p - tip, axis=1), straight)
 
 
-def crosses_wall(p: Float[np.ndarray, "e 2 2"], tip: Float[np.ndarray, "2"]) -> Bool[np.ndarray, " e"]:
+def crosses_wall(
+    p: Float[np.ndarray, "e 2 2"], tip: Float[np.ndarray, "2"]
+) -> Bool[np.ndarray, " e"]:
     """Return which segments cross or touch a wall that stands straight below the tip, the tip itself left out."""
     x = p[:, :, 0] - tip[0]
     meets = x[:, 0] * x[:, 1] <= 1e-12

@@ -53,14 +53,23 @@ class _Sides:
     def bends(self, h: int) -> bool:
         """Return whether the angles opposite a side's edge are more than pi together."""
         t = self.twin[h]
-        return t >= 0 and self._angle(_next(_next(h))) + self._angle(_next(_next(t))) > np.pi + STRAIGHT
+        return (
+            t >= 0
+            and self._angle(_next(_next(h))) + self._angle(_next(_next(t))) > np.pi + STRAIGHT
+        )
 
     def _angle(self, h: int) -> float:
         """Return the angle where a side begins, radians."""
-        after, before, opposite = self.length[h], self.length[_next(_next(h))], self.length[_next(h)]
+        after, before, opposite = (
+            self.length[h],
+            self.length[_next(_next(h))],
+            self.length[_next(h)],
+        )
         if after * before == 0:
             return 0.0
-        return acos(min(1.0, max(-1.0, (after**2 + before**2 - opposite**2) / (2 * after * before))))
+        return acos(
+            min(1.0, max(-1.0, (after**2 + before**2 - opposite**2) / (2 * after * before)))
+        )
 
     def flip(self, h: int) -> tuple[int, ...]:
         """Put the other diagonal of the two triangles in an edge's place; return the sides round them.
@@ -73,7 +82,12 @@ class _Sides:
         turn = self._angle(h) + self._angle(ad)
         diagonal = sqrt(max(long**2 + wide**2 - 2 * long * wide * cos(turn), 0.0))
         c, d = self.start[ca], self.start[db]
-        moved = {ca: bc, ad: ca, db: ad, bc: db}  # from where to where the four sides round the edge go
+        moved = {
+            ca: bc,
+            ad: ca,
+            db: ad,
+            bc: db,
+        }  # from where to where the four sides round the edge go
         old = {side: (self.start[side], self.length[side], self.twin[side]) for side in moved}
         for side, place in moved.items():
             self.start[place], self.length[place], other = old[side]

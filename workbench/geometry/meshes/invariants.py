@@ -70,7 +70,9 @@ def measure(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Measu
 def changes(before: Measures, after: Measures) -> tuple[Change, ...]:
     """Return what became of each measure of one mesh; volume and orientation are left out for an open one."""
     angle = float(np.abs(after.angles - before.angles).max())
-    stretch = np.abs(after.lengths - before.lengths) / np.where(before.lengths > 0, before.lengths, 1.0)
+    stretch = np.abs(after.lengths - before.lengths) / np.where(
+        before.lengths > 0, before.lengths, 1.0
+    )
     found = [
         Change("edge lengths", float(stretch.max())),
         Change("angles", angle, "rad"),

@@ -139,6 +139,8 @@ def eigenpairs(
         raise ValueError(f"asked for {count} eigenpairs of a mesh with {len(p)} vertices")
     areas = mixed_areas(p, faces)
     values, vectors = smallest_eigenpairs(
-        Laplacian(cotangent_laplacian(p, faces), areas).symmetric(), count, shift=-1e-2 * 4 * np.pi / float(areas.sum())
+        Laplacian(cotangent_laplacian(p, faces), areas).symmetric(),
+        count,
+        shift=-1e-2 * 4 * np.pi / float(areas.sum()),
     )
     return values, vectors / np.sqrt(areas)[:, None]

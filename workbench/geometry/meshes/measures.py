@@ -48,7 +48,9 @@ def volume_about(p: Points, faces: Faces, origin: Float[np.ndarray, "3"]) -> flo
     """
     total = 0.0
     for (ax, ay, az), (bx, by, bz), (cx, cy, cz) in _blocks(p, faces, origin):
-        total += (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)).sum()
+        total += (
+            ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+        ).sum()
     return float(total / 6)
 
 
@@ -114,10 +116,14 @@ def _double_areas(p: Points, faces: Faces) -> Iterator[Float[np.ndarray, " b"]]:
     """Yield twice the areas of some faces after the other."""
     for (ax, ay, az), (bx, by, bz), (cx, cy, cz) in _blocks(p, faces, np.zeros(3)):
         ux, uy, uz, wx, wy, wz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
-        yield np.sqrt((uy * wz - uz * wy) ** 2 + (uz * wx - ux * wz) ** 2 + (ux * wy - uy * wx) ** 2)
+        yield np.sqrt(
+            (uy * wz - uz * wy) ** 2 + (uz * wx - ux * wz) ** 2 + (ux * wy - uy * wx) ** 2
+        )
 
 
-def _blocks(p: Points, faces: Faces, origin: Float[np.ndarray, "3"]) -> Iterator[Float[np.ndarray, "3 3 b"]]:
+def _blocks(
+    p: Points, faces: Faces, origin: Float[np.ndarray, "3"]
+) -> Iterator[Float[np.ndarray, "3 3 b"]]:
     """Yield the corners a, b, c of some faces after the other, seen from the origin."""
     rows = np.zeros((len(p), 4))  # of four numbers, which are gathered faster than of three
     np.subtract(p, origin, out=rows[:, :3])

@@ -19,7 +19,9 @@ def umbrella(faces: Int[np.ndarray, "f 3"], count: int) -> "scipy.sparse.csr_arr
     """Return the uniform Laplacian (v, v): of each vertex, the mean of its neighbours minus itself."""
     beside = adjacency(faces, count).astype(float)
     degree = np.maximum(beside.sum(axis=1), 1)
-    return scipy.sparse.csr_array(scipy.sparse.diags_array(1 / degree) @ beside - scipy.sparse.eye_array(count))
+    return scipy.sparse.csr_array(
+        scipy.sparse.diags_array(1 / degree) @ beside - scipy.sparse.eye_array(count)
+    )
 
 
 def laplacian_energy(p: Points, L: "scipy.sparse.csr_array") -> Energy:
@@ -32,10 +34,14 @@ def edge_energy(p: Points, edges: Int[np.ndarray, "e 2"]) -> Energy:
     """Return the mean squared length of the edges, m², and its gradient."""
     v = p[edges[:, 0]] - p[edges[:, 1]]
     slope = 2 / len(edges) * v
-    return float((v * v).sum() / len(edges)), scattered(np.concatenate([slope, -slope]), edges.T.ravel(), len(p))
+    return float((v * v).sum() / len(edges)), scattered(
+        np.concatenate([slope, -slope]), edges.T.ravel(), len(p)
+    )
 
 
-def normal_energy(p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarray, "e 2"]) -> Energy:
+def normal_energy(
+    p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarray, "e 2"]
+) -> Energy:
     """Return the mean of 1 - n · m over pairs of faces that share an edge, n and m their normals, and its gradient.
 
     Args:
@@ -63,7 +69,9 @@ def face_pairs(faces: Int[np.ndarray, "f 3"]) -> Int[np.ndarray, "e 2"]:
     return np.stack([order[same], order[same + 1]], axis=1) % len(faces)
 
 
-def fold_angles(p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarray, "e 2"]) -> Float[np.ndarray, " e"]:
+def fold_angles(
+    p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarray, "e 2"]
+) -> Float[np.ndarray, " e"]:
     """Return by how much each edge is folded, radians: 0 where its two faces lie in a plane, pi where one lies on the other.
 
     Args:
@@ -87,4 +95,6 @@ def scattered(
         rows: To which row.
         count: How many rows there are.
     """
-    return np.stack([np.bincount(rows, values[:, axis], minlength=count) for axis in range(3)], axis=1)
+    return np.stack(
+        [np.bincount(rows, values[:, axis], minlength=count) for axis in range(3)], axis=1
+    )

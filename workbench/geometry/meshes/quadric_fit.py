@@ -122,7 +122,9 @@ def _fit(
     return (_solve(left, right) * powers).T
 
 
-def _solve(left: Float[np.ndarray, "k k v"], right: Float[np.ndarray, "k v"]) -> Float[np.ndarray, "k v"]:
+def _solve(
+    left: Float[np.ndarray, "k k v"], right: Float[np.ndarray, "k v"]
+) -> Float[np.ndarray, "k v"]:
     """Solve v symmetric positive definite k x k systems at once by Cholesky; nan where one is singular.
 
     Golub and Van Loan, Matrix Computations, 4th ed., 4.2.5 with the loops over k written out and v in numpy's hands.
@@ -137,11 +139,15 @@ def _solve(left: Float[np.ndarray, "k k v"], right: Float[np.ndarray, "k v"]) ->
     for i in range(k):
         unknown[i] = (unknown[i] - (factor[i, :i] * unknown[:i]).sum(axis=0)) / factor[i, i]
     for i in reversed(range(k)):
-        unknown[i] = (unknown[i] - (factor[i + 1 :, i] * unknown[i + 1 :]).sum(axis=0)) / factor[i, i]
+        unknown[i] = (unknown[i] - (factor[i + 1 :, i] * unknown[i + 1 :]).sum(axis=0)) / factor[
+            i, i
+        ]
     return unknown
 
 
-def _neighbourhoods(faces: Faces, count: int, rings: int) -> tuple[Int[np.ndarray, " w"], Int[np.ndarray, " e"]]:
+def _neighbourhoods(
+    faces: Faces, count: int, rings: int
+) -> tuple[Int[np.ndarray, " w"], Int[np.ndarray, " e"]]:
     """All vertices at most `rings` edges away, itself included: where each vertex' list starts, and the lists."""
     reach = one = (adjacency(faces, count) + scipy.sparse.eye_array(count)).tocsr()
     for _ in range(rings - 1):

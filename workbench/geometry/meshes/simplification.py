@@ -13,7 +13,9 @@ Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
 
 
-def clustered(p: Points, faces: Faces, spacing: float) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
+def clustered(
+    p: Points, faces: Faces, spacing: float
+) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
     """Return a mesh in which all vertices of one cell of a grid became one, at their mean; faces that collapse are gone.
 
     Args:

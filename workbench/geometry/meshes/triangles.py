@@ -49,7 +49,12 @@ class Corners:
     @property
     def cotangents(self) -> Float[np.ndarray, "3 f"]:
         """The cotangent of every angle; 0 in a face without area, which then counts for nothing."""
-        inverse = np.divide(1.0, self.double_areas, out=np.zeros_like(self.double_areas), where=self.double_areas > 0)
+        inverse = np.divide(
+            1.0,
+            self.double_areas,
+            out=np.zeros_like(self.double_areas),
+            where=self.double_areas > 0,
+        )
         return self.dots * inverse
 
     @property
@@ -76,7 +81,9 @@ def corners(p: Points, faces: Faces) -> Corners:
             dots[k, block] = -np.einsum("xf,xf->f", after, before)
         for k, (y, z) in enumerate(((1, 2), (2, 0), (0, 1))):
             normals[k, block] = ab[y] * bc[z] - ab[z] * bc[y]
-    return Corners(vertices, edge, dots, normals, np.sqrt(np.einsum("xf,xf->f", normals, normals)), len(p))
+    return Corners(
+        vertices, edge, dots, normals, np.sqrt(np.einsum("xf,xf->f", normals, normals)), len(p)
+    )
 
 
 def face_angles(p: Points, faces: Faces) -> Float[np.ndarray, "f 3"]:
@@ -166,7 +173,9 @@ def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.n
     return around[order], np.array(ring if first else ring[:-1])
 
 
-def vertices_within(edges: Int[np.ndarray, "e 2"], vertex: int, steps: int) -> Int[np.ndarray, " n"]:
+def vertices_within(
+    edges: Int[np.ndarray, "e 2"], vertex: int, steps: int
+) -> Int[np.ndarray, " n"]:
     """Return the vertices that are at most so many edges away from one, itself included, in ascending order.
 
     Args:
@@ -193,7 +202,9 @@ def euler_characteristic(faces: Faces) -> int:
     return len(np.unique(faces)) - len(edges(faces)) + len(faces)
 
 
-def distinct_rows(rows: Shaped[np.ndarray, "n d"]) -> tuple[Int[np.ndarray, " u"], Int[np.ndarray, " n"]]:
+def distinct_rows(
+    rows: Shaped[np.ndarray, "n d"],
+) -> tuple[Int[np.ndarray, " u"], Int[np.ndarray, " n"]]:
     """Return where each distinct row is found first, in the order of the rows, and of each row which of these it is.
 
     It is what `np.unique` finds along rows, whose sorting lets no other thread run: a second for a million points.
@@ -240,7 +251,9 @@ def check_mesh(p: Points, faces: Faces) -> None:
         bad = int(np.argmin(np.isfinite(p).all(axis=1)))
         raise InputError(f"vertex {bad} of the mesh is not finite; remove or repair it")
     if faces.min() < 0 or faces.max() >= len(p):
-        raise InputError(f"a face names vertex {int(faces.max())}, but the mesh has {len(p)} vertices, counted from 0")
+        raise InputError(
+            f"a face names vertex {int(faces.max())}, but the mesh has {len(p)} vertices, counted from 0"
+        )
     _check_faces(p, faces)
     _check_edges(faces)
     _check_vertices(p, faces)
@@ -265,7 +278,9 @@ def _check_edges(faces: Faces) -> None:
             f"the mesh is not a surface: {int((times > 2).sum())} edges have more than two faces (the first joins "
             f"vertices {a} and {b}); split or remove the extra faces"
         )
-    directed, times = np.unique(half[:, 0] * (int(faces.max()) + 1) + half[:, 1], return_counts=True)
+    directed, times = np.unique(
+        half[:, 0] * (int(faces.max()) + 1) + half[:, 1], return_counts=True
+    )
     if (times > 1).any():
         a, b = divmod(int(directed[times > 1][0]), int(faces.max()) + 1)
         raise InputError(
@@ -278,7 +293,9 @@ def _check_vertices(p: Points, faces: Faces) -> None:
     used = np.zeros(len(p), dtype=bool)
     used[faces] = True
     if not used.all():
-        raise InputError(f"{int((~used).sum())} vertices belong to no face (the first is {int(np.argmin(used))})")
+        raise InputError(
+            f"{int((~used).sum())} vertices belong to no face (the first is {int(np.argmin(used))})"
+        )
     fan_vertex, _ = corner_fans(faces)
     if len(fan_vertex) > len(p):
         touching = np.flatnonzero(np.bincount(fan_vertex, minlength=len(p)) > 1)
@@ -299,10 +316,15 @@ def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " 
     first = np.flatnonzero(np.diff(keys[order]) == 0)
     one, two = order[first], order[first + 1]
     # Half-edge k*f + i leaves corner k+1 of face i for corner k+2; its twin runs the other way if the two faces agree.
-    leaves, arrives = (lambda h: (h // f + 1) % 3 * f + h % f), (lambda h: (h // f + 2) % 3 * f + h % f)
+    leaves, arrives = (
+        (lambda h: (h // f + 1) % 3 * f + h % f),
+        (lambda h: (h // f + 2) % 3 * f + h % f),
+    )
     agree = half[one, 0] != half[two, 0]
     a = np.concatenate([leaves(one), arrives(one)])
-    b = np.concatenate([np.where(agree, arrives(two), leaves(two)), np.where(agree, leaves(two), arrives(two))])
+    b = np.concatenate(
+        [np.where(agree, arrives(two), leaves(two)), np.where(agree, leaves(two), arrives(two))]
+    )
     links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(3 * f, 3 * f))
     count, fan = scipy.sparse.csgraph.connected_components(links, directed=False)
     fan_vertex = np.zeros(count, dtype=np.int64)

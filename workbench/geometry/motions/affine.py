@@ -161,7 +161,9 @@ def decompose(A: Map) -> Parts:
     linear = A[:3, :3]
     mirror = -1 if np.linalg.det(linear) < 0 else 1
     R, S = scipy.linalg.polar(mirror * linear)
-    if np.linalg.det(R) < 0:  # only where det = 0: turn the flattened axis over, which the stretch does not feel
+    if (
+        np.linalg.det(R) < 0
+    ):  # only where det = 0: turn the flattened axis over, which the stretch does not feel
         n = np.linalg.eigh(S)[1][:, 0]
         R = R @ (np.eye(3) - 2.0 * np.outer(n, n))
     return Parts(A[:3, 3], R, mirror, S)
@@ -179,7 +181,9 @@ def kind_of(H: Map, tolerance: float = 1e-9) -> Kind:
         return Kind.IDENTITY
     G = H[:3, :3].T @ H[:3, :3]
     squared_scale = np.trace(G) / 3.0
-    if squared_scale <= tolerance or np.abs(G - squared_scale * np.eye(3)).max() > tolerance * max(squared_scale, 1.0):
+    if squared_scale <= tolerance or np.abs(G - squared_scale * np.eye(3)).max() > tolerance * max(
+        squared_scale, 1.0
+    ):
         return Kind.AFFINE
     if abs(squared_scale - 1.0) > tolerance:
         return Kind.SIMILARITY

@@ -79,7 +79,9 @@ def align_similarity(
     return motion(scale * R, m.mean_target - scale * R @ m.mean_source)
 
 
-def similarity_scale(p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]) -> float:
+def similarity_scale(
+    p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]
+) -> float:
     """Return the scale of the similarity that fits pairs best: how many times larger the target is, by least squares.
 
     Args:
@@ -129,7 +131,9 @@ def align_affine(
 
 
 def point_to_plane_step(
-    p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"], n_target: Float[np.ndarray, "n 3"]
+    p_target: Float[np.ndarray, "n 3"],
+    p_source: Float[np.ndarray, "n 3"],
+    n_target: Float[np.ndarray, "n 3"],
 ) -> Float[np.ndarray, "4 4"]:
     """Return the small motion that brings points closest to the tangent planes at their partners.
 
@@ -157,8 +161,12 @@ def point_to_plane_step(
     centre = p_source.mean(axis=0)
     normal_matrix, right_side = np.zeros((6, 6)), np.zeros(6)
     for rows in chunks(len(p_source)):
-        (x, y, z), (a, b, c) = (np.ascontiguousarray(v.T) for v in (p_source[rows] - centre, n_target[rows]))
-        jacobian = np.stack([y * c - z * b, z * a - x * c, x * b - y * a, a, b, c])  # eq. 8: p x n and n of each pair
+        (x, y, z), (a, b, c) = (
+            np.ascontiguousarray(v.T) for v in (p_source[rows] - centre, n_target[rows])
+        )
+        jacobian = np.stack(
+            [y * c - z * b, z * a - x * c, x * b - y * a, a, b, c]
+        )  # eq. 8: p x n and n of each pair
         gap = np.einsum("ij,ij->i", p_target[rows] - p_source[rows], n_target[rows])
         normal_matrix += jacobian @ jacobian.T
         right_side += jacobian @ gap
@@ -166,7 +174,10 @@ def point_to_plane_step(
         raise ValueError("a point or a normal is not a finite number")
     size = np.sqrt(np.trace(normal_matrix[:3, :3]) / len(p_source)) or 1.0
     unit = np.array([size, size, size, 1.0, 1.0, 1.0])  # metres out of the rank decision
-    x = np.linalg.lstsq(normal_matrix / np.outer(unit, unit), right_side / unit, rcond=1e-12)[0] / unit  # eq. 10
+    x = (
+        np.linalg.lstsq(normal_matrix / np.outer(unit, unit), right_side / unit, rcond=1e-12)[0]
+        / unit
+    )  # eq. 10
     R = exp_so3(x[:3])
     return motion(R, centre + x[3:] - R @ centre)
 
@@ -216,7 +227,9 @@ class MotionError:
 
 
 def motion_error(
-    T: Float[np.ndarray, "4 4"], T_true: Float[np.ndarray, "4 4"] | None, p: Float[np.ndarray, "n 3"]
+    T: Float[np.ndarray, "4 4"],
+    T_true: Float[np.ndarray, "4 4"] | None,
+    p: Float[np.ndarray, "n 3"],
 ) -> MotionError:
     """Return how far a motion or an affine map is from the true motion, told by where it brings points.
 
@@ -229,10 +242,16 @@ def motion_error(
         return MotionError(np.nan, np.nan, np.nan)
     off = apply(T, p) - apply(T_true, p)
     displacement = np.sqrt(np.einsum("ij,ij->", off, off) / len(off))
-    return MotionError(degrees_between(T, T_true), float(np.linalg.norm(off.mean(axis=0))), float(displacement))
+    return MotionError(
+        degrees_between(T, T_true), float(np.linalg.norm(off.mean(axis=0))), float(displacement)
+    )
 
 
-def rmse(T: Float[np.ndarray, "4 4"], p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]) -> float:
+def rmse(
+    T: Float[np.ndarray, "4 4"],
+    p_target: Float[np.ndarray, "n 3"],
+    p_source: Float[np.ndarray, "n 3"],
+) -> float:
     """Return the root mean square distance between pairs after moving the source, in metres.
 
     Args:
@@ -259,7 +278,9 @@ def _moments(p_target: np.ndarray, p_source: np.ndarray, weights: np.ndarray | N
         raise ValueError(f"{len(weights)} weights for {len(p_source)} pairs")
     if weights is not None and not np.all(weights >= 0):
         raise ValueError("weights must be numbers of at least zero")
-    start = 0 if weights is None else int(np.argmax(weights > 0))  # a pair without weight may be anywhere
+    start = (
+        0 if weights is None else int(np.argmax(weights > 0))
+    )  # a pair without weight may be anywhere
     first_target, first_source = p_target[start], p_source[start]
     total, sum_target, sum_source = 0.0, np.zeros(3), np.zeros(3)
     cross, source = np.zeros((3, 3)), np.zeros((3, 3))
@@ -297,7 +318,9 @@ def _scale(m: _Moments, explained: float) -> float:
 
 def _check_pairs(p_target: np.ndarray, p_source: np.ndarray) -> None:
     if len(p_target) != len(p_source):
-        raise ValueError(f"pairs need as many target points as source points, not {len(p_target)} and {len(p_source)}")
+        raise ValueError(
+            f"pairs need as many target points as source points, not {len(p_target)} and {len(p_source)}"
+        )
     if len(p_source) == 0:
         raise ValueError("no pairs to align")
 

@@ -69,7 +69,9 @@ def angle_between(v: Float[np.ndarray, "3"], w: Float[np.ndarray, "3"]) -> float
     return float(np.arctan2(np.linalg.norm(np.cross(v, w)), v @ w))
 
 
-def across(n: Float[np.ndarray, "*k 3"]) -> tuple[Float[np.ndarray, "*k 3"], Float[np.ndarray, "*k 3"]]:
+def across(
+    n: Float[np.ndarray, "*k 3"],
+) -> tuple[Float[np.ndarray, "*k 3"], Float[np.ndarray, "*k 3"]]:
     """Return two unit vectors at right angles to a unit vector and to each other."""
     least = np.eye(3)[np.abs(n).argmin(axis=-1)]
     u = np.cross(n, least)
@@ -120,7 +122,9 @@ def turns(w: Float[np.ndarray, "*k 3"]) -> Float[np.ndarray, "*k 3 3"]:
     """
     angle = np.sqrt(np.square(w).sum(axis=-1))[..., None, None]
     W = skew(w)
-    return np.eye(3) + np.sinc(angle / np.pi) * W + 0.5 * np.sinc(0.5 * angle / np.pi) ** 2 * (W @ W)
+    return (
+        np.eye(3) + np.sinc(angle / np.pi) * W + 0.5 * np.sinc(0.5 * angle / np.pi) ** 2 * (W @ W)
+    )
 
 
 def log_so3(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3"]:

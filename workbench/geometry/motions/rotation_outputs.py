@@ -122,14 +122,18 @@ def _quaternion_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
     even = slope + slope.swapaxes(1, 2)
     trace = np.trace(slope, axis1=1, axis2=2)[:, None]
     by_v = 2 * (w * odd + np.einsum("nij,nj->ni", even, v) - 2 * trace * v)
-    return _through_unit(np.concatenate([2 * (v * odd).sum(axis=1, keepdims=True), by_v], axis=1), q, length)
+    return _through_unit(
+        np.concatenate([2 * (v * odd).sum(axis=1, keepdims=True), by_v], axis=1), q, length
+    )
 
 
 def _vector_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
     a, K = np.linalg.norm(y, axis=1)[:, None, None], skew(y)
     safe = np.maximum(a, _FLAT)
     third = np.where(a < _FLAT, 1 / 6 - a * a / 120, (safe - np.sin(safe)) / safe**3)
-    J = np.eye(3) + 0.5 * np.sinc(a / (2 * np.pi)) ** 2 * K + third * K @ K  # left Jacobian: dR = [J dy]x R
+    J = (
+        np.eye(3) + 0.5 * np.sinc(a / (2 * np.pi)) ** 2 * K + third * K @ K
+    )  # left Jacobian: dR = [J dy]x R
     turn = slope @ turns(y).swapaxes(1, 2)
     w = np.stack([turn[:, k, j] - turn[:, j, k] for j, k in ((1, 2), (2, 0), (0, 1))], axis=1)
     return np.einsum("nij,ni->nj", J, w)
@@ -177,7 +181,9 @@ def _half_decode(y: np.ndarray) -> np.ndarray:
 def _half_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
     u, length = _unit(y)
     (c, s), (by_c, by_s) = u.T, _plane_slopes(slope)
-    return _through_unit(2 * np.stack([c * by_c + s * by_s, c * by_s - s * by_c], axis=1), u, length)
+    return _through_unit(
+        2 * np.stack([c * by_c + s * by_s, c * by_s - s * by_c], axis=1), u, length
+    )
 
 
 def _half_numbers(R: np.ndarray) -> np.ndarray:
@@ -216,10 +222,17 @@ IN_PLANE: Mapping[str, Representation] = {
 one rotation; or its own, a vector of which the direction counts."""
 
 IN_SPACE: Mapping[str, Representation] = {
-    "Euler": Representation(start=np.zeros(3), decode=_euler_decode, pullback=_euler_back, numbers=_as("Euler")),
-    "axis-angle": Representation(start=np.zeros(3), decode=turns, pullback=_vector_back, numbers=_as("vector")),
+    "Euler": Representation(
+        start=np.zeros(3), decode=_euler_decode, pullback=_euler_back, numbers=_as("Euler")
+    ),
+    "axis-angle": Representation(
+        start=np.zeros(3), decode=turns, pullback=_vector_back, numbers=_as("vector")
+    ),
     "quaternion": Representation(
-        start=np.eye(4)[0], decode=_quaternion_decode, pullback=_quaternion_back, numbers=_as("quaternion")
+        start=np.eye(4)[0],
+        decode=_quaternion_decode,
+        pullback=_quaternion_back,
+        numbers=_as("quaternion"),
     ),
     "6D": Representation(
         start=np.eye(3)[:2].ravel(),

@@ -22,10 +22,14 @@ EulerOrder = Literal[
 ]  # fmt: skip
 EULER_ORDERS: tuple[EulerOrder, ...] = get_args(EulerOrder)
 
-_LOCKED = 1e-12  # sine of the angle between the first and the third axis below which they count as one
+_LOCKED = (
+    1e-12  # sine of the angle between the first and the third axis below which they count as one
+)
 
 
-def rotation_from_axis_angle(axis: Float[np.ndarray, "3"], angle: float) -> Float[np.ndarray, "3 3"]:
+def rotation_from_axis_angle(
+    axis: Float[np.ndarray, "3"], angle: float
+) -> Float[np.ndarray, "3 3"]:
     """Return the rotation by an angle about an axis through the origin (Rodrigues' formula).
 
     Args:
@@ -180,7 +184,9 @@ def other_triple(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.
     return np.array([a + np.pi, -b if i == k else np.pi - b, c + np.pi])
 
 
-def triple_past_lock(angles: Float[np.ndarray, "3"], order: EulerOrder, turn: float) -> Float[np.ndarray, "3"]:
+def triple_past_lock(
+    angles: Float[np.ndarray, "3"], order: EulerOrder, turn: float
+) -> Float[np.ndarray, "3"]:
     """Return the triple, of the two nearest to these, that turns the body further in the direction lost in gimbal lock.
 
     The lost direction is at right angles to all axes of the three angles, so no small change of them turns about it.
@@ -239,7 +245,9 @@ def matrix_from_quaternion(q: Float[np.ndarray, "4"]) -> Float[np.ndarray, "3 3"
     )
 
 
-def quaternion_product(p: Float[np.ndarray, "4"], q: Float[np.ndarray, "4"]) -> Float[np.ndarray, "4"]:
+def quaternion_product(
+    p: Float[np.ndarray, "4"], q: Float[np.ndarray, "4"]
+) -> Float[np.ndarray, "4"]:
     """Return the quaternion of the rotation that turns by q first and then by p: R(p) R(q).
 
     Examples:
@@ -248,10 +256,14 @@ def quaternion_product(p: Float[np.ndarray, "4"], q: Float[np.ndarray, "4"]) -> 
         >>> bool(np.allclose(R, rotation_about("x", 0.3) @ rotation_about("z", 0.3)))
         True
     """
-    return np.concatenate([[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
+    return np.concatenate(
+        [[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])]
+    )
 
 
-def great_circle(q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float) -> Float[np.ndarray, "4"]:
+def great_circle(
+    q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float
+) -> Float[np.ndarray, "4"]:
     """Return the unit quaternion at the fraction t of the arc from one to the other, signs taken as they are.
 
     Args:
@@ -273,7 +285,9 @@ def great_circle(q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"],
     return q / np.linalg.norm(q)
 
 
-def slerp(q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float) -> Float[np.ndarray, "4"]:
+def slerp(
+    q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float
+) -> Float[np.ndarray, "4"]:
     """Return the unit quaternion at the fraction t of the shortest turn from one rotation to the other.
 
     Args:

@@ -11,13 +11,17 @@ import numpy as np
 import scipy
 from jaxtyping import Float
 
-Metric = Literal["euclid", "manhattan", "chebyshev", "p", "p-sum", "squared", "cosine", "mahalanobis"]
+Metric = Literal[
+    "euclid", "manhattan", "chebyshev", "p", "p-sum", "squared", "cosine", "mahalanobis"
+]
 Distance = Callable[[np.ndarray, np.ndarray], np.ndarray]
 Points = Float[np.ndarray, "n d"]
 Covariance = Float[np.ndarray, "d d"]
 
 
-def distance_of(metric: Metric, *, order: float = 2.0, covariance: Covariance | None = None) -> Distance:
+def distance_of(
+    metric: Metric, *, order: float = 2.0, covariance: Covariance | None = None
+) -> Distance:
     """Return the function that gives the distances of points a and b, row by row, whichever of them is a single row.
 
     Args:
@@ -55,7 +59,9 @@ def cosine_distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return 1.0 - np.divide(dots, size, out=np.zeros_like(dots), where=size > 0)
 
 
-def mahalanobis(p: Points, mean: Float[np.ndarray, " d"], covariance: Covariance) -> Float[np.ndarray, " n"]:
+def mahalanobis(
+    p: Points, mean: Float[np.ndarray, " d"], covariance: Covariance
+) -> Float[np.ndarray, " n"]:
     """Return the distance of every point from the mean in standard deviations along its direction, sqrt(v^T C^-1 v).
 
     Args:
@@ -95,7 +101,9 @@ def whitening(covariance: Covariance) -> Covariance:
     try:
         lower = np.linalg.cholesky(covariance)
     except np.linalg.LinAlgError:
-        raise ValueError("the covariance is not positive definite: some direction has no variance") from None
+        raise ValueError(
+            "the covariance is not positive definite: some direction has no variance"
+        ) from None
     return scipy.linalg.solve_triangular(lower, np.eye(len(covariance)), lower=True)
 
 
@@ -147,7 +155,9 @@ def robust_mean_and_covariance(
         means = sets.mean(axis=1)
         v = sets - means[:, None]
         covariances = np.einsum("snd,sne->sde", v, v) / (kept.shape[1] - 1)
-        covariances += np.eye(d) * 1e-12 * np.trace(covariances, axis1=1, axis2=2).max()  # a start may be flat
+        covariances += (
+            np.eye(d) * 1e-12 * np.trace(covariances, axis1=1, axis2=2).max()
+        )  # a start may be flat
         v = p - means[:, None]
         squares = np.einsum("snd,sdn->sn", v, np.linalg.solve(covariances, v.transpose(0, 2, 1)))
         nearer = np.sort(np.argpartition(squares, half - 1, axis=1)[:, :half], axis=1)

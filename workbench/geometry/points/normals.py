@@ -11,7 +11,11 @@ LINE = 0.2
 
 
 def point_normals(
-    p: Float[np.ndarray, "n 3"], k: int = 16, viewpoint: Float[np.ndarray, "3"] | None = None, *, spread: bool = False
+    p: Float[np.ndarray, "n 3"],
+    k: int = 16,
+    viewpoint: Float[np.ndarray, "3"] | None = None,
+    *,
+    spread: bool = False,
 ) -> Float[np.ndarray, "n 3"]:
     """Return one unit normal per point, by principal components of its k nearest points (itself included).
 
@@ -73,7 +77,9 @@ def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndar
     """Yield rows of p and the covariances of their k nearest points, in chunks that fit the cache."""
     tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
     k = min(k, len(p))
-    for start in range(0, len(p), CHUNK):  # in tree order, so that consecutive queries touch the same leaves
+    for start in range(
+        0, len(p), CHUNK
+    ):  # in tree order, so that consecutive queries touch the same leaves
         rows = tree.indices[start : start + CHUNK]
         neighbours = np.asarray(tree.query(p[rows], k=k, workers=-1)[1])
         yield rows, _covariances(p, rows, neighbours)
@@ -82,7 +88,11 @@ def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndar
 def _covariances(p: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
     """Return the six entries (xx, yy, zz, xy, xz, yz) of each neighbourhood's covariance, about the point itself first."""
     x, y, z = (p[neighbours] - p[rows][:, None]).transpose(2, 0, 1)
-    x, y, z = x - x.mean(1, keepdims=True), y - y.mean(1, keepdims=True), z - z.mean(1, keepdims=True)
+    x, y, z = (
+        x - x.mean(1, keepdims=True),
+        y - y.mean(1, keepdims=True),
+        z - z.mean(1, keepdims=True),
+    )
     pairs = ((x, x), (y, y), (z, z), (x, y), (x, z), (y, z))
     return np.stack([np.einsum("ij,ij->i", a, b) for a, b in pairs])
 
@@ -97,7 +107,9 @@ def _least_directions(c: np.ndarray) -> np.ndarray:
     a, b, d, e, f, g = c / size
     third = (a + b + d) / 3.0
     a, b, d = a - third, b - third, d - third
-    radius = np.sqrt(np.maximum((a * a + b * b + d * d + 2.0 * (e * e + f * f + g * g)) / 6.0, 1e-60))
+    radius = np.sqrt(
+        np.maximum((a * a + b * b + d * d + 2.0 * (e * e + f * f + g * g)) / 6.0, 1e-60)
+    )
     half_det = (a * (b * d - g * g) - e * (e * d - f * g) + f * (e * g - b * f)) / (2.0 * radius**3)
     root = 2.0 * radius * np.cos(np.arccos(np.clip(half_det, -1.0, 1.0)) / 3.0 + 2.0 * np.pi / 3.0)
     a, b, d = a - root, b - root, d - root

@@ -16,10 +16,16 @@ Draw = Literal["random", "stratified", "Sobol"]
 
 _PAIRS = 50_000  # pairs of a line and a face that are looked at together
 _BITS = 32
-_SOBOL = ((0, 0, (1,)), (1, 0, (1,)), (2, 1, (1, 3)))  # of each axis: degree, coefficients and first m of Joe and Kuo
+_SOBOL = (
+    (0, 0, (1,)),
+    (1, 0, (1,)),
+    (2, 1, (1, 3)),
+)  # of each axis: degree, coefficients and first m of Joe and Kuo
 
 
-def points_on_faces(p: Points, faces: Faces, u: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+def points_on_faces(
+    p: Points, faces: Faces, u: Float[np.ndarray, "n 3"]
+) -> Float[np.ndarray, "n 3"]:
     """Return points on a mesh, one for each row of three numbers from 0 to 1: spread evenly where those are.
 
     Args:
@@ -54,7 +60,9 @@ def places_on_faces(
     return k, np.stack([1 - s, s * (1 - t), s * t], axis=1)
 
 
-def unit_points(count: int, dimension: int, draw: Draw, rng: np.random.Generator) -> Float[np.ndarray, "n d"]:
+def unit_points(
+    count: int, dimension: int, draw: Draw, rng: np.random.Generator
+) -> Float[np.ndarray, "n d"]:
     """Return points in the unit cube.
 
     Args:
@@ -71,7 +79,9 @@ def unit_points(count: int, dimension: int, draw: Draw, rng: np.random.Generator
         return rng.random((count, dimension))
     if draw == "stratified":
         side = max(1, round(count ** (1 / dimension)))
-        cube = np.stack(np.meshgrid(*[np.arange(side)] * dimension, indexing="ij"), axis=-1).reshape(-1, dimension)
+        cube = np.stack(
+            np.meshgrid(*[np.arange(side)] * dimension, indexing="ij"), axis=-1
+        ).reshape(-1, dimension)
         return (cube + rng.random(cube.shape)) / side
     digits = sobol(2 ** max(0, round(np.log2(count))), dimension)
     return ((digits ^ rng.integers(0, 2**_BITS, dimension)) + 0.5) / 2.0**_BITS
@@ -134,7 +144,10 @@ def ball_share(dimension: int) -> float:
         >>> round(ball_share(3), 4)  # pi / 6
         0.5236
     """
-    return float(np.exp(dimension / 2 * np.log(np.pi) - scipy.special.gammaln(dimension / 2 + 1)) / 2.0**dimension)
+    return float(
+        np.exp(dimension / 2 * np.log(np.pi) - scipy.special.gammaln(dimension / 2 + 1))
+        / 2.0**dimension
+    )
 
 
 def lines_through_ball(
@@ -168,7 +181,9 @@ def line_crossings(
     """
     a, b, c = p[faces].transpose(1, 0, 2)
     middle = (a + b + c) / 3
-    squared_radius = np.max([((corner - middle) ** 2).sum(axis=1) for corner in (a, b, c)], axis=0) * (1 + 1e-9)
+    squared_radius = np.max(
+        [((corner - middle) ** 2).sum(axis=1) for corner in (a, b, c)], axis=0
+    ) * (1 + 1e-9)
     squared_middle = (middle**2).sum(axis=1)
     start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
     unit = along / np.linalg.norm(along, axis=1, keepdims=True)
@@ -192,4 +207,6 @@ def _met(start: np.ndarray, along: np.ndarray, a: np.ndarray, b: np.ndarray, c: 
     det = np.einsum("nx,nx->n", ab, h)
     over = 1 / np.where(det == 0, np.inf, det)
     u, v, t = (over * np.einsum("nx,nx->n", *two) for two in ((to_start, h), (along, q), (ac, q)))
-    return start + t[:, None] * along, (det != 0) & (u >= 0) & (v >= 0) & (u + v <= 1) & (t >= 0) & (t <= 1)
+    return start + t[:, None] * along, (det != 0) & (u >= 0) & (v >= 0) & (u + v <= 1) & (
+        t >= 0
+    ) & (t <= 1)

@@ -57,7 +57,10 @@ class Nearest:
 
         Reference: Knapitsch et al., Tanks and Temples, 2017, section 3.3: precision, recall and their harmonic mean.
         """
-        precision, recall = float(np.mean(self.d_a <= max_distance)), float(np.mean(self.d_b <= max_distance))
+        precision, recall = (
+            float(np.mean(self.d_a <= max_distance)),
+            float(np.mean(self.d_b <= max_distance)),
+        )
         return 2 * precision * recall / (precision + recall) if precision + recall > 0 else 0.0
 
 
@@ -153,7 +156,9 @@ def hausdorff(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> f
     return nearest_both_ways(p_a, p_b).hausdorff()
 
 
-def f_score(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"], max_distance: float) -> float:
+def f_score(
+    p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"], max_distance: float
+) -> float:
     """Return the F-score, 0 to 1, of two clouds at a distance in metres; see `Nearest.f_score`.
 
     Args:

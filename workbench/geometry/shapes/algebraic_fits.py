@@ -14,7 +14,9 @@ Algebraic = Literal["Kåsa", "Pratt", "Taubin", "Hyper"]
 ALGEBRAIC: tuple[Algebraic, ...] = get_args(Algebraic)
 
 
-def fit_algebraic(p: Float[np.ndarray, "*k n d"], kind: Algebraic = "Taubin") -> Float[np.ndarray, "*k c"]:
+def fit_algebraic(
+    p: Float[np.ndarray, "*k n d"], kind: Algebraic = "Taubin"
+) -> Float[np.ndarray, "*k c"]:
     """Return the circle (x, y, r), or with d = 3 the sphere, whose algebraic distances have the least squares, metres.
 
     Args:
@@ -41,18 +43,24 @@ def fit_algebraic(p: Float[np.ndarray, "*k n d"], kind: Algebraic = "Taubin") ->
     mean_z = z.mean(-1)
     if kind == "Kåsa":
         normal = np.einsum("...ni,...nj->...ij", q, q)
-        center = np.linalg.solve(normal, np.einsum("...ni,...n->...i", q, z)[..., None])[..., 0] / 2.0
+        center = (
+            np.linalg.solve(normal, np.einsum("...ni,...n->...i", q, z)[..., None])[..., 0] / 2.0
+        )
         radius = np.sqrt(mean_z + np.square(center).sum(-1))
         return np.concatenate([center + origin[..., 0, :], radius[..., None]], axis=-1)
     unit = np.sqrt(mean_z)[..., None, None]  # lengths in which the points are of size one
     q, z = q / unit, z / np.square(unit[..., 0])
-    if kind == "Taubin":  # the slope's constraint makes D what centres z, and leaves a plain least direction
+    if (
+        kind == "Taubin"
+    ):  # the slope's constraint makes D what centres z, and leaves a plain least direction
         rows = np.concatenate([(z - 1.0)[..., None] / 2.0, q], axis=-1)
         a = np.linalg.svd(rows, full_matrices=False)[2][..., -1, :]
         A, B = a[..., 0] / 2.0, a[..., 1:]
         D = -A
     else:
-        a = _least_constrained(np.concatenate([z[..., None], q, np.ones((*z.shape, 1))], axis=-1), kind)
+        a = _least_constrained(
+            np.concatenate([z[..., None], q, np.ones((*z.shape, 1))], axis=-1), kind
+        )
         A, B, D = a[..., 0], a[..., 1:-1], a[..., -1]
     with np.errstate(divide="ignore", invalid="ignore"):  # a line has A = 0
         center = -B / (2.0 * A[..., None])

@@ -20,10 +20,14 @@ def bernstein(degree: int, t: Float[np.ndarray, " n"]) -> Float[np.ndarray, "n k
         [[0.25, 0.5, 0.25]]
     """
     k = np.arange(degree + 1)
-    return np.array([comb(degree, i) for i in k]) * t[:, None] ** k * (1 - t[:, None]) ** (degree - k)
+    return (
+        np.array([comb(degree, i) for i in k]) * t[:, None] ** k * (1 - t[:, None]) ** (degree - k)
+    )
 
 
-def bezier_patch(control: Float[np.ndarray, "4 4 3"], uv: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "n 3"]:
+def bezier_patch(
+    control: Float[np.ndarray, "4 4 3"], uv: Float[np.ndarray, "n 2"]
+) -> Float[np.ndarray, "n 3"]:
     """Return points of a bicubic patch: sum over i, j of B_i(u) B_j(v) control[i, j], m.
 
     Args:
@@ -34,7 +38,9 @@ def bezier_patch(control: Float[np.ndarray, "4 4 3"], uv: Float[np.ndarray, "n 2
     return np.einsum("ni,nj,ijx->nx", bernstein(3, u), bernstein(3, v), control)
 
 
-def de_casteljau(control: Float[np.ndarray, "k d"], t: float) -> tuple[Float[np.ndarray, "_ d"], ...]:
+def de_casteljau(
+    control: Float[np.ndarray, "k d"], t: float
+) -> tuple[Float[np.ndarray, "_ d"], ...]:
     """Return the control points of a curve, then the points that divide their legs at t, and so on to the one on the curve.
 
     Args:

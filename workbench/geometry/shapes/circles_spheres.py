@@ -18,7 +18,10 @@ def circle_from_points(p: Float[np.ndarray, "*k 3 2"]) -> Float[np.ndarray, "*k 
     area = v[..., 0] * w[..., 1] - v[..., 1] * w[..., 0]
     vv, ww = np.square(v).sum(-1), np.square(w).sum(-1)
     twice = 2.0 * np.where(np.abs(area) > _FLAT * np.maximum(vv, ww), area, np.nan)
-    arm = np.stack([w[..., 1] * vv - v[..., 1] * ww, v[..., 0] * ww - w[..., 0] * vv], axis=-1) / twice[..., None]
+    arm = (
+        np.stack([w[..., 1] * vv - v[..., 1] * ww, v[..., 0] * ww - w[..., 0] * vv], axis=-1)
+        / twice[..., None]
+    )
     return _with_radius(p[..., 0, :], arm)
 
 
@@ -29,11 +32,17 @@ def sphere_from_points(p: Float[np.ndarray, "*k 4 3"]) -> Float[np.ndarray, "*k 
     volume = (u * np.cross(v, w)).sum(-1)
     broad = np.abs(volume) > _FLAT * np.maximum(np.maximum(uu, vv), ww) ** 1.5
     twice = 2.0 * np.where(broad, volume, np.nan)
-    arm = uu[..., None] * np.cross(v, w) + vv[..., None] * np.cross(w, u) + ww[..., None] * np.cross(u, v)
+    arm = (
+        uu[..., None] * np.cross(v, w)
+        + vv[..., None] * np.cross(w, u)
+        + ww[..., None] * np.cross(u, v)
+    )
     return _with_radius(p[..., 0, :], arm / twice[..., None])
 
 
-def costs_of_centers(p: Float[np.ndarray, "n d"], p_centers: Float[np.ndarray, "k d"]) -> Float[np.ndarray, " k"]:
+def costs_of_centers(
+    p: Float[np.ndarray, "n d"], p_centers: Float[np.ndarray, "k d"]
+) -> Float[np.ndarray, " k"]:
     """Return for each centre the sum of squared distances of points to the best circle or sphere about it, square metres.
 
     The best radius is the mean of the ways to the points, so the sum is n times their variance.
@@ -45,7 +54,11 @@ def costs_of_centers(p: Float[np.ndarray, "n d"], p_centers: Float[np.ndarray, "
     Reference: Gander, Golub and Strebel, Least-squares fitting of circles and ellipses, 1994, section 3: the derivative
         by the radius is zero there.
     """
-    columns, ways, squares = np.ascontiguousarray(p_centers.T), np.zeros(len(p_centers)), np.zeros(len(p_centers))
+    columns, ways, squares = (
+        np.ascontiguousarray(p_centers.T),
+        np.zeros(len(p_centers)),
+        np.zeros(len(p_centers)),
+    )
     for point in p:
         square = np.square(columns - point[:, None]).sum(axis=0)
         ways += np.sqrt(square)
@@ -116,10 +129,14 @@ def linearise_sphere(
     v = p - sphere[..., None, :-1]
     length = np.sqrt(np.square(v).sum(-1))
     slopes = -v / np.where(length > 0.0, length, np.inf)[..., None]
-    return length - sphere[..., -1:], np.concatenate([slopes, np.full((*length.shape, 1), -1.0)], axis=-1)
+    return length - sphere[..., -1:], np.concatenate(
+        [slopes, np.full((*length.shape, 1), -1.0)], axis=-1
+    )
 
 
-def sphere_distances(sphere: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "*k n"]:
+def sphere_distances(
+    sphere: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "n d"]
+) -> Float[np.ndarray, "*k n"]:
     """Return each point's signed distance in metres from the circle or the sphere, negative inside.
 
     Several spheres give one row each. Works in the precision of its input.

@@ -29,7 +29,9 @@ def spherical_from_cartesian(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "
     """
     c = np.empty(p.shape)
     for k in range(0, len(p), CHUNK):
-        x, y, z = p[k : k + CHUNK].T + 0.0  # takes the sign of zeros away, which arctan2 would listen to
+        x, y, z = (
+            p[k : k + CHUNK].T + 0.0
+        )  # takes the sign of zeros away, which arctan2 would listen to
         out = c[k : k + CHUNK]
         rho = np.hypot(x, y)
         out[:, 0] = np.hypot(rho, z)
@@ -147,7 +149,9 @@ def volume_of_cells(
         high: The highest.
         cells: Along each coordinate; each cell counts with the density at its middle.
     """
-    middles = [a + (b - a) * (np.arange(cells) + 0.5) / cells for a, b in zip(low, high, strict=True)]
+    middles = [
+        a + (b - a) * (np.arange(cells) + 0.5) / cells for a, b in zip(low, high, strict=True)
+    ]
     c = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1).reshape(-1, 3)
     product = float(np.prod((high - low) / cells))
     return product * float(system.density(c).sum()), product * len(c)

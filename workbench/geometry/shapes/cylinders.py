@@ -30,11 +30,15 @@ def linearise_cylinder(
     length = np.sqrt(np.square(out).sum(-1))
     out = out / np.where(length > 0.0, length, np.inf)[..., None]
     by_u, by_v = (out * u[..., None, :]).sum(-1), (out * v[..., None, :]).sum(-1)
-    slopes = np.stack([-by_u, -by_v, -along * by_u, -along * by_v, np.full(length.shape, -1.0)], axis=-1)
+    slopes = np.stack(
+        [-by_u, -by_v, -along * by_u, -along * by_v, np.full(length.shape, -1.0)], axis=-1
+    )
     return length - cylinder[..., 6:], slopes
 
 
-def retract_cylinder(cylinder: Float[np.ndarray, "*k 7"], step: Float[np.ndarray, "*k 5"]) -> Float[np.ndarray, "*k 7"]:
+def retract_cylinder(
+    cylinder: Float[np.ndarray, "*k 7"], step: Float[np.ndarray, "*k 5"]
+) -> Float[np.ndarray, "*k 7"]:
     """Return the cylinder that a small step leads to; its direction stays a unit vector."""
     u, v = across(cylinder[..., 3:6])
     p_axis = cylinder[..., :3] + step[..., 0:1] * u + step[..., 1:2] * v

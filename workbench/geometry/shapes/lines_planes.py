@@ -108,7 +108,9 @@ def hyperplane_distances(
     return hyperplane[..., :-1] @ p.T + hyperplane[..., -1:]
 
 
-def angle_between_planes(plane_a: Float[np.ndarray, " d"], plane_b: Float[np.ndarray, " d"]) -> float:
+def angle_between_planes(
+    plane_a: Float[np.ndarray, " d"], plane_b: Float[np.ndarray, " d"]
+) -> float:
     """Return the angle between two planes (or two lines), from 0 to a right angle, radians; signs do not matter.
 
     Examples:

@@ -10,7 +10,9 @@ import numpy as np
 from jaxtyping import Float
 
 
-def meet(lines_a: Float[np.ndarray, "n 3"], lines_b: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+def meet(
+    lines_a: Float[np.ndarray, "n 3"], lines_b: Float[np.ndarray, "n 3"]
+) -> Float[np.ndarray, "n 3"]:
     """Return the points (x, y, w) where lines cross those in the same rows.
 
     Parallels meet at w = 0, a line and itself give (0, 0, 0). The same product joins points by a line.
@@ -23,7 +25,9 @@ def meet(lines_a: Float[np.ndarray, "n 3"], lines_b: Float[np.ndarray, "n 3"]) -
     return np.column_stack([b * f - c * e, c * d - a * f, a * e - b * d])
 
 
-def map_lines(H: Float[np.ndarray, "3 3"], lines: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+def map_lines(
+    H: Float[np.ndarray, "3 3"], lines: Float[np.ndarray, "n 3"]
+) -> Float[np.ndarray, "n 3"]:
     """Return where a homography of points takes lines: l' = H^-T l, so that what meets still meets."""
     return np.linalg.solve(H.T, lines.T).T
 
@@ -37,7 +41,9 @@ def cross_ratio(t: Float[np.ndarray, "4"]) -> float:
     return float((c - a) * (d - b) / ((c - b) * (d - a)))
 
 
-def angle_between_rays(p_h: Float[np.ndarray, "n 3"], q_h: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
+def angle_between_rays(
+    p_h: Float[np.ndarray, "n 3"], q_h: Float[np.ndarray, "n 3"]
+) -> Float[np.ndarray, " n"]:
     """Return the angles between homogeneous vectors whatever their factors, radians: 0 where both are the same point.
 
     NaN where one of them is (0, 0, 0) or not finite.

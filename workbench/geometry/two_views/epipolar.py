@@ -43,13 +43,17 @@ def fundamental_from_cameras(
     """
     R_second_first, t_second_first = T_second_first[:3, :3], T_second_first[:3, 3]
     if not np.linalg.norm(t_second_first) > 0.0:
-        raise ValueError("both cameras stand at one place: translation (0, 0, 0) has no epipolar geometry")
+        raise ValueError(
+            "both cameras stand at one place: translation (0, 0, 0) has no epipolar geometry"
+        )
     E = skew(t_second_first) @ R_second_first
     F = np.linalg.inv(K_second).T @ E @ np.linalg.inv(K_first)
     return F / np.linalg.norm(F)
 
 
-def epipolar_lines(F: Float[np.ndarray, "3 3"], uv_first: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "n 3"]:
+def epipolar_lines(
+    F: Float[np.ndarray, "3 3"], uv_first: Float[np.ndarray, "n 2"]
+) -> Float[np.ndarray, "n 3"]:
     """Return the line (a, b, c), `a u + b v + c = 0` with a unit normal, in the second image of each first pixel.
 
     A pixel at the epipole has no line; its row is NaN. For lines in the first image pass `F.T`.
@@ -63,7 +67,9 @@ _GENERATORS = np.array([skew(axis) for axis in np.eye(3)])
 
 
 def sampson_distances(
-    F: Float[np.ndarray, "*k 3 3"], uv_first: Float[np.ndarray, "n 2"], uv_second: Float[np.ndarray, "n 2"]
+    F: Float[np.ndarray, "*k 3 3"],
+    uv_first: Float[np.ndarray, "n 2"],
+    uv_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "*k n"]:
     """Return how far, to first order and in pixels, each match must move to satisfy the epipolar constraint.
 
@@ -81,7 +87,9 @@ def sampson_distances(
     lines_y = (F.reshape(-1, 3) @ x).reshape(*F.shape[:-2], 3, -1)
     lines_x = (np.swapaxes(F, -1, -2)[..., :2, :].reshape(-1, 3) @ y).reshape(*F.shape[:-2], 2, -1)
     algebraic = lines_y[..., 0, :] * y[0] + lines_y[..., 1, :] * y[1] + lines_y[..., 2, :]
-    squared = (lines_y[..., 0, :] ** 2 + lines_y[..., 1, :] ** 2) + (lines_x[..., 0, :] ** 2 + lines_x[..., 1, :] ** 2)
+    squared = (lines_y[..., 0, :] ** 2 + lines_y[..., 1, :] ** 2) + (
+        lines_x[..., 0, :] ** 2 + lines_x[..., 1, :] ** 2
+    )
     return algebraic / np.sqrt(np.maximum(squared, np.finfo(squared.dtype).tiny))
 
 
@@ -118,7 +126,9 @@ def fundamentals_from_seven(
 
 
 def orientation_agrees(
-    F: Float[np.ndarray, "*k s 3 3"], uv_first: Float[np.ndarray, "*k m 2"], uv_second: Float[np.ndarray, "*k m 2"]
+    F: Float[np.ndarray, "*k s 3 3"],
+    uv_first: Float[np.ndarray, "*k m 2"],
+    uv_second: Float[np.ndarray, "*k m 2"],
 ) -> Bool[np.ndarray, "*k s"]:
     """Return of each matrix whether all m matches can lie in front of both cameras, or all behind.
 
@@ -164,16 +174,22 @@ def fit_fundamental(
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997.
     """
     if len(uv_first) < 8 or len(uv_first) != len(uv_second):
-        raise ValueError(f"eight points need at least 8 pairs of pixels, got {uv_first.shape} and {uv_second.shape}")
+        raise ValueError(
+            f"eight points need at least 8 pairs of pixels, got {uv_first.shape} and {uv_second.shape}"
+        )
     T_first, T_second = normalising_similarity(uv_first), normalising_similarity(uv_second)
-    constraints = epipolar_constraints((T_first @ homogeneous(uv_first).T).T, (T_second @ homogeneous(uv_second).T).T)
+    constraints = epipolar_constraints(
+        (T_first @ homogeneous(uv_first).T).T, (T_second @ homogeneous(uv_second).T).T
+    )
     if weights is not None:
         constraints = constraints * np.sqrt(weights)[:, None]
     F = T_second.T @ rank_two(null_vector(constraints).reshape(3, 3)) @ T_first
     return F / np.linalg.norm(F)
 
 
-def epipolar_constraints(x_h: Float[np.ndarray, "n 3"], y_h: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 9"]:
+def epipolar_constraints(
+    x_h: Float[np.ndarray, "n 3"], y_h: Float[np.ndarray, "n 3"]
+) -> Float[np.ndarray, "n 9"]:
     """Return one row per match whose product with F, row by row, is y' F x: the equations of the eight-point algorithm.
 
     Args:
@@ -182,7 +198,9 @@ def epipolar_constraints(x_h: Float[np.ndarray, "n 3"], y_h: Float[np.ndarray, "
 
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 11.3.
     """
-    return outer_products(y_h.T, x_h.T).T  # long columns: a match at a time is slower, most of all from columns
+    return outer_products(
+        y_h.T, x_h.T
+    ).T  # long columns: a match at a time is slower, most of all from columns
 
 
 def rank_two(F: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
@@ -237,7 +255,10 @@ def refine_fundamental(
     """
     root = np.ones(len(uv_first)) if weights is None else np.sqrt(weights)
     T = normalising_similarity(np.concatenate([uv_first, uv_second]))
-    x, y = T @ homogeneous(uv_first).T, T @ homogeneous(uv_second).T  # one match per column: sums over rows are quick
+    x, y = (
+        T @ homogeneous(uv_first).T,
+        T @ homogeneous(uv_second).T,
+    )  # one match per column: sums over rows are quick
     outer = outer_products(y, x)
 
     def linearise(unknown: _Factors) -> tuple[np.ndarray, np.ndarray]:
@@ -250,11 +271,19 @@ def refine_fundamental(
 
     back = np.linalg.inv(T)
     U, s, Vt = np.linalg.svd(back.T @ F @ back)
-    F = T.T @ _compose(levenberg_marquardt(linearise, retract, (U, Vt.T, np.arctan2(s[1], s[0])), steps=steps)) @ T
+    F = (
+        T.T
+        @ _compose(
+            levenberg_marquardt(linearise, retract, (U, Vt.T, np.arctan2(s[1], s[0])), steps=steps)
+        )
+        @ T
+    )
     return F / np.linalg.norm(F)
 
 
-def outer_products(y: Float[np.ndarray, "3 n"], x: Float[np.ndarray, "3 n"]) -> Float[np.ndarray, "9 n"]:
+def outer_products(
+    y: Float[np.ndarray, "3 n"], x: Float[np.ndarray, "3 n"]
+) -> Float[np.ndarray, "9 n"]:
     """Return the products y_i x_j of each column."""
     return (y[:, None, :] * x[None, :, :]).reshape(9, -1)
 
@@ -301,7 +330,9 @@ def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarra
         alone = A + np.where(A == 0.0, 0.0, Q / A)
         single = np.stack([alone, np.full_like(b, np.nan), np.full_like(b, np.nan)])
         roots = np.moveaxis(np.where(three, trigonometric, single), 0, -1) - b[..., None] / 3.0
-        for _ in range(2):  # the closed form cancels where a is small: two Newton steps put that right
+        for _ in range(
+            2
+        ):  # the closed form cancels where a is small: two Newton steps put that right
             b_, c_, d_ = b[..., None], c[..., None], d[..., None]
             value = ((roots + b_) * roots + c_) * roots + d_
             slope = (3.0 * roots + 2.0 * b_) * roots + c_
@@ -317,7 +348,10 @@ def _compose(factors: _Factors) -> np.ndarray:
 def _tangent(factors: _Factors) -> np.ndarray:
     """Return the nine entries of F, differentiated by the turn of U, the turn of V and the angle: (7, 9)."""
     U, V, angle = factors
-    S, turned = np.diag([np.cos(angle), np.sin(angle), 0.0]), np.diag([-np.sin(angle), np.cos(angle), 0.0])
+    S, turned = (
+        np.diag([np.cos(angle), np.sin(angle), 0.0]),
+        np.diag([-np.sin(angle), np.cos(angle), 0.0]),
+    )
     middle = np.concatenate([_GENERATORS @ S, -S @ _GENERATORS, turned[None]])
     return (U @ middle @ V.T).reshape(7, 9)
 
@@ -335,4 +369,6 @@ def _cross(v: np.ndarray, w: np.ndarray) -> np.ndarray:
 
 def _cofactors(A: np.ndarray) -> np.ndarray:
     """Return the matrix of cofactors, row by row."""
-    return np.stack([_cross(A[..., i, :], A[..., j, :]) for i, j in ((1, 2), (2, 0), (0, 1))], axis=-2)
+    return np.stack(
+        [_cross(A[..., i, :], A[..., j, :]) for i, j in ((1, 2), (2, 0), (0, 1))], axis=-2
+    )

@@ -22,7 +22,9 @@ _Motion = tuple[np.ndarray, np.ndarray]
 
 
 def essential_from_fundamental(
-    F: Float[np.ndarray, "3 3"], K_first: Float[np.ndarray, "3 3"], K_second: Float[np.ndarray, "3 3"]
+    F: Float[np.ndarray, "3 3"],
+    K_first: Float[np.ndarray, "3 3"],
+    K_second: Float[np.ndarray, "3 3"],
 ) -> Float[np.ndarray, "3 3"]:
     """Return E = K'^T F K, of Frobenius norm one: what is left of F once the lenses' focal lengths are known.
 

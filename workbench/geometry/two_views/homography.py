@@ -36,7 +36,9 @@ def normalising_similarity(uv: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray,
     return T
 
 
-def transform_pixels(H_b_a: Float[np.ndarray, "*k 3 3"], uv_a: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "*k n 2"]:
+def transform_pixels(
+    H_b_a: Float[np.ndarray, "*k 3 3"], uv_a: Float[np.ndarray, "n 2"]
+) -> Float[np.ndarray, "*k n 2"]:
     """Return where the homography takes each pixel; NaN where it goes to infinity.
 
     Several homographies give one block each. Works in the precision of its input.
@@ -76,7 +78,9 @@ def warped_grid(
 
 
 def transfer_distances(
-    H_b_a: Float[np.ndarray, "*k 3 3"], uv_a: Float[np.ndarray, "n 2"], uv_b: Float[np.ndarray, "n 2"]
+    H_b_a: Float[np.ndarray, "*k 3 3"],
+    uv_a: Float[np.ndarray, "n 2"],
+    uv_b: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "*k n"]:
     """Return how far each pixel of image a lands from its match, in pixels of image b.
 
@@ -134,7 +138,9 @@ def homographies_from_four(
 
 
 def fit_homography(
-    uv_a: Float[np.ndarray, "n 2"], uv_b: Float[np.ndarray, "n 2"], weights: Float[np.ndarray, " n"] | None = None
+    uv_a: Float[np.ndarray, "n 2"],
+    uv_b: Float[np.ndarray, "n 2"],
+    weights: Float[np.ndarray, " n"] | None = None,
 ) -> Float[np.ndarray, "3 3"]:
     """Return the homography of four or more matches by the normalised direct linear transform.
 
@@ -160,7 +166,9 @@ def fit_homography(
         True
     """
     if len(uv_a) < 4 or len(uv_a) != len(uv_b):
-        raise ValueError(f"a homography needs at least 4 pairs of pixels, got {uv_a.shape} and {uv_b.shape}")
+        raise ValueError(
+            f"a homography needs at least 4 pairs of pixels, got {uv_a.shape} and {uv_b.shape}"
+        )
     H = _fitted(uv_a, uv_b, np.ones(len(uv_a)) if weights is None else np.sqrt(weights))
     return H / np.linalg.norm(H)
 
@@ -217,9 +225,14 @@ def refine_homography(
     """
     root = np.ones(len(uv_a)) if weights is None else np.sqrt(weights)
     T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
-    x, y = T_a @ homogeneous(uv_a).T, (T_b @ homogeneous(uv_b).T)[:2]  # one match per column: sums over rows are quick
+    x, y = (
+        T_a @ homogeneous(uv_a).T,
+        (T_b @ homogeneous(uv_b).T)[:2],
+    )  # one match per column: sums over rows are quick
     h = (T_b @ H_b_a @ np.linalg.inv(T_a)).ravel()
-    free = np.arange(9) != np.argmax(np.abs(h))  # the scale is of no account, so the largest entry stays as it is
+    free = np.arange(9) != np.argmax(
+        np.abs(h)
+    )  # the scale is of no account, so the largest entry stays as it is
 
     def linearise(h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         u, v, w = h.reshape(3, 3) @ x
@@ -240,7 +253,9 @@ def refine_homography(
     return H / np.linalg.norm(H)
 
 
-def _in_general_position(a: np.ndarray, b: np.ndarray, areas_a: np.ndarray, areas_b: np.ndarray) -> np.ndarray:
+def _in_general_position(
+    a: np.ndarray, b: np.ndarray, areas_a: np.ndarray, areas_b: np.ndarray
+) -> np.ndarray:
     turned = areas_a * areas_b
     same = (turned > 0.0).all(-1) | (turned < 0.0).all(-1)
     return np.asarray(same & _broad(a, areas_a) & _broad(b, areas_b))
@@ -248,7 +263,10 @@ def _in_general_position(a: np.ndarray, b: np.ndarray, areas_a: np.ndarray, area
 
 def _triangle_areas(p: np.ndarray) -> np.ndarray:
     """Return twice the signed areas of the triangles (3 1 2), (3 2 0), (3 0 1) and (0 1 2)."""
-    v, w = p[..., [1, 2, 0, 1], :2] - p[..., [3, 3, 3, 0], :2], p[..., [2, 0, 1, 2], :2] - p[..., [3, 3, 3, 0], :2]
+    v, w = (
+        p[..., [1, 2, 0, 1], :2] - p[..., [3, 3, 3, 0], :2],
+        p[..., [2, 0, 1, 2], :2] - p[..., [3, 3, 3, 0], :2],
+    )
     return v[..., 0] * w[..., 1] - v[..., 1] * w[..., 0]
 
 

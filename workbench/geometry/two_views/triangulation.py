@@ -12,7 +12,9 @@ from workbench.geometry.motions import apply
 from workbench.geometry.two_views.homography import homogeneous
 
 
-def camera_matrix(K: Float[np.ndarray, "3 3"], T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "3 4"]:
+def camera_matrix(
+    K: Float[np.ndarray, "3 3"], T_camera_world: Float[np.ndarray, "4 4"]
+) -> Float[np.ndarray, "3 4"]:
     """Return P = K [R | t], which takes points to pixels in homogeneous coordinates."""
     return K @ T_camera_world[:3]
 
@@ -36,7 +38,11 @@ def triangulate(
         that are huge, infinite or NaN.
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 12.2.
     """
-    rows = [uv[:, k : k + 1] * P[2] - P[k] for P, uv in ((P_first, uv_first), (P_second, uv_second)) for k in (0, 1)]
+    rows = [
+        uv[:, k : k + 1] * P[2] - P[k]
+        for P, uv in ((P_first, uv_first), (P_second, uv_second))
+        for k in (0, 1)
+    ]
     A = np.stack(rows, axis=1)
     A /= np.linalg.norm(A, axis=2, keepdims=True)
     p_h = np.linalg.svd(A)[2][:, -1]
@@ -45,7 +51,9 @@ def triangulate(
 
 
 def midpoints(
-    T_second_first: Float[np.ndarray, "4 4"], xy_first: Float[np.ndarray, "n 2"], xy_second: Float[np.ndarray, "n 2"]
+    T_second_first: Float[np.ndarray, "4 4"],
+    xy_first: Float[np.ndarray, "n 2"],
+    xy_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "n 3"]:
     """Return the middles of the shortest segments between the rays, in the first camera's frame: quick, and less exact.
 
@@ -71,13 +79,18 @@ def midpoints(
     return 0.5 * (depth_a[:, None] * a + p_center + depth_b[:, None] * b)
 
 
-def before_both(p_first: Float[np.ndarray, "n 3"], T_second_first: Float[np.ndarray, "4 4"]) -> Bool[np.ndarray, " n"]:
+def before_both(
+    p_first: Float[np.ndarray, "n 3"], T_second_first: Float[np.ndarray, "4 4"]
+) -> Bool[np.ndarray, " n"]:
     """Return which points of the first camera's frame lie in front of both cameras; NaN rows do not."""
     return (p_first[:, 2] > 0.0) & (apply(T_second_first, p_first)[:, 2] > 0.0)
 
 
 def triangulation_covariances(
-    P_first: Float[np.ndarray, "3 4"], P_second: Float[np.ndarray, "3 4"], p: Float[np.ndarray, "n 3"], sigma: float
+    P_first: Float[np.ndarray, "3 4"],
+    P_second: Float[np.ndarray, "3 4"],
+    p: Float[np.ndarray, "n 3"],
+    sigma: float,
 ) -> Float[np.ndarray, "n 3 3"]:
     """Return how uncertain triangulated points are, to first order, when each coordinate of a pixel is.
 
@@ -95,7 +108,9 @@ def triangulation_covariances(
     slopes = []
     for P in (P_first, P_second):
         u, v, w = P @ homogeneous(p).T
-        slopes += [(P[k, :3] - (q / w)[:, None] * P[2, :3]) / w[:, None] for k, q in ((0, u), (1, v))]
+        slopes += [
+            (P[k, :3] - (q / w)[:, None] * P[2, :3]) / w[:, None] for k, q in ((0, u), (1, v))
+        ]
     J = np.stack(slopes, axis=1)
     information = np.swapaxes(J, 1, 2) @ J
     singular = ~(np.linalg.cond(information) < 1e15) if len(p) else np.zeros(0, bool)

@@ -2,7 +2,17 @@
 
 import numpy as np
 
-from workbench.exercise import alternative, band, beside, check, contract, left_alone, mistake, refused, worst
+from workbench.exercise import (
+    alternative,
+    band,
+    beside,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    refused,
+    worst,
+)
 
 CIRCLE = np.array([2.0, -1.0, 0.5])
 HINT = "Solve [2x 2y 1] (a, b, c) = x² + y²; then r² = c + a² + b²."
@@ -17,7 +27,9 @@ def on_circle(circle: np.ndarray, degrees: float = 300.0, noise: float = 0.0) ->
 def judged(candidate, p):
     got, right = candidate(p), fit_circle(p)
     off = 1000 * float(np.abs(got - right).max())
-    return band("Largest error of x, y or r", off, "mm", good=0.01, fair=1.0, hint=beside(got, right, HINT))
+    return band(
+        "Largest error of x, y or r", off, "mm", good=0.01, fair=1.0, hint=beside(got, right, HINT)
+    )
 
 
 @contract(
@@ -55,7 +67,9 @@ def points_are_left_alone(candidate):
 @check(2, public=False)
 def points_with_noise(candidate):
     """Points with noise on arcs give the least-squares solution of the linear system."""
-    return worst(judged(candidate, on_circle(CIRCLE, degrees, 0.02)) for degrees in (40.0, 120.0, 350.0))
+    return worst(
+        judged(candidate, on_circle(CIRCLE, degrees, 0.02)) for degrees in (40.0, 120.0, 350.0)
+    )
 
 
 @check(1, public=False)
@@ -76,7 +90,9 @@ def squared_radius(p: np.ndarray) -> np.ndarray:
     return fit_circle(p) ** np.array([1, 1, 2])
 
 
-@mistake("Your centre is twice as far out as it should be: the unknowns are a and b, and the columns are 2x and 2y.")
+@mistake(
+    "Your centre is twice as far out as it should be: the unknowns are a and b, and the columns are 2x and 2y."
+)
 def doubled_centre(p: np.ndarray) -> np.ndarray:
     return fit_circle(p) * np.array([2, 2, 1])
 
